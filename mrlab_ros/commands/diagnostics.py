@@ -140,3 +140,67 @@ NO_PAGES = Code(
     "Start it without --no-web and --no-bridge.",
 )
 NO_PEM = Code("no_pem", "{path} is no certificate in PEM: {why:problem}.")
+
+# up
+KEYS_OR_INSECURE = Code(
+    "keys_or_insecure", "--keys and --insecure exclude each other.", "Leave one of them out."
+)
+BRIDGE_PORT_TAKEN = Code(
+    "bridge_port_taken",
+    "The bridge cannot listen on {endpoint}: {why}. Another lab may have that port.",
+    "Choose another one, such as {option}tcp/127.0.0.1:0 (0: any that is free).",
+)
+PAGES_PORT_TAKEN = Code(
+    "pages_port_taken",
+    "The pages cannot be served on {host}:{port:integer}: {why}. Another lab may have that port.",
+    "Choose another one with --http {host}:{next:integer} (0: any that is free), or leave the "
+    "pages out with --no-web.",
+)
+ROUTER_WITHOUT_KEYS = Code(
+    "router_without_keys",
+    "--zenoh-connect {router} is for a lab with keys, which its people reach at that router "
+    "alone.",
+    "Give --keys FOLDER, and leave --zenoh-listen and --insecure out.",
+)
+PROCESSES_REFUSE = Code(
+    "processes_refuse",
+    "The lab does not start: {processes:list} refused the configuration and said above what is "
+    "wrong.",
+    "Correct it and start again.",
+)
+
+# demo
+WAITED_IN_DEMO = Code(
+    "waited_in_demo",
+    "Waited {timeout:time} for {part:choice lab=all parts of the lab|pages=the pages|playback=the "
+    "playback of|zenoh=zenoh and}[ {name}][; its last complaint: {complaint}].",
+)
+DEMO_WITHOUT_ZENOH = Code(
+    "demo_without_zenoh", "There is no zenoh session to the bridge at {endpoint}: {why:problem}."
+)
+DEMO_TOO_SLOW = Code(
+    "demo_too_slow",
+    "The run of {duration:time} did not end in time[; its last complaint: {complaint}].",
+)
+DEMO_NEVER_PLAYED = Code(
+    "demo_never_played",
+    "{robot} never said that it plays[; its last complaint: {complaint}].",
+)
+DEMO_HALTED = Code("demo_halted", "The run was halted: {why:problem}.")
+DEMO_ENDED_EARLY = Code("demo_ended_early", "The run ended too early in {state}[: {why:problem}].")
+DEMO_FAULT = Code(
+    "demo_fault",
+    "{robot}: {received:integer} of {expected:integer} frames arrived over zenoh in order and as "
+    "the file has them, {lost:integer} were left out by the playback; first fault: {fault}.",
+)
+NO_PORT_LEFT = Code(
+    "no_port_left", "No TCP port is free on this machine.", "End some programs, then try again."
+)
+NO_DOMAIN_LEFT = Code(
+    "no_domain_left",
+    "Every ROS domain is in use on this machine.",
+    "End some labs, then try again.",
+)
+NO_DEMO_FILE = Code(
+    "no_demo_file", "There is no file {path}.", "Name a workspace file with --file."
+)

@@ -13,7 +13,6 @@ import sys
 import time
 import urllib.error
 import urllib.request
-from dataclasses import asdict
 from datetime import datetime, timezone
 from email.utils import parsedate_to_datetime
 from pathlib import Path
@@ -22,9 +21,19 @@ from typing import Annotated
 import typer
 
 from mrlab_ros import __version__
-from mrlab_ros.core.doctor import NEEDED, OPTIONAL, Certificate, Facts, Gateway, Port, examine
+from mrlab_ros.core.base.diagnostic import plain
+from mrlab_ros.core.doctor import (
+    GROUP,
+    NEEDED,
+    OPTIONAL,
+    Certificate,
+    Facts,
+    Gateway,
+    Port,
+    examine,
+)
 
-GROUP, TIMEOUT_S = "239.255.0.1", 1.0
+TIMEOUT_S = 1.0
 MIDDLEWARES = ("rmw_fastrtps_cpp", "rmw_cyclonedds_cpp", "rmw_zenoh_cpp", "rmw_connextdds")
 PAGES_PORT, ZENOH_PORT = 8080, 7447
 
@@ -45,13 +54,14 @@ def doctor(
     """
     findings = list(examine(gather(url, certificate, state_dir)))
     if as_json:
-        print(json.dumps([asdict(finding) for finding in findings], indent=1))
+        print(json.dumps(plain(findings), indent=1))
     else:
         for finding in findings:
-            print(f"{'ok  ' if finding.ok else 'FAIL'} {finding.name}: {finding.found}")
-            if finding.remedy:
-                print(f"     {finding.remedy}")
-    if not all(finding.ok for finding in findings):
+            print(f"{'FAIL' if finding.refuses else 'ok  '} {finding.message}")
+            fixes = [f"try: mrlab {fix.command}" for fix in finding.fixes if fix.command]
+            for line in filter(None, (finding.remedy, *fixes)):
+                print(f"     {line}")
+    if any(finding.refuses for finding in findings):
         raise typer.Exit(1)
 
 
@@ -100,8 +110,8 @@ def _middlewares() -> list[str]:
     ]
 
 
-def _multicast() -> str:
-    """Return why a multicast packet does not come back on this machine; empty: it does."""
+def _multicast() -> str | None:
+    """Return why a multicast packet does not come back on this machine; None: it does."""
     asked = os.urandom(8)
     try:
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as here:
@@ -114,8 +124,8 @@ def _multicast() -> str:
             while here.recv(64) != asked:
                 pass
     except OSError as error:
-        return f"a packet to {GROUP} does not come back: {error}"
-    return ""
+        return str(error)
+    return None
 
 
 def _port(number: int, what: str, address: str) -> Port:

@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+from mrlab_ros.core.base.diagnostic import Diagnostic, of_text
+from mrlab_ros.core.runtime import diagnostics as say
+
 PYTHON_FROM, PYTHON_TO = (3, 10), (3, 13)
 PHYSICS_TO = (3, 11)
 # A lab keeps trajectories and bags; below this a session may end in the middle.
@@ -13,19 +16,11 @@ LEAST_DISK = 1_000_000_000
 MOST_OFFSET = 0.5
 # s before a certificate ends when it should be renewed
 SOON = 14 * 24 * 3600.0
-# Modules that a lab cannot do without, and what is lost without the others.
+# Modules that a lab cannot do without, and those of its physics.
 NEEDED = ("rclpy", "mrlab_msgs", "zenoh", "numpy")
-OPTIONAL = {"pybullet": "the lab runs without physics: no contacts, no grasps"}
-
-
-@dataclass(frozen=True)
-class Finding:
-    """One hop between a person and the lab. remedy: what to do; empty where it is well."""
-
-    name: str
-    ok: bool
-    found: str
-    remedy: str = ""
+OPTIONAL = ("pybullet",)
+# By which nodes find each other.
+GROUP = "239.255.0.1"
 
 
 @dataclass(frozen=True)
@@ -62,13 +57,13 @@ class Certificate:
 
 @dataclass(frozen=True)
 class Facts:
-    """What was found on a machine. multicast: why a packet did not come back; empty: it did."""
+    """What was found on a machine. multicast: why a packet did not come back; None: it did."""
 
     python: tuple[int, int]
     modules: Mapping[str, bool]
     middleware: str
     middlewares: Sequence[str]
-    multicast: str
+    multicast: str | None
     pages: bool
     version: str
     ports: Sequence[Port]
@@ -79,138 +74,83 @@ class Facts:
     free_bytes: int
 
 
-def examine(facts: Facts) -> Iterator[Finding]:
-    """Yield what is well and what is not, from the ground up."""
+def examine(facts: Facts) -> Iterator[Diagnostic]:
+    """Yield what is well (INFO) and what is not (ERROR), from the ground up."""
     yield _python(facts)
     yield from _modules(facts)
     yield _middleware(facts)
-    yield Finding(
-        "multicast",
-        not facts.multicast,
-        facts.multicast or "nodes find each other by it",
-        ""
-        if not facts.multicast
-        else "set ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST for a lab on one machine, or allow UDP "
-        "multicast to 239.255.0.1 in the firewall",
+    yield (
+        say.MULTICAST_WORKS()
+        if facts.multicast is None
+        else say.MULTICAST_BLOCKED(group=GROUP, why=of_text(facts.multicast))
     )
-    yield Finding(
-        "pages",
-        facts.pages,
-        "built" if facts.pages else "not built",
-        "" if facts.pages else "run make demo, or scripts/npm run build",
-    )
+    yield say.PAGES_BUILT() if facts.pages else say.PAGES_NOT_BUILT()
     for port in facts.ports:
         yield _port(port)
     if facts.gateway is not None:
         yield from _gateway(facts.gateway, facts.version)
     if facts.certificate is not None:
-        yield _certificate(facts.certificate)
-    yield Finding(
-        "store",
-        facts.state_writable,
-        f"{facts.state_dir} can{'' if facts.state_writable else 'not'} be written",
-        ""
-        if facts.state_writable
-        else f"make {facts.state_dir} writable for this user, or give --state-dir",
-    )
-    enough = facts.free_bytes >= LEAST_DISK
-    yield Finding(
-        "disk",
-        enough,
-        f"{facts.free_bytes / 1e9:.1f} GB free",
-        "" if enough else f"free {LEAST_DISK / 1e9:g} GB: bags and uploads need room",
-    )
+        certificate = facts.certificate
+        ends = say.CERTIFICATE_LASTS if certificate.left > SOON else say.CERTIFICATE_ENDS
+        yield ends(path=certificate.name, day=certificate.day)
+    store = say.STORE_WRITABLE if facts.state_writable else say.STORE_READ_ONLY
+    yield store(folder=facts.state_dir)
+    if facts.free_bytes >= LEAST_DISK:
+        yield say.DISK_ROOM(free=facts.free_bytes)
+    else:
+        yield say.DISK_FULL(free=facts.free_bytes, least=LEAST_DISK)
 
 
-def _python(facts: Facts) -> Finding:
-    said = ".".join(map(str, facts.python))
+def _python(facts: Facts) -> Diagnostic:
+    version, first, last = (
+        ".".join(map(str, each)) for each in (facts.python, PYTHON_FROM, PYTHON_TO)
+    )
     if PYTHON_FROM <= facts.python <= PYTHON_TO:
-        return Finding("python", True, said)
-    return Finding(
-        "python", False, said, "install Python 3.11 and run make demo with it (PYTHON=python3.11)"
-    )
+        return say.PYTHON_FITS(version=version)
+    return say.PYTHON_UNFIT(version=version, first=first, last=last)
 
 
-def _modules(facts: Facts) -> Iterator[Finding]:
+def _modules(facts: Facts) -> Iterator[Diagnostic]:
     missing = [name for name in NEEDED if not facts.modules.get(name)]
-    yield Finding(
-        "wheels",
-        not missing,
-        f"missing: {', '.join(missing)}" if missing else "all there",
-        "run make demo once; in a shell of its own: . .venv/mrlab.sh" if missing else "",
-    )
-    for name, loss in OPTIONAL.items():
+    yield say.WHEELS_MISSING(modules=missing) if missing else say.WHEELS_THERE()
+    for name in OPTIONAL:
         if facts.modules.get(name):
-            yield Finding(name, True, "there")
+            yield say.MODULE_THERE(module=name)
         elif facts.python > PHYSICS_TO:
-            yield Finding(
-                name, False, f"no wheel for this Python; {loss}", "use Python 3.10 or 3.11"
-            )
+            yield say.MODULE_WITHOUT_WHEEL(module=name)
         else:
-            yield Finding(name, False, f"missing; {loss}", f"pip install {name}")
+            yield say.MODULE_MISSING(module=name)
 
 
-def _middleware(facts: Facts) -> Finding:
-    there = ", ".join(facts.middlewares) or "none"
-    wanted = facts.middleware
-    if not wanted and facts.middlewares:
-        return Finding("middleware", True, there)
-    if wanted in facts.middlewares:
-        return Finding("middleware", True, wanted)
-    if not wanted:
-        return Finding("middleware", False, there, "run make demo: it installs rmw_fastrtps_cpp")
-    return Finding(
-        "middleware",
-        False,
-        f"RMW_IMPLEMENTATION is {wanted}; installed: {there}",
-        "unset RMW_IMPLEMENTATION, or install that middleware",
-    )
+def _middleware(facts: Facts) -> Diagnostic:
+    wanted, there = facts.middleware, list(facts.middlewares)
+    if wanted in there or (there and not wanted):
+        return say.MIDDLEWARE_THERE(middlewares=[wanted] if wanted else there)
+    if wanted:
+        return say.MIDDLEWARE_OTHER(wanted=wanted, middlewares=there)
+    return say.MIDDLEWARE_NONE()
 
 
-def _port(port: Port) -> Finding:
-    name = f"port {port.number}"
+def _port(port: Port) -> Diagnostic:
     if port.ours:
-        return Finding(name, True, f"{port.what}: the running lab has it")
+        return say.PORT_OURS(port=port.number, what=port.what)
     if port.free:
-        return Finding(name, True, f"{port.what}: free")
-    option = "--http" if port.what == "pages" else "--zenoh-listen"
-    return Finding(
-        name,
-        False,
-        f"{port.what}: another program has it",
-        f"end that program, or start the lab with another port ({option})",
-    )
+        return say.PORT_FREE(port=port.number, what=port.what)
+    return say.PORT_IN_USE(port=port.number, what=port.what)
 
 
-def _gateway(gateway: Gateway, version: str) -> Iterator[Finding]:
+def _gateway(gateway: Gateway, own: str) -> Iterator[Diagnostic]:
+    url, version = gateway.url, gateway.version
     if gateway.error:
-        yield Finding(
-            "gateway",
-            False,
-            f"{gateway.url}: {gateway.error}",
-            "start the lab with mrlab up; from another machine give it --keys or --https-cert and "
-            "open its port in the firewall",
-        )
+        yield say.GATEWAY_SILENT(url=url, why=of_text(gateway.error))
         return
-    same = gateway.version == version
-    yield Finding(
-        "gateway",
-        same,
-        f"{gateway.url} has version {gateway.version}, this machine {version}",
-        "" if same else "bring both to one version, then reload the pages",
-    )
-    if gateway.offset is not None:
-        near = abs(gateway.offset) <= MOST_OFFSET
-        yield Finding(
-            "clocks",
-            near,
-            f"{gateway.offset:+.1f} s between the gateway and this machine",
-            "" if near else "switch on time synchronisation (timedatectl set-ntp true) on both",
-        )
-
-
-def _certificate(certificate: Certificate) -> Finding:
-    said = f"{certificate.name} expires {certificate.day}"
-    if certificate.left > SOON:
-        return Finding("certificate", True, said)
-    return Finding("certificate", False, said, "make a new one: mrlab keys renew")
+    if version == own:
+        yield say.GATEWAY_SAME(url=url, version=version)
+    else:
+        yield say.GATEWAY_DIFFERS(url=url, version=version, own=own)
+    if gateway.offset is None:
+        return
+    if abs(gateway.offset) <= MOST_OFFSET:
+        yield say.CLOCKS_AGREE(offset=gateway.offset)
+    else:
+        yield say.CLOCKS_DIFFER(offset=gateway.offset, limit=MOST_OFFSET)

@@ -10,6 +10,7 @@ from typing import Any
 from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
 from rosidl_parser.definition import AbstractNestedType, NamespacedType
 
+from mrlab_ros.core.base.diagnostics import TYPE_WITHOUT_TEXT
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.messages.qos import message_class
 
@@ -51,7 +52,4 @@ def text_of(kind: str) -> str:
         share = Path(get_package_share_directory(package))
         return (share / folder / f"{name}.{folder}").read_text()
     except (PackageNotFoundError, OSError):
-        raise BadInput(
-            f"the text of {kind} is not installed; install the package {package}, "
-            "or leave out the topics of that type"
-        ) from None
+        raise BadInput(TYPE_WITHOUT_TEXT(type=kind, package=package)) from None

@@ -22,6 +22,13 @@ import struct
 from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import JointState
 
+from mrlab_ros.core.base.diagnostic import of_text
+from mrlab_ros.core.base.diagnostics import (
+    JOINT_STATE_CUT,
+    JOINT_STATE_UNEVEN,
+    JOINT_STATE_WITHOUT,
+    NO_JOINT_STATE,
+)
 from mrlab_ros.core.clock import SECOND
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.geometry import Array
@@ -78,7 +85,7 @@ def read(data: bytes, joints: tuple[str, ...]) -> tuple[int, Numbers, Numbers]:
         positions, offset = _doubles(data, offset + len(names))
         velocities, _ = _doubles(data, offset)
     except struct.error:
-        raise BadInput(f"{len(data)} bytes end before the joint state they begin") from None
+        raise BadInput(JOINT_STATE_CUT(size=len(data))) from None
     return seconds * SECOND + nanoseconds, positions, velocities
 
 
@@ -97,20 +104,15 @@ def _read_slowly(data: bytes, joints: tuple[str, ...]) -> tuple[int, Numbers, Nu
     try:
         message = deserialize_message(data, JointState)
     except Exception as error:  # rclpy raises what its middleware happens to raise
-        raise BadInput(f"{len(data)} bytes are no joint state: {error}") from None
+        raise BadInput(NO_JOINT_STATE(size=len(data), why=of_text(str(error)))) from None
     places = {name: i for i, name in enumerate(message.name)}
     missing = [joint for joint in joints if joint not in places]
     if missing:
-        raise BadInput(
-            f"a joint state has no joint {', '.join(missing)}; it has: {', '.join(places)}"
-        )
+        raise BadInput(JOINT_STATE_WITHOUT(missing=missing, found=list(places)))
 
     def ordered(values: Numbers) -> Numbers:
         if values and len(values) != len(message.name):
-            raise BadInput(
-                f"a joint state has {len(message.name)} names and {len(values)} positions or "
-                "velocities; expected as many"
-            )
+            raise BadInput(JOINT_STATE_UNEVEN(names=len(message.name), values=len(values)))
         return tuple(values[places[joint]] for joint in joints) if values else ()
 
     stamp = message.header.stamp

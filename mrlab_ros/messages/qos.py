@@ -6,6 +6,7 @@ from typing import Any
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
+from mrlab_ros.core.base.diagnostics import TYPE_NOT_INSTALLED
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.recording.metadata import QosProfile, Topic
 
@@ -72,7 +73,4 @@ def message_class(kind: str) -> Any:
         package, folder, name = kind.split("/")
         return getattr(importlib.import_module(f"{package}.{folder}"), name)
     except (ImportError, AttributeError, ValueError):
-        raise BadInput(
-            f"the message type {kind or 'without a name'} is not installed here; install its "
-            "package and start the lab again"
-        ) from None
+        raise BadInput(TYPE_NOT_INSTALLED(type=kind)) from None

@@ -5,6 +5,7 @@ from __future__ import annotations
 from numbers import Integral, Real
 from typing import Any
 
+from mrlab_ros.core.base.diagnostics import BAD_REQUEST_FIELD
 from mrlab_ros.core.errors import Misuse
 
 REALS = {"double", "float"}
@@ -36,19 +37,19 @@ def _fit(value: Any, kind: str, name: str) -> Any:
     if kind in REALS:
         if isinstance(value, Real) and not isinstance(value, bool):
             return value if isinstance(value, float) else float(value)
-        expected = "a number"
+        expected = "number"
     elif kind in INTEGERS:
         if isinstance(value, Integral) and not isinstance(value, bool):
             return value if isinstance(value, int) else int(value)
-        expected = "a whole number"
+        expected = "integer"
     elif kind == "boolean":
         if isinstance(value, bool):
             return value
-        expected = "True or False"
+        expected = "boolean"
     elif kind.startswith("string"):
         if isinstance(value, str):
             return value
-        expected = "a text"
+        expected = "text"
     else:
         return fitted(value, f"{name}.") if hasattr(value, "get_fields_and_field_types") else value
-    raise Misuse(f"{name} is {value!r}; expected {expected}")
+    raise Misuse(BAD_REQUEST_FIELD(field=name, found=repr(value), expected=expected))

@@ -20,6 +20,7 @@ from mrlab_ros.processes.lab import NODES, PROCESSES
 from mrlab_ros.processes.stand_aside import StandAside
 from mrlab_ros.processes.watcher import Watcher
 from mrlab_ros.ros import freezes
+from mrlab_ros.ros.diagnostics import SEVERAL_NODES_REFUSE
 from mrlab_ros.ros.parameters import WrongParameters
 from mrlab_ros.ros.spinning import SpunNode, shut_down, start_up
 from mrlab_ros.ros.type_supports import postpone_numpy
@@ -103,9 +104,12 @@ def run(names: list[str]) -> int:
                     try:
                         spun[name] = _spin(makers[name]())
                     except WrongParameters as error:
-                        mistakes.append(str(error))
+                        mistakes.append(error)
+            if len(mistakes) > 1:
+                several = SEVERAL_NODES_REFUSE(count=len(mistakes), mistakes=mistakes)
+                raise WrongParameters(several)
             if mistakes:
-                raise WrongParameters("\n".join(mistakes))
+                raise mistakes[0]
             if not settled:
                 # What was imported stays. A search of it for garbage takes 20 ms, in which no
                 # thread moves anything.

@@ -74,3 +74,22 @@ NO_ARRIVALS = Code(
     "Set RMW_IMPLEMENTATION to one that does, such as rmw_fastrtps_cpp.",
     meaning="A middleware without callbacks for new messages.",
 )
+PARAMETERS_REFUSED = Code(
+    "parameters_refused",
+    "{mistakes:problem}.",
+    "The parameters of {node} are set in the parameter file, or with -p {node}:NAME:=VALUE, "
+    "before it starts; docs/parameters.md lists them.",
+    meaning="A node does not start with these parameters.",
+)
+PARAMETER_FIXED = Code(
+    "parameter_fixed",
+    "{parameter} is read when {node} starts and cannot change while it runs.",
+    "Set it in the parameter file, or with -p {node}:NAME:=VALUE, and start the node again; "
+    "docs/parameters.md lists all.",
+    meaning="A parameter that takes effect at the start of its node alone.",
+)
+SEVERAL_NODES_REFUSE = Code(
+    "several_nodes_refuse",
+    "{count:integer} nodes do not start:{mistakes:problems}",
+    meaning="The nodes of a process refuse their parameters.",
+)

@@ -26,6 +26,7 @@ from mrlab_ros.core import records
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.naming import PARAMETERS_OF_RCLPY
 from mrlab_ros.core.records import Field, Range
+from mrlab_ros.ros.diagnostics import PARAMETER_FIXED, PARAMETERS_REFUSED
 
 P = TypeVar("P")
 
@@ -69,7 +70,7 @@ class ParameterNode(Node, Generic[P]):
             self.parameters: P = records.read(kind, given, name)
         except BadInput as error:
             super().destroy_node()
-            raise WrongParameters(f"{error}\n{how_to_set(name)}") from None
+            raise WrongParameters(PARAMETERS_REFUSED(mistakes=error, node=name)) from None
         for attribute, record in self._records.items():
             value = to_ros(getattr(self.parameters, attribute))
             self.declare_parameter(record.name, value, descriptor(record), ignore_override=True)
@@ -99,10 +100,7 @@ class ParameterNode(Node, Generic[P]):
                 continue
             attribute, record = by_name[name]
             if not record.changeable:
-                mistakes.append(
-                    f"{name} is read when {self.get_name()} starts and cannot change while it "
-                    f"runs. {how_to_set(self.get_name())}"
-                )
+                mistakes.append(PARAMETER_FIXED(parameter=name, node=self.get_name()))
                 continue
             try:
                 value = records.checked(name, plain(parameter.value), record.check)
@@ -118,14 +116,6 @@ class ParameterNode(Node, Generic[P]):
             self.parameters = dataclasses.replace(self.parameters, **changes)  # type: ignore[type-var]
             self.parameters_changed()
         return result
-
-
-def how_to_set(node: str) -> str:
-    """Return the sentence that says where the parameters of a node are set."""
-    return (
-        f"Set the parameters of {node} in the parameter file (mrlab up --config FILE) or with "
-        f"-p {node}:NAME:=VALUE, and start it again; docs/parameters.md lists them."
-    )
 
 
 def plain(value: Any) -> Any:

@@ -12,6 +12,7 @@ from typing import Annotated
 import typer
 
 from mrlab_ros.commands import output
+from mrlab_ros.commands.diagnostics import NO_DEMO_FILE
 from mrlab_ros.commands.up.surroundings import stop_signals
 from mrlab_ros.core.errors import BadInput
 
@@ -61,7 +62,7 @@ def demo(
         parts = [DemoRobot(file.resolve(), robot, end_effector)]
     for part in parts:
         if not part.file.is_file():
-            raise BadInput(f"there is no file {part.file}; name a workspace file with --file")
+            raise BadInput(NO_DEMO_FILE(path=str(part.file)))
     console = output.console(stderr=as_json)
     with ExitStack() as stack:
         stop = stack.enter_context(stop_signals())

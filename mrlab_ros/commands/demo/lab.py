@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from mrlab_ros.commands.diagnostics import NO_DOMAIN_LEFT, NO_PORT_LEFT
 from mrlab_ros.commands.up.speaker import Speaker
 from mrlab_ros.commands.up.surroundings import folder_for_state, stay_on_this_machine
 from mrlab_ros.commands.up.web import open_in_browser, opening_url, run_facts
@@ -130,7 +131,7 @@ def free_port(preferred: int) -> int:
             except OSError:
                 continue
             return int(probe.getsockname()[1])
-    raise LabError("no TCP port is free on this machine; end some programs, then try again")
+    raise LabError(NO_PORT_LEFT())
 
 
 def domain_is_free(domain: int) -> bool:
@@ -157,4 +158,4 @@ def claim_free_domain(**facts: object) -> tuple[RunFile, int]:
         except Misuse:
             continue
         return run_file, domain
-    raise LabError("every ROS domain is in use on this machine; end some labs, then try again")
+    raise LabError(NO_DOMAIN_LEFT())

@@ -9,6 +9,7 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from mrlab_ros.commands.diagnostics import DEMO_FAULT
 from mrlab_ros.commands.up.speaker import COLOURS
 from mrlab_ros.commands.up.web import opening_url
 from mrlab_ros.core.errors import LabError
@@ -104,9 +105,13 @@ def judge(summaries: list[RobotSummary]) -> None:
     for s in summaries:
         if s.faults:
             raise LabError(
-                f"{s.robot}: {s.frames_received} of {s.frames_expected} frames arrived over zenoh "
-                f"in order and as the file has them, {s.frames_lost} were left out by the "
-                f"playback; first fault: {s.faults[0]}"
+                DEMO_FAULT(
+                    robot=s.robot,
+                    received=s.frames_received,
+                    expected=s.frames_expected,
+                    lost=s.frames_lost,
+                    fault=s.faults[0],
+                )
             )
 
 

@@ -12,10 +12,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from mrlab_ros.commands import diagnostics as say
 from mrlab_ros.commands.demo.arrivals import Arrivals, frames_in_order
 from mrlab_ros.commands.demo.report import Display, RobotSummary
+from mrlab_ros.core.base.diagnostic import heard, of_text
 from mrlab_ros.core.errors import LabError
 from mrlab_ros.core.identity import Identity
+from mrlab_ros.core.playback.diagnostics import PLAYED_TO_END
 from mrlab_ros.processes.lab import lab_nodes
 from mrlab_ros.processes.readiness import Readiness
 from mrlab_ros.processes.web import gateway_answers
@@ -98,24 +101,27 @@ class Run:
         if self._stop.wait(seconds):
             raise Stopped
 
-    def _until(self, condition: Any, timeout: float, what: str) -> None:
+    def _until(self, condition: Any, timeout: float, part: str, name: str = "") -> None:
         deadline = time.monotonic() + timeout
         while not condition():
             if time.monotonic() > deadline:
-                raise LabError(f"waited {timeout:g} s for {what}; {self._last_trouble()}")
+                complaint = self._last_trouble()
+                raise LabError(
+                    say.WAITED_IN_DEMO(timeout=timeout, part=part, name=name, complaint=complaint)
+                )
             self._pause(0.02)
 
-    def _last_trouble(self) -> str:
+    def _last_trouble(self) -> str | None:
         trouble = self._stage.log.trouble
-        return f"its last complaint: {trouble[-1]}" if trouble else "nothing complained"
+        return trouble[-1] if trouble else None
 
     def _wait_for_lab(self, graph: Graph) -> None:
         options = self._stage.options
         identity = Identity(options.lab_id, lambda text: self._say("start", text))
         lab = Readiness(graph, lab_nodes(options), 0, identity)
-        self._until(lambda: not lab.missing(), START_TIMEOUT_S, "all parts of the lab")
+        self._until(lambda: not lab.missing(), START_TIMEOUT_S, "lab")
         gateway = gateway_answers(self._stage.web)
-        self._until(gateway, START_TIMEOUT_S, "the pages")
+        self._until(gateway, START_TIMEOUT_S, "pages")
         self._say("start", f"the lab is ready after {time.monotonic() - self._stage.begin:.1f} s")
 
     @contextmanager
@@ -129,8 +135,9 @@ class Run:
         try:
             session = zenoh.open(config)
         except zenoh.ZError as error:
+            why = of_text(str(error))
             raise LabError(
-                f"no zenoh session to the bridge at {self._stage.endpoint}: {error}"
+                say.DEMO_WITHOUT_ZENOH(endpoint=self._stage.endpoint, why=why)
             ) from None
         with session:
             yield session
@@ -167,9 +174,10 @@ class Run:
             self._until(
                 lambda f=follower: f.watch.value is not None,
                 START_TIMEOUT_S,
-                f"the playback of {robot}",
+                "playback",
+                robot,
             )
-            self._until(lambda a=arrived: a.payloads, START_TIMEOUT_S, f"{arrived.key} over zenoh")
+            self._until(lambda a=arrived: a.payloads, START_TIMEOUT_S, "zenoh", arrived.key)
             self._say("zenoh", f"{arrived.key} arrives, {len(arrived.payloads[0])} bytes a frame")
         return followers
 
@@ -205,7 +213,7 @@ class Run:
             while not course.complete():
                 if time.monotonic() > deadline:
                     raise LabError(
-                        f"the run of {longest:g} s did not end in time; {self._last_trouble()}"
+                        say.DEMO_TOO_SLOW(duration=longest, complaint=self._last_trouble())
                     )
                 display.show(course.label)
                 self._pause(0.1)
@@ -216,7 +224,8 @@ class Run:
     ) -> RobotSummary:
         start_ns, count = follower.start_ns, trajectory.info.frame_count
         if start_ns is None:
-            raise LabError(f"{follower.robot} never said that it plays; {self._last_trouble()}")
+            complaint = self._last_trouble()
+            raise LabError(say.DEMO_NEVER_PLAYED(robot=follower.robot, complaint=complaint))
         found, wrong = 0, [""]
 
         def complete() -> bool:
@@ -263,11 +272,12 @@ class SystemCourse:
         system, kind = found[0], msg.RobotSystem
         self.label = system.label
         if system.state == kind.COLLISION_HALT:
-            raise LabError(f"the run was halted: {system.message}")
+            raise LabError(say.DEMO_HALTED(why=heard(system)))
         if system.state == kind.PLAYING:
             self._played = True
         if system.state in (kind.READY, kind.COMPLETE) and self._played:
-            if system.message == "played to the end":
+            if system.code == PLAYED_TO_END.code:
                 return True
-            raise LabError(f"the run ended too early: {system.message or system.label}")
+            why = heard(system) if system.message else None
+            raise LabError(say.DEMO_ENDED_EARLY(state=system.label, why=why))
         return False

@@ -8,6 +8,11 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
+from mrlab_ros.commands.diagnostics import (
+    BRIDGE_PORT_TAKEN,
+    KEYS_OR_INSECURE,
+    ROUTER_WITHOUT_KEYS,
+)
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.processes.child import SELF
 
@@ -24,7 +29,7 @@ def checked_listen(chosen: str, keys: Path | None, insecure: bool) -> str:
     from mrlab_ros.core.bridge.links import EVERYWHERE, check_endpoints
 
     if insecure and keys is not None:
-        raise BadInput("--keys and --insecure exclude each other; leave one of them out")
+        raise BadInput(KEYS_OR_INSECURE())
     listen = chosen or (LISTEN if keys is None else EVERYWHERE[0])
     check_endpoints((listen,), insecure, keys is not None)
     if keys is not None:
@@ -47,11 +52,9 @@ def free_endpoint(endpoint: str, option: str = "--zenoh-listen ") -> str:
         try:
             probe.bind((host, int(port)))
         except OSError as error:
-            raise BadInput(
-                f"the bridge cannot listen on {endpoint}: {error.strerror or error}; another "
-                f"lab may have that port, so choose another one, such as {option}tcp/127.0.0.1:0 "
-                "(0: any that is free)"
-            ) from error
+            why = error.strerror or str(error)
+            taken = BRIDGE_PORT_TAKEN(endpoint=endpoint, why=why, option=option)
+            raise BadInput(taken) from error
         return f"{endpoint.removesuffix(f':{port}')}:{probe.getsockname()[1]}"
 
 
@@ -61,10 +64,7 @@ def checked_router(router: str, listen: str, keys: Path | None, insecure: bool) 
     from mrlab_ros.core.bridge.links import check_router
 
     if keys is None or listen or insecure:
-        raise BadInput(
-            f"--zenoh-connect {router} is for a lab with keys, which its people reach at that "
-            "router alone; give --keys FOLDER, and leave --zenoh-listen and --insecure out"
-        )
+        raise BadInput(ROUTER_WITHOUT_KEYS(router=router))
     check_router("client", (), (router,))
     folder = Keys(keys)
     folder.check(now())

@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Iterable
 
+from mrlab_ros.commands.diagnostics import PROCESSES_REFUSE
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.processes.child import Phase, ProcessState
 
@@ -28,7 +29,4 @@ class Refusals:
     def raise_any(self) -> None:
         """Raise BadInput where a process refused."""
         if self._names:
-            raise BadInput(
-                f"the lab does not start: {', '.join(sorted(self._names))} refused the "
-                "configuration and said above what is wrong; correct it and start again"
-            )
+            raise BadInput(PROCESSES_REFUSE(processes=sorted(self._names)))

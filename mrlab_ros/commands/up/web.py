@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
+from mrlab_ros.commands.diagnostics import PAGES_PORT_TAKEN
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.processes.child import SELF
 from mrlab_ros.processes.options import LabOptions, WebOptions
@@ -76,11 +77,9 @@ def free_address(host: str, port: int) -> int:
         try:
             probe.bind((host, port))
         except OSError as error:
-            raise BadInput(
-                f"the pages cannot be served on {host}:{port}: {os.strerror(error.errno or 0)}; "
-                "another lab may have that port, so choose another one with --http "
-                f"{host}:{port + 1} (0: any that is free), or leave the pages out with --no-web"
-            ) from error
+            why = os.strerror(error.errno or 0)
+            taken = PAGES_PORT_TAKEN(host=host, port=port, why=why, next=port + 1)
+            raise BadInput(taken) from error
         return int(probe.getsockname()[1])
 
 

@@ -232,3 +232,45 @@ BAD_QUATERNION = Code(
     "(x, y, z, w), such as 0, 0, 0, 1.",
     meaning="An orientation that is no unit quaternion.",
 )
+
+# messages
+
+TYPE_NOT_INSTALLED = Code(
+    "type_not_installed",
+    "The message type '{type}' is not installed here.",
+    "Install its package and start the lab again.",
+    meaning="A topic or a service has a type that this machine does not know.",
+)
+TYPE_WITHOUT_TEXT = Code(
+    "type_without_text",
+    "The text of {type} is not installed.",
+    "Install the package {package}, or leave out the topics of that type.",
+    meaning="The definition of a message is needed, to write a bag for instance.",
+)
+BAD_REQUEST_FIELD = Code(
+    "bad_request_field",
+    "{field} is {found}; expected {expected:choice number=a number|integer=a whole number|boolean="
+    "True or False|text=a text}.",
+    meaning="A field of a request has a value of another type.",
+)
+JOINT_STATE_CUT = Code(
+    "joint_state_cut",
+    "{size:integer} bytes end before the joint state that they begin.",
+    meaning="A serialized joint state is cut short.",
+)
+NO_JOINT_STATE = Code(
+    "no_joint_state",
+    "{size:integer} bytes are no joint state: {why:problem}.",
+    meaning="A serialized joint state cannot be read.",
+)
+JOINT_STATE_WITHOUT = Code(
+    "joint_state_without",
+    "A joint state lacks {missing:list}; it has {found:list}.",
+    meaning="A joint state does not name all joints of its robot.",
+)
+JOINT_STATE_UNEVEN = Code(
+    "joint_state_uneven",
+    "A joint state has {names:integer} names and {values:integer} positions or velocities; "
+    "expected as many.",
+    meaning="A joint state whose lists differ in length.",
+)

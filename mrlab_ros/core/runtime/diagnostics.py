@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mrlab_ros.core.base.diagnostic import WARNING, Code
+from mrlab_ros.core.base.diagnostic import INFO, WARNING, Code
 
 # requests that came too late
 
@@ -85,4 +85,103 @@ AND_ALSO = Code(
     "{first:problem}; {then:problem}",
     severity=WARNING,
     meaning="Two things that are said of one process.",
+)
+
+# the machine, hop by hop
+
+PYTHON_FITS = Code("python_fits", "Python {version}", severity=INFO)
+PYTHON_UNFIT = Code(
+    "python_unfit",
+    "Python {version}; expected {first} to {last}",
+    "Install Python 3.11 and set the lab up with it: PYTHON=python3.11 make demo.",
+)
+WHEELS_THERE = Code("wheels_there", "wheels: all there", severity=INFO)
+WHEELS_MISSING = Code(
+    "wheels_missing",
+    "wheels: {modules:list} missing",
+    "Run make demo once; in a shell of its own: . .venv/mrlab.sh",
+)
+MODULE_THERE = Code("module_there", "{module}: there", severity=INFO)
+MODULE_MISSING = Code(
+    "module_missing",
+    "{module} is missing; the lab runs without physics: no contacts, no grasps",
+    "pip install {module}",
+)
+MODULE_WITHOUT_WHEEL = Code(
+    "module_without_wheel",
+    "{module} has no wheel for this Python; the lab runs without physics: no contacts, no grasps",
+    "Use Python 3.10 or 3.11.",
+)
+MIDDLEWARE_THERE = Code(
+    "middleware_there", "middleware: {middlewares:list}", severity=INFO, meaning="Of ROS."
+)
+MIDDLEWARE_NONE = Code(
+    "middleware_none", "middleware: none", "Run make demo: it installs rmw_fastrtps_cpp."
+)
+MIDDLEWARE_OTHER = Code(
+    "middleware_other",
+    "RMW_IMPLEMENTATION is {wanted}[; installed: {middlewares:list}]",
+    "Unset RMW_IMPLEMENTATION, or install that middleware.",
+)
+MULTICAST_WORKS = Code("multicast_works", "multicast: nodes find each other by it", severity=INFO)
+MULTICAST_BLOCKED = Code(
+    "multicast_blocked",
+    "multicast: a packet to {group} does not come back[ ({why:problem})]",
+    "Set ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST for a lab on one machine, or allow UDP multicast "
+    "to {group} in the firewall.",
+)
+PAGES_BUILT = Code("pages_built", "pages: built", severity=INFO)
+PAGES_NOT_BUILT = Code(
+    "pages_not_built", "pages: not built", "Run make demo, or scripts/npm run build."
+)
+PORT_OURS = Code(
+    "port_ours", "port {port:integer} ({what}): the running lab has it", severity=INFO
+)
+PORT_FREE = Code("port_free", "port {port:integer} ({what}): free", severity=INFO)
+PORT_IN_USE = Code(
+    "port_in_use",
+    "port {port:integer} ({what}): another program has it",
+    "End that program, or start the lab with another port.",
+)
+GATEWAY_SILENT = Code(
+    "gateway_silent",
+    "gateway {url}: {why:problem}",
+    "Start the lab; for other machines with keys or a certificate, and with its port open in the "
+    "firewall.",
+    commands=("up",),
+)
+GATEWAY_SAME = Code(
+    "gateway_same", "gateway {url}: version {version}, as this machine", severity=INFO
+)
+GATEWAY_DIFFERS = Code(
+    "gateway_differs",
+    "gateway {url}: version {version}; this machine has {own}",
+    "Bring both to one version, then reload the pages.",
+)
+CLOCKS_AGREE = Code(
+    "clocks_agree", "clocks: {offset:time} between the gateway and this machine", severity=INFO
+)
+CLOCKS_DIFFER = Code(
+    "clocks_differ",
+    "clocks: {offset:time} between the gateway and this machine; expected {limit:time} at most",
+    "Switch on time synchronisation on both: timedatectl set-ntp true",
+)
+CERTIFICATE_LASTS = Code("certificate_lasts", "certificate {path} expires {day}", severity=INFO)
+CERTIFICATE_ENDS = Code(
+    "certificate_ends",
+    "certificate {path} expires {day}",
+    "Make a new one.",
+    commands=("keys renew",),
+)
+STORE_WRITABLE = Code("store_writable", "store: {folder} can be written", severity=INFO)
+STORE_READ_ONLY = Code(
+    "store_read_only",
+    "store: {folder} cannot be written",
+    "Make it writable for this user, or choose another folder for the lab's state.",
+)
+DISK_ROOM = Code("disk_room", "disk: {free:bytes} free", severity=INFO)
+DISK_FULL = Code(
+    "disk_almost_full",
+    "disk: {free:bytes} free; expected {least:bytes} at least",
+    "Make room: bags and uploads need it.",
 )

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import pytest
 
+from mrlab_ros.core.base.diagnostic import Diagnostic, of_text
 from mrlab_ros.core.doctor import NEEDED, Certificate, Facts, Gateway, Port, examine
 
 DAY = 24 * 3600.0
@@ -15,7 +16,7 @@ WELL = Facts(
     modules={**dict.fromkeys(NEEDED, True), "pybullet": True},
     middleware="",
     middlewares=["rmw_fastrtps_cpp"],
-    multicast="",
+    multicast=None,
     pages=True,
     version="1.0.0",
     ports=[Port(8080, "pages", free=False, ours=True), Port(7447, "zenoh", free=True, ours=False)],
@@ -27,47 +28,50 @@ WELL = Facts(
 )
 
 
-def failing(**change: object) -> dict[str, str]:
-    """Return name -> finding and remedy of what is not well."""
-    facts = replace(WELL, **change)
-    return {each.name: f"{each.found} | {each.remedy}" for each in examine(facts) if not each.ok}
+def failing(**change: object) -> list[Diagnostic]:
+    """Return what is not well."""
+    return [each for each in examine(replace(WELL, **change)) if each.refuses]
 
 
 def test_a_machine_that_is_well_has_nothing_to_do():
     findings = list(examine(WELL))
     assert len(findings) > 10
-    assert all(finding.ok and not finding.remedy and finding.found for finding in findings)
+    assert not any(each.refuses or each.remedy or each.fixes for each in findings)
 
 
 @pytest.mark.parametrize(
-    ("change", "name", "says"),
+    ("change", "code", "values"),
     [
-        ({"python": (3, 14)}, "python", "3.11"),
-        ({"python": (3, 9)}, "python", "3.11"),
-        ({"modules": {**WELL.modules, "zenoh": False}}, "wheels", "zenoh"),
-        ({"modules": {**WELL.modules, "pybullet": False}}, "pybullet", "without physics"),
-        ({"middlewares": []}, "middleware", "make demo"),
-        ({"middleware": "rmw_zenoh_cpp"}, "middleware", "unset RMW_IMPLEMENTATION"),
-        ({"multicast": "timed out"}, "multicast", "LOCALHOST"),
-        ({"pages": False}, "pages", "npm run build"),
-        ({"ports": [Port(8080, "pages", False, False)]}, "port 8080", "--http"),
-        ({"ports": [Port(7447, "zenoh", False, False)]}, "port 7447", "--zenoh-listen"),
-        ({"gateway": Gateway(URL, "", None, "refused")}, "gateway", "mrlab up"),
-        ({"gateway": Gateway(URL, "0.9", 0.0, "")}, "gateway", "one version"),
-        ({"gateway": Gateway(URL, "1.0.0", -4.0, "")}, "clocks", "-4.0 s"),
-        ({"certificate": Certificate("c", "2026-03-04", 3 * DAY)}, "certificate", "keys renew"),
-        ({"certificate": Certificate("c", "2026-02-26", -3 * DAY)}, "certificate", "keys renew"),
-        ({"state_writable": False}, "store", "--state-dir"),
-        ({"free_bytes": 10}, "disk", "GB"),
+        ({"python": (3, 14)}, "python_unfit", {"version": "3.14", "last": "3.13"}),
+        ({"python": (3, 9)}, "python_unfit", {"version": "3.9", "first": "3.10"}),
+        ({"modules": {**WELL.modules, "zenoh": False}}, "wheels_missing", {"modules": ["zenoh"]}),
+        (
+            {"modules": {**WELL.modules, "pybullet": False}},
+            "module_missing",
+            {"module": "pybullet"},
+        ),
+        ({"middlewares": []}, "middleware_none", {}),
+        ({"middleware": "rmw_zenoh_cpp"}, "middleware_other", {"wanted": "rmw_zenoh_cpp"}),
+        ({"multicast": "timed out"}, "multicast_blocked", {"why": of_text("timed out")}),
+        ({"pages": False}, "pages_not_built", {}),
+        ({"ports": [Port(8080, "pages", False, False)]}, "port_in_use", {"port": 8080}),
+        ({"ports": [Port(7447, "zenoh", False, False)]}, "port_in_use", {"port": 7447}),
+        ({"gateway": Gateway(URL, "", None, "refused")}, "gateway_silent", {"url": URL}),
+        ({"gateway": Gateway(URL, "0.9", 0.0, "")}, "gateway_differs", {"version": "0.9"}),
+        ({"gateway": Gateway(URL, "1.0.0", -4.0, "")}, "clocks_differ", {"offset": -4.0}),
+        ({"certificate": Certificate("c", "2026-03-04", 3 * DAY)}, "certificate_ends", {}),
+        ({"certificate": Certificate("c", "2026-02-26", -3 * DAY)}, "certificate_ends", {}),
+        ({"state_writable": False}, "store_read_only", {"folder": "/lab"}),
+        ({"free_bytes": 10}, "disk_almost_full", {"free": 10}),
     ],
 )
-def test_what_is_wrong_is_named_alone_with_what_to_do(change, name, says):
-    found = failing(**change)
-    assert list(found) == [name]
-    assert says in found[name]
-    assert not found[name].endswith("| ")
+def test_what_is_wrong_is_named_alone_with_what_to_do(change, code, values):
+    (found,) = failing(**change)
+    assert found.code == code
+    assert {name: found.values[name] for name in values} == values
+    assert found.remedy
 
 
 def test_a_python_without_pybullet_is_told_which_has_it():
-    found = failing(python=(3, 13), modules={**WELL.modules, "pybullet": False})
-    assert "3.10 or 3.11" in found["pybullet"]
+    (found,) = failing(python=(3, 13), modules={**WELL.modules, "pybullet": False})
+    assert found.code == "module_without_wheel"

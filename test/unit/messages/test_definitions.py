@@ -7,8 +7,10 @@ from pathlib import Path
 
 import pytest
 from ament_index_python.packages import get_package_share_directory
+from refusals import refused
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
+from mrlab_ros.core.base.diagnostics import TYPE_NOT_INSTALLED
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.messages.definitions import SEPARATOR, definition
 
@@ -40,5 +42,5 @@ def test_another_reader_finds_the_generators_type_in_it(kind: str) -> None:
 
 @pytest.mark.parametrize("kind", ["none_msgs/msg/String", "std_msgs/msg/Nothing"])
 def test_a_type_that_is_not_installed_is_refused(kind: str) -> None:
-    with pytest.raises(BadInput, match=f"{kind} is not installed"):
+    with refused(TYPE_NOT_INSTALLED, BadInput, type=kind):
         definition(kind)
