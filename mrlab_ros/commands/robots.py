@@ -311,7 +311,9 @@ def import_robot(
         found = error.diagnostic
         if found.code != ARMS_BRANCH.code:
             raise
-        again = for_shell([*source, "--tip", str(found.values["tip"])])
+        options = ["--id", robot_id] * bool(robot_id)
+        options += [word for pair in package or () for word in ("--package", pair)]
+        again = for_shell([*source, *options, "--tip", str(found.values["tip"])])
         fix = Fix(command=f"robots import {again}")
         raise BadInput(replace(found, fixes=(fix,))) from None
     if not as_json:

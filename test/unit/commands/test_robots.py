@@ -27,6 +27,6 @@ def test_a_description_of_two_arms_is_imported_by_the_command_that_is_offered(tm
     file = tmp_path / "two arms.urdf"
     file.write_text(f'<robot name="two"><link name="base"/>{"".join(arms)}</robot>')
     with refused(ARMS_BRANCH, first=6, second=6, tip="l6") as caught:
-        robots.import_robot([str(file)])
+        robots.import_robot([str(file)], robot_id="two")
     (fix,) = caught.value.diagnostic.fixes
-    assert fix.command == f"robots import '{file}' --tip l6"
+    assert fix.command == f"robots import '{file}' --id two --tip l6"
