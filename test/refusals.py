@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from types import ModuleType
 from typing import Any
 
 import pytest
 
-from mrlab_ros.core.base.diagnostic import Code, plain
+from mrlab_ros.core.base.diagnostic import Code, Diagnostic, plain
 from mrlab_ros.core.errors import LabError
 
 
@@ -19,12 +20,27 @@ def refused(
     """Expect a `kind` with this code and, among others, these values; a nested one counts too."""
     with pytest.raises(kind) as caught:
         yield caught
-    found = plain(caught.value)
+    _check(plain(caught.value), code, values)
+
+
+@contextmanager
+def command_refuses(command: ModuleType, code: str | Code, **values: Any) -> Iterator[None]:
+    """Expect that the module of a command tells this code and, among others, these values."""
+    told: list[Diagnostic] = []
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(command, "say_problem", told.append)
+        yield
+    (found,) = told
+    _check(plain(found), code, values)
+
+
+def _check(found: dict[str, Any], code: str | Code, values: dict[str, Any]) -> None:
+    name = code.code if isinstance(code, Code) else code
     inner = [found, *_inner(found["values"])]
     codes = [each["code"] for each in inner]
-    assert code.code in codes, f"expected {code.code}, found {codes}: {caught.value}"
-    said = next(each for each in inner if each["code"] == code.code)["values"]
-    assert {name: said.get(name) for name in values} == plain(values)
+    assert name in codes, f"expected {name}, found {codes}: {found['message']}"
+    said = next(each for each in inner if each["code"] == name)["values"]
+    assert {key: said.get(key) for key in values} == plain(values)
 
 
 def said_in(found: Any) -> dict[str, dict[str, Any]]:

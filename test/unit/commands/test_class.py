@@ -12,10 +12,11 @@ import numpy as np
 import orjson
 import pytest
 import scipy.io
+from refusals import command_refuses
 from typer.testing import CliRunner
 
 from mrlab_ros.cli import make_app
-from mrlab_ros.commands.classroom import worker
+from mrlab_ros.commands.classroom import command, worker
 from mrlab_ros.commands.classroom.grader import Grader
 from mrlab_ros.commands.classroom.setup import Bounds, MiB, Setup, Task
 from mrlab_ros.core.errors import BadInput
@@ -122,19 +123,20 @@ def test_a_class_is_marked_kept_and_the_same_however_it_is_run(submissions, tmp_
 
 
 @pytest.mark.parametrize(
-    ("words", "sentence"),
+    ("words", "code", "values"),
     [
-        (("nowhere", "--rubric", RUBRIC), "no folder or archive nowhere"),
-        ((RUBRIC, "--rubric", RUBRIC), "no zip archive"),
-        ((ROOT / "config", "--rubric", ROOT / "nowhere.yaml"), "nowhere.yaml"),
-        ((ROOT / "examples", "--rubric", RUBRIC, "--out", ROOT / "config"), "bridge.yaml"),
-        ((ROOT / "examples", "--rubric", RUBRIC, "--jobs", "-1"), "--jobs is -1"),
+        (("nowhere", "--rubric", RUBRIC), "no_export", {"file": "nowhere"}),
+        ((RUBRIC, "--rubric", RUBRIC), "no_zip", {}),
+        ((ROOT / "config", "--rubric", ROOT / "nowhere.yaml"), "file_missing", {}),
+        ((ROOT / "examples", "--rubric", RUBRIC, "--out", ROOT / "config"), "no_class_folder",
+         {"folder": str(ROOT / "config")}),
+        ((ROOT / "examples", "--rubric", RUBRIC, "--jobs", "-1"), "option_out_of_range",
+         {"option": "jobs", "value": -1}),
     ],
-)
-def test_what_cannot_be_marked_ends_with_2_and_a_sentence(words, sentence):
-    said = grade(*words)
-    assert said.exit_code == 2
-    assert sentence in said.stderr
+)  # fmt: skip
+def test_what_cannot_be_marked_ends_with_2_and_a_code(words, code, values):
+    with command_refuses(command, code, **values):
+        assert grade(*words).exit_code == 2
 
 
 RUDE = """
