@@ -942,6 +942,9 @@ export const diagnostics: Templates = {
   bad_request: [
     'Die Anfrage ist nicht so, wie /api/openapi.json sie beschreibt: {mistakes:list}.',
   ],
+  bad_request_field: [
+    '{field} ist {found}; erwartet wird {expected:choice number=eine Zahl|integer=eine ganze Zahl|boolean=True oder False|text=ein Text}.',
+  ],
   bad_robot_id: [
     "Die Kennung ist '{robot}'; erwartet werden Kleinbuchstaben, Ziffern und _, etwa my_robot.",
   ],
@@ -1121,7 +1124,9 @@ export const diagnostics: Templates = {
     'Das Zertifikat {path} gilt ab {begin} UTC; nach der Uhr dieses Rechners ist es {now}.',
     'Stelle die Uhr.',
   ],
+  certificate_ends: ['Das Zertifikat {path} läuft am {day} ab', 'Mach ein neues.'],
   certificate_expired: ['Das Zertifikat {path} ist am {end} UTC abgelaufen.'],
+  certificate_lasts: ['Das Zertifikat {path} gilt bis {day}'],
   certificate_without_key: [
     'HTTPS braucht ein Zertifikat und seinen Schlüssel; eines von beiden fehlt.',
     'Nenne beide.',
@@ -1168,6 +1173,11 @@ export const diagnostics: Templates = {
   ],
   clock_set_back: [
     'Bei {time:time} wurde die Uhr um {by:time} zurückgestellt; {then:choice even=die Zeiten dieses Berichts laufen gleichmäßig weiter|piled=was bis zum Einholen aufgenommen wurde, steht an diesem Zeitpunkt}',
+  ],
+  clocks_agree: ['Uhren: {offset:time} zwischen dem Gateway und diesem Rechner'],
+  clocks_differ: [
+    'Uhren: {offset:time} zwischen dem Gateway und diesem Rechner; erwartet: höchstens {limit:time}',
+    'Schalte auf beiden die Zeitsynchronisation ein: timedatectl set-ntp true',
   ],
   coarse_times: [
     'einfache Genauigkeit (single) kennt solche Zeiten nur in Schritten von {value:number}; sichere sie als double',
@@ -1290,6 +1300,11 @@ export const diagnostics: Templates = {
     '{joint} springt um {value:measure} von Zeile {first_row:integer} zur nächsten ({time:time}); seine übrigen Schritte bleiben unter {usual:measure}.',
     'Suche nach einem Stück, das fehlt oder an der falschen Stelle angefügt wurde.',
   ],
+  disk_almost_full: [
+    'Datenträger: {free:bytes} frei; erwartet: mindestens {least:bytes}',
+    'Mach Platz: Bags und Hochgeladenes brauchen ihn.',
+  ],
+  disk_room: ['Datenträger: {free:bytes} frei'],
   display_taken: ["Die Anzeige '{id}' gehört einer anderen Seite.", 'Wähle eine eigene Kennung.'],
   display_too_far: [
     "Die Anzeige '{id}' ist bei {at:length}; erwartet werden endliche Zahlen bis {most:length}.",
@@ -1424,6 +1439,10 @@ export const diagnostics: Templates = {
     '{what:choice tool=Das Werkzeug|joint=Ein Gelenk} ist {how:choice rms=im Mittel (RMS)|most=bis zu} {value:measure} von der Musterlösung entfernt; erwartet: höchstens {limit:measure}.',
   ],
   function_handle: ['eine Funktion enthält keine Werte, bevor sie aufgerufen wird'],
+  gateway_differs: [
+    'Gateway {url}: Version {version}; dieser Rechner hat {own}',
+    'Bring beide auf eine Version, dann lade die Seiten neu.',
+  ],
   gateway_disk_full: [
     "Das Gateway hat keinen Platz für '{file}' ({why:problem}); nichts wurde behalten.",
     'Bitte den Betrieb, dort Platz zu schaffen, und versuche es dann noch einmal.',
@@ -1431,6 +1450,11 @@ export const diagnostics: Templates = {
   gateway_fault: [
     'Das Gateway ist an dieser Anfrage gescheitert.',
     'Sein Protokoll auf dem Rechner des Labors sagt, warum.',
+  ],
+  gateway_same: ['Gateway {url}: Version {version}, wie dieser Rechner'],
+  gateway_silent: [
+    'Gateway {url}: {why:problem}',
+    'Starte das Labor; für andere Rechner mit Schlüsseln oder einem Zertifikat, und mit seinem Port offen in der Firewall.',
   ],
   gateway_without_lab: [
     'Dieses Gateway hat kein Labor.',
@@ -1595,9 +1619,16 @@ export const diagnostics: Templates = {
   joint_state_beyond: [
     'Ein Gelenkzustand enthält NaN oder unendlich[ oder eine Zahl jenseits von {most:exact}]; der Arm bleibt, wo er ist.',
   ],
+  joint_state_cut: [
+    '{size:integer} Bytes enden vor dem Ende des Gelenkzustands, den sie beginnen.',
+  ],
   joint_state_size: [
     'Ein Gelenkzustand hat {positions:integer} Positionen und {velocities:integer} Geschwindigkeiten; erwartet: je {joints:integer}.',
   ],
+  joint_state_uneven: [
+    'Ein Gelenkzustand hat {names:integer} Namen und {values:integer} Positionen oder Geschwindigkeiten; erwartet werden gleich viele.',
+  ],
+  joint_state_without: ['Einem Gelenkzustand fehlt {missing:list}; er hat {found:list}.'],
   joint_type: ["{place:problem} ist vom Typ '{type}'; erwartet: {known:either}."],
   joints_matched: [
     "Die Spalten von '{variable}' wurden {robot} nach den Namen der Gelenke zugeordnet: Spalten {order:list}, in dieser Reihenfolge.[ Weggelassen: {left_out:list}.]",
