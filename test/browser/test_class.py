@@ -28,7 +28,9 @@ def test_a_teacher_steps_through_a_class_and_a_student_does_not(
         expect(main.get_by_role("link", name="Lab")).to_be_visible()
         expect(main.get_by_role("link", name="Class")).to_have_count(0)
         student.goto(f"{gateway.url}/class")
-        expect(student.get_by_text("greta is a student, and this needs an instructor")).to_be_visible()
+        expect(
+            student.get_by_text("greta is a student, and this needs an instructor")
+        ).to_be_visible()
         student.context.close()
 
         page = plain_browser.new_context(locale="en-GB").new_page()

@@ -199,9 +199,20 @@ NO_ROBOT_IN_SCENE = Code(
     "[Did you mean '{close}'?]",
     meaning="A robot was named that the scene does not have.",
 )
+# Words that a language may have its own for; others are said as they are.
+COMMANDS = (
+    "load|unload|play|pause|stop|seek|step|clear the halt|set the mode|start a recording|split "
+    "the recording|start a replay|pause the replay|resume the replay|seek in the replay|set the "
+    "rate|set the loop"
+)
+STATES = (
+    "IDLE|READY|ADJUSTING|STAGING|PLAYING|PAUSED|COLLISION_HALT|COMPLETE|STOPPING|STOPPED"
+    "|RECORDING|PREPARING|REPLAYING"
+)
 ILLEGAL_EVENT = Code(
     "illegal_event",
-    "cannot {event} in {state}[; {reason:problem}][; possible now: {possible:list}]",
+    f"cannot {{event:choice {COMMANDS}}} in {{state:choice {STATES}}}[; {{reason:problem}}]"
+    "[; possible now: {possible:list}]",
     meaning="A command that the present state does not allow; nothing was changed.",
 )
 BAD_RATE = Code(

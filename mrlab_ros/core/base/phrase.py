@@ -19,7 +19,8 @@ unit the value is stored and how it is shown, the same in terminal, page, room a
     {rows:rows}                (first, last) from 1: row 7, rows 7 to 9
     {names:list}               a, b and c                   {names:either}     a, b or c
     {events:list play=start}   the same, with words of its own for those that are known
-    {side:choice above=over|below=under}                    the text of one of the known words
+    {side:choice above=over|below=under}                    the text of one of the known words;
+                               another, and one without a text, is said as it is
     {why:problem}              another diagnostic, or what a library said
     {all:problems}             several of them, a line each
     {all:reasons}              several of them in one sentence, parted by semicolons
@@ -176,7 +177,7 @@ def _rows(value: tuple[int, int], words: Sequence[str]) -> str:
 
 def _choice(value: str, words: Sequence[str]) -> str:
     known = dict(word.partition("=")[::2] for word in words)
-    return known[value] or value
+    return known.get(value) or value
 
 
 def _worded(names: Sequence[object], words: Sequence[str]) -> list[object]:

@@ -1568,7 +1568,7 @@ export const diagnostics: Templates = {
     'Erwartet wird ein Zertifikat mit seinem Schlüssel ohne Passwort (PEM).',
   ],
   illegal_event: [
-    '„{event}“ geht im Zustand {state} nicht[: {reason:problem}][; möglich ist jetzt: {possible:list}]',
+    '„{event:choice load=laden|unload=entladen|play=abspielen|pause=anhalten|stop=stoppen|seek=springen|step=einen Schritt machen|clear the halt=die Kollision aufheben|set the mode=den Modus setzen|start a recording=eine Aufnahme beginnen|split the recording=die Aufnahme teilen|start a replay=eine Wiedergabe beginnen|pause the replay=die Wiedergabe anhalten|resume the replay=die Wiedergabe fortsetzen|seek in the replay=in der Wiedergabe springen|set the rate=das Tempo setzen|set the loop=die Schleife setzen}“ geht im Zustand „{state:choice IDLE=untätig|READY=bereit|ADJUSTING=fährt zum Start|STAGING=fährt zum Start|PLAYING=läuft|PAUSED=Pause|COLLISION_HALT=Kollisionshalt|COMPLETE=fertig|STOPPING=hält an|STOPPED=gestoppt|RECORDING=nimmt auf|PREPARING=bereitet vor|REPLAYING=gibt wieder}“ nicht[: {reason:problem}][; möglich ist jetzt: {possible:list load=laden|unload=entladen|play=abspielen|pause=anhalten|stop=stoppen|seek=springen|step=einen Schritt machen|clear the halt=die Kollision aufheben|set the mode=den Modus setzen|start a recording=eine Aufnahme beginnen|split the recording=die Aufnahme teilen|start a replay=eine Wiedergabe beginnen|pause the replay=die Wiedergabe anhalten|resume the replay=die Wiedergabe fortsetzen|seek in the replay=in der Wiedergabe springen|set the rate=das Tempo setzen|set the loop=die Schleife setzen}]',
   ],
   in_brackets: ['Schreibe [[{text}]]'],
   in_cell: ['in einer Zelle mit {robots:count Roboter|Robotern}'],
