@@ -146,12 +146,14 @@ class ConverterNode(ParameterNode[ConverterParameters]):
     def _answered(self, answer: Callable[[], None], response: Any) -> Any:
         try:
             answer()
-        except LabError as error:
-            tell(response, False, error.diagnostic)
         except Exception as error:
-            self.get_logger().error(repr(error))
-            if hasattr(response, "success"):
-                tell(response, False, FAULT(service="the converter", error=repr(error)))
+            why = FAULT(service="the converter", error=repr(error))
+            if isinstance(error, LabError):
+                why = error.diagnostic
+            else:
+                self.get_logger().error(repr(error))
+            if hasattr(response, "success"):  # a list says nothing of what went wrong
+                tell(response, False, why)
         return response
 
     def _begin_conversion(self, request: Any, response: Any) -> Future[Any]:

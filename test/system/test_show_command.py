@@ -62,7 +62,7 @@ def test_plot_writes_the_page(tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "kind", "words"),
     [
-        ((QUINTIC,), Misuse, "add --robot"),
+        ((QUINTIC,), Misuse, "Add --robot"),
         ((QUINTIC, "--robot", "ur5e", "-o", "page.pdf"), Misuse, "ends in .html"),
         ((QUINTIC, "--robot", "ur55e"), BadInput, "ur5e"),
         (("none.mat", "--robot", "ur5e"), BadInput, "no file none.mat"),

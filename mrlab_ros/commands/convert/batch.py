@@ -36,6 +36,11 @@ from mrlab_ros.adapters.workspaces.reader import (
 from mrlab_ros.adapters.workspaces.results import Task, refused, unexpected
 from mrlab_ros.commands import output
 from mrlab_ros.commands.convert import report
+from mrlab_ros.commands.convert.diagnostics import (
+    FILES_OR_TOPIC,
+    FOLDER_WITHOUT_FILES,
+    LIMIT_OUT_OF_RANGE,
+)
 from mrlab_ros.commands.convert.options import convert_words
 from mrlab_ros.commands.convert.outcomes import EXIT_CODES
 from mrlab_ros.commands.convert.targets import PICTURES, Targets, check_free
@@ -178,8 +183,9 @@ def _check(request: Request) -> None:
     ):
         if not least <= value <= MOST_LIMIT:
             raise Misuse(
-                f"--{option} is {value:g}; expected {least:g} to {MOST_LIMIT:g} {unit}; leave it "
-                "out for the usual limit"
+                LIMIT_OUT_OF_RANGE(
+                    option=option, value=float(value), least=least, most=MOST_LIMIT, unit=unit
+                )
             )
 
 
@@ -317,7 +323,7 @@ def _with_progress(
 def _inputs(request: Request) -> list[Input]:
     """Return what is to be converted: the files, or the message that a topic brings."""
     if bool(request.files) is bool(request.topic):
-        raise Misuse("expected files or --topic, one of them: mrlab convert run.mat --robot ur5e")
+        raise Misuse(FILES_OR_TOPIC())
     if not request.topic:
         return [_input(path) for path in _files(request.files)]
     from mrlab_ros.commands.convert.topic import receive  # rclpy, which files do not need
@@ -352,10 +358,7 @@ def expanded(files: Iterable[Path]) -> Iterable[Path]:
         if path.is_dir():
             inside = [p for p in sorted(path.rglob("*")) if p.name.lower().endswith(SUFFIXES)]
             if not inside:
-                raise BadInput(
-                    f"the folder '{path}' holds no {', '.join(SUFFIXES)} file; give the folder "
-                    "with the workspaces"
-                )
+                raise BadInput(FOLDER_WITHOUT_FILES(folder=str(path), suffixes=list(SUFFIXES)))
             yield from inside
         else:
             yield path

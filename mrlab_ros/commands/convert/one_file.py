@@ -6,7 +6,9 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from mrlab_ros.adapters.diagnostics import FILE_UNREADABLE
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.commands.convert.diagnostics import ROBOT_NOT_NAMED
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.errors import BadInput, Misuse
@@ -28,10 +30,7 @@ def converted(
     if result is not None:
         return result
     if not robot:
-        raise Misuse(
-            f"'{file.name}' does not say which robot it is for; add --robot, one of: "
-            f"{', '.join(library.ids())}"
-        )
+        raise Misuse(ROBOT_NOT_NAMED(file=file.name, known=list(library.ids())))
     from mrlab_ros.commands.convert import batch
 
     return batch.convert_file(file, library.model(robot), options, end_effector or None)
@@ -71,7 +70,7 @@ def _parsed(file: Path) -> Trajectory:
     try:
         return json_file.parse(file.read_bytes(), file_name(file.name))
     except OSError as error:
-        raise BadInput(f"{file} cannot be read: {error.strerror}") from None
+        raise BadInput(FILE_UNREADABLE(file=str(file), why=error.strerror)) from None
 
 
 def _accepted(file: Path, found: Trajectory) -> ConversionResult:

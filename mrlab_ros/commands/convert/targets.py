@@ -9,6 +9,13 @@ from collections import Counter
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
+from mrlab_ros.commands.convert.diagnostics import (
+    FOLDER_NOT_WRITABLE,
+    NOT_WRITTEN,
+    ONE_PICTURE,
+    TARGET_THERE,
+    WOULD_REPLACE_INPUT,
+)
 from mrlab_ros.core.errors import BadInput, Misuse
 
 PICTURES = (".png", ".svg", ".html")
@@ -20,15 +27,9 @@ def check_free(targets: Iterable[Path], inputs: Iterable[Path], *, force: bool) 
     read = {path.resolve(): path for path in inputs}
     for path in there:
         if path.resolve() in read:
-            raise Misuse(
-                f"'{path}' would be written and is read as well; give another folder with --out"
-            )
+            raise Misuse(WOULD_REPLACE_INPUT(file=str(path)))
     if there and not force:
-        more = f" and {len(there) - 1} more" if len(there) > 1 else ""
-        raise Misuse(
-            f"'{there[0]}'{more} is there already and nothing was written; give another folder, "
-            "or replace what is there with --force"
-        )
+        raise Misuse(TARGET_THERE(file=str(there[0]), more=len(there) - 1 or None))
 
 
 class Targets:
@@ -40,15 +41,13 @@ class Targets:
         Raises BadInput where nothing can be written there, Misuse where several inputs have one
         picture.
         """
-        self._problems: list[str] = []
-        folders = {"--out": out}
+        self._problems: list[tuple[str, str]] = []
+        folders = {"out": out}
         if plot is not None:
             is_picture = plot.suffix in PICTURES
             if is_picture and count > 1:
-                raise Misuse(
-                    f"--plot '{plot}' is one picture, and there are {count} files; give a folder"
-                )
-            folders["--plot"] = plot.parent if is_picture else plot
+                raise Misuse(ONE_PICTURE(file=str(plot), count=count))
+            folders["plot"] = plot.parent if is_picture else plot
         for option, folder in folders.items():
             if folder is not None:
                 _make(option, folder)
@@ -59,14 +58,13 @@ class Targets:
         try:
             yield
         except OSError as error:
-            place = f" '{error.filename}'" if error.filename else ""
-            self._problems.append(f"{error.strerror or error}{place}")
+            self._problems.append((error.strerror or str(error), str(error.filename or "")))
 
     def report(self) -> bool:
         """Say on stderr what was not written; return whether there was anything."""
-        for problem, count in Counter(self._problems).items():
-            times = f" ({count} times)" if count > 1 else ""
-            print(f"not written{times}: {problem}", file=sys.stderr)
+        for (why, file), count in Counter(self._problems).items():
+            times = count if count > 1 else None
+            print(NOT_WRITTEN(times=times, error=why, file=file), file=sys.stderr)
         return bool(self._problems)
 
 
@@ -76,6 +74,5 @@ def _make(option: str, folder: Path) -> None:
         tempfile.TemporaryFile(dir=folder).close()
     except OSError as error:
         raise BadInput(
-            f"{option} '{folder}' cannot be written ({error.strerror}); give a folder that you "
-            "may write to"
+            FOLDER_NOT_WRITABLE(option=option, folder=str(folder), error=error.strerror)
         ) from None

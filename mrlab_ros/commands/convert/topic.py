@@ -11,6 +11,12 @@ from rclpy.qos import qos_profile_best_available
 from rclpy.validate_full_topic_name import validate_full_topic_name
 from trajectory_msgs.msg import JointTrajectory  # type: ignore[import-untyped]
 
+from mrlab_ros.commands.convert.diagnostics import (
+    NO_MESSAGE,
+    NO_PUBLISHER,
+    NOT_A_TOPIC,
+    OTHER_TYPE,
+)
 from mrlab_ros.core.conversion.workspace import JOINT_TRAJECTORY
 from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.ros.calls import NoAnswer
@@ -29,7 +35,7 @@ def receive(topic: str, timeout: float) -> bytes:
     try:
         validate_full_topic_name(name)
     except InvalidTopicNameException as error:
-        raise Misuse(f"'{topic}' cannot be a topic: {str(error).splitlines()[0]}") from None
+        raise Misuse(NOT_A_TOPIC(topic=topic, why=str(error))) from None
     deadline = time.monotonic() + timeout
     received: list[bytes] = []
     with Graph() as graph:
@@ -40,25 +46,19 @@ def receive(topic: str, timeout: float) -> bytes:
             others = [
                 t for t, kinds in node.get_topic_names_and_types() if JOINT_TRAJECTORY in kinds
             ]
-            known = f"JointTrajectory is on {', '.join(sorted(others))}" if others else ""
             raise NoAnswer(
-                f"nobody publishes on {name} of ROS domain {graph.domain} within {timeout:g} s; "
-                + (known or "is ROS_DOMAIN_ID that of the publisher?")
+                NO_PUBLISHER(
+                    topic=name, domain=graph.domain, timeout=timeout, others=sorted(others)
+                )
             )
         kinds = {info.topic_type for info in node.get_publishers_info_by_topic(name)}
         if JOINT_TRAJECTORY not in kinds:
-            raise BadInput(
-                f"{name} carries {', '.join(sorted(kinds))}; expected {JOINT_TRAJECTORY}; name "
-                "the topic of a joint trajectory"
-            )
+            raise BadInput(OTHER_TYPE(topic=name, found=sorted(kinds), expected=JOINT_TRAJECTORY))
         node.create_subscription(
             JointTrajectory, name, received.append, qos_profile_best_available, raw=True
         )
         if not _until(lambda: bool(received), deadline):
-            raise NoAnswer(
-                f"{name} has a publisher, but no message came within {timeout:g} s; publish the "
-                "trajectory while this waits, or wait longer with --timeout"
-            )
+            raise NoAnswer(NO_MESSAGE(topic=name, timeout=timeout))
     return received[0]
 
 

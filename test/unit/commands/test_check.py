@@ -66,6 +66,7 @@ def test_a_collision_refuses_and_the_page_and_the_report_have_one_hash(tmp_path)
         (("--robot", "ur5e", "--tool", "hammer"), "no_end_effector", {}),
         (("--robot", "kuka_kr3_r540", "--scene", "table"), "model_not_in_scene",
          {"robot": "kuka_kr3_r540"}),
+        ((), "robot_not_named", {"file": "quintic_ur5e.mat"}),
         (("--robot", "ur5e", "--within", "5 miles"), "no_length", {"option": "within"}),
         (("--robot", "ur5e", "--within", "5"), "length_without_unit", {"text": "5"}),
         (("--robot", "ur5e", "--points", "nowhere.csv"), "points_not_read",

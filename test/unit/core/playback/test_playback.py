@@ -17,6 +17,11 @@ from mrlab_ros.core.playback import diagnostics as say
 from mrlab_ros.core.playback.playback import Playback
 from mrlab_ros.core.playback.states import TABLE, Event, State
 from mrlab_ros.core.playback.stream import LOST_AFTER_NS, Sample
+from mrlab_ros.core.trajectory.diagnostics import (
+    OF_ANOTHER_END_EFFECTOR,
+    OF_ANOTHER_MODEL,
+    OF_OTHER_JOINTS,
+)
 
 PERIOD = SECOND // 100
 START = 7 * SECOND
@@ -363,9 +368,9 @@ def test_a_member_obeys_its_system_alone():
 def test_a_trajectory_for_another_model_is_refused_and_changes_nothing():
     playback = on_start()
     before = playback.trajectory
-    with pytest.raises(BadInput, match="made for ur5e, this robot is a fake"):
+    with refused(OF_ANOTHER_MODEL, BadInput, made_for="ur5e", robot_model="fake"):
         playback.load(START, make_trajectory(robot_model="ur5e"))
-    with pytest.raises(BadInput, match="has the joints a, b"):
+    with refused(OF_OTHER_JOINTS, BadInput, found=["a", "b"]):
         playback.load(START, make_trajectory(joint_names=("a", "b")))
     assert playback.trajectory is before
 
@@ -454,7 +459,7 @@ def test_a_halt_is_not_cleared_by_command_while_the_arm_touches_something():
 def test_a_trajectory_for_another_end_effector_is_refused_until_it_is_fitted():
     playback = make()
     trajectory = replace(make_trajectory(), end_effector="gripper")
-    with pytest.raises(BadInput, match="end effector gripper, this robot carries none"):
+    with refused(OF_ANOTHER_END_EFFECTOR, BadInput, made_for="gripper"):
         playback.load(START, trajectory)
     assert playback.trajectory is None
     playback.end_effector = "gripper"

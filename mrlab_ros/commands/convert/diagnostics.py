@@ -1,0 +1,64 @@
+"""What `mrlab convert`, and other commands that take a file, say of their options."""
+
+from __future__ import annotations
+
+from mrlab_ros.core.base.diagnostic import Code
+
+ROBOT_NOT_NAMED = Code(
+    "robot_not_named",
+    "'{file}' does not say which robot it is for.",
+    "Add --robot, one of {known:list}.",
+)
+LIMIT_OUT_OF_RANGE = Code(
+    "limit_out_of_range",
+    "--{option} is {value:number}; expected {least:number} to {most:number} {unit}.",
+    "Leave it out for the usual limit.",
+)
+FILES_OR_TOPIC = Code(
+    "files_or_topic",
+    "Expected files or --topic, one of them.",
+    "For example: mrlab convert run.mat --robot ur5e.",
+)
+FOLDER_WITHOUT_FILES = Code(
+    "folder_without_files",
+    "The folder '{folder}' holds no {suffixes:either} file.",
+    "Give the folder with the workspaces.",
+)
+WOULD_REPLACE_INPUT = Code(
+    "would_replace_input",
+    "'{file}' would be written and is read as well.",
+    "Give another folder with --out.",
+)
+TARGET_THERE = Code(
+    "target_there",
+    "'{file}'[ and {more:integer} more] is there already, and nothing was written.",
+    "Give another folder, or replace what is there with --force.",
+)
+ONE_PICTURE = Code(
+    "one_picture",
+    "--plot '{file}' is one picture, and there are {count:integer} files.",
+    "Give a folder.",
+)
+FOLDER_NOT_WRITABLE = Code(
+    "folder_not_writable",
+    "--{option} '{folder}' cannot be written ({error}).",
+    "Give a folder that you may write to.",
+)
+NOT_WRITTEN = Code("not_written", "not written[ ({times:integer} times)]: {error}[ '{file}']")
+NOT_A_TOPIC = Code("not_a_topic", "'{topic}' cannot be a topic: {why:problem}.")
+NO_PUBLISHER = Code(
+    "no_publisher",
+    "Nobody publishes on {topic} of ROS domain {domain:integer} within {timeout:time}[; a "
+    "JointTrajectory is on {others:list}].",
+    "Name the topic of a joint trajectory, or set ROS_DOMAIN_ID as its publisher has it.",
+)
+OTHER_TYPE = Code(
+    "topic_of_other_type",
+    "{topic} carries {found:list}; expected {expected}.",
+    "Name the topic of a joint trajectory.",
+)
+NO_MESSAGE = Code(
+    "no_message_came",
+    "{topic} has a publisher, but no message came within {timeout:time}.",
+    "Publish the trajectory while this waits, or wait longer with --timeout.",
+)
