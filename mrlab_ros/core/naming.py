@@ -69,9 +69,3 @@ def close_to(name: str, known: Iterable[str]) -> str | None:
     if not close and len(wanted) > 1:
         close = [one for one in names if wanted in one]
     return close[0] if close else None
-
-
-def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """Return "; did you mean 'NAME'?" with the known name that is closest; empty: none is."""
-    close = close_to(name, known)
-    return f"; did you mean '{close}'?" if close else ""

@@ -325,12 +325,6 @@ def _is_number(value: object) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool)
 
 
-def alternatives(words: Iterable[str]) -> str:
-    """Return 'a', 'a or b', 'a, b or c'."""
-    *others, last = words
-    return f"{', '.join(others)} or {last}" if others else last
-
-
 def shown(value: object) -> str:
     """Return a value as an error shows it: short, and true or false as YAML writes them."""
     if isinstance(value, bool):

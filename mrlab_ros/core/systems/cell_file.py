@@ -26,6 +26,7 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Any
 
+from mrlab_ros.core.base.diagnostics import ONE_OF
 from mrlab_ros.core.clock import RATE_RANGE
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.records import (
@@ -40,7 +41,6 @@ from mrlab_ros.core.records import (
     Record,
     Texts,
     Words,
-    alternatives,
     at_least,
     between,
     entry_place,
@@ -70,8 +70,8 @@ class _Named(Choice[Any]):
         super().__init__({**names, **{member.value: member for member in kind}})
 
     @property
-    def expected(self) -> str:
-        return alternatives(key for key in self.values if isinstance(key, str))
+    def expected(self) -> Words:
+        return ONE_OF(choices=[key for key in self.values if isinstance(key, str)])
 
 
 MODE, POLICY = _Named(Mode), _Named(Policy)
