@@ -72,7 +72,7 @@ def test_a_headset_is_paired_by_a_phone_and_revoked(
     phone.goto(f"{gateway.url}/pair")
     phone.get_by_label("Code").fill("BBBB-BBBB")
     phone.get_by_role("button", name="Approve").click()
-    expect(phone.locator(".field-error")).to_contain_text("no device shows the code")
+    expect(phone.locator(".field-error")).to_contain_text("No device shows the code")
     phone.get_by_label("Code").fill(code.lower())
     phone.get_by_role("button", name="Approve").click()
     expect(phone.get_by_role("heading", name="is let in")).to_be_visible()

@@ -507,7 +507,7 @@ def test_the_lab_s_log_says_who_came_and_who_was_refused(graph, folders, endpoin
 @pytest.mark.parametrize(
     ("settings", "words"),
     [
-        ({"keys": "/nowhere/keys"}, "mrlab keys init --dir /nowhere/keys"),
+        ({"keys": "/nowhere/keys"}, "/nowhere/keys has no keys"),
         ({"keys": "KEYS", "listen": ["tcp/127.0.0.1:7447"]}, "leave the keys out"),
         ({"keys": "KEYS", "zenoh_config": "/a.json5"}, "expected one"),
         ({"listen": ["tls/127.0.0.1:7447"]}, "needs keys"),

@@ -19,7 +19,6 @@ CHECK_ENDED_EARLY = Code(
     "The check ended early (status {status:integer}), as when it needs too much memory or time.",
     "Check a shorter motion, or check it on your own machine.",
 )
-NO_LAB = Code("no_lab", "This gateway has no lab; start it with the endpoint of one.")
 ROBOTS_NOT_KNOWN = Code(
     "robots_not_known",
     "The lab does not say which robots it has; wait until it runs, then try again.",

@@ -14,8 +14,8 @@ from mrlab_ros.core.errors import LabError, Unavailable
 from mrlab_ros.core.trajectory.record import Record, Version
 from mrlab_ros.gateway.checks import answers
 from mrlab_ros.gateway.checks.desk import CheckDesk, Key, answer
-from mrlab_ros.gateway.checks.diagnostics import NO_LAB
 from mrlab_ros.gateway.checks.scene import SceneWatch
+from mrlab_ros.gateway.diagnostics import GATEWAY_WITHOUT_LAB
 from mrlab_ros.gateway.people.person import CurrentPerson, Person
 from mrlab_ros.gateway.people.rate_limits import Limit, RateLimit
 from mrlab_ros.gateway.share import directory
@@ -63,7 +63,7 @@ async def begin(
     Another check of the same robot ends; the same one, of an unchanged scene, is not run again.
     """
     if checking.scenes is None:
-        raise Unavailable(NO_LAB())
+        raise Unavailable(GATEWAY_WITHOUT_LAB())
     checking.limit.check(person.name, time.monotonic())
     key, record, version = await _key(shelf, person, wanted.robot, wanted.trajectory)
     scene = await checking.scenes.now()
