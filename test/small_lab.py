@@ -10,8 +10,10 @@ from mrlab_msgs import msg, srv
 from rclpy.node import Node
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.core.trajectory.diagnostics import NO_TRAJECTORY_OF_NAME
 from mrlab_ros.core.trajectory.trajectory import Channels, Source, Trajectory
 from mrlab_ros.messages import qos, trajectories
+from mrlab_ros.messages.texts import tell
 from mrlab_ros.nodes.coordinator.node import CoordinatorNode
 from mrlab_ros.nodes.lab.node import LabNode
 from mrlab_ros.nodes.playback.host import PlaybackHostNode
@@ -64,8 +66,8 @@ class Catalogue(Node):
     def _get(self, request, response):
         name = request.id.partition("@")[0]
         trajectory = None if name in UNREADABLE else TRAJECTORIES.get(name)
-        response.success = trajectory is not None
-        response.message = f"there is no trajectory '{request.id}'"
+        found = trajectory is not None
+        tell(response, found, None if found else NO_TRAJECTORY_OF_NAME(id=request.id))
         if trajectory is not None:
             response.trajectory = trajectories.trajectory_to_message(trajectory)
         return response
@@ -132,3 +134,8 @@ def listen_systems(graph: Graph):
 
 def state_of(systems) -> msg.RobotSystem:
     return systems[-1].systems[0]
+
+
+def value_of(said, name: str) -> str:
+    """Return a value of what an answer or a state says, as the wire has it."""
+    return next(each.value for each in said.values if each.key == name)

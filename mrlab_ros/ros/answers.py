@@ -133,7 +133,7 @@ def _offer(
         kind, name, lambda *taken: taken, **options, qos_profile=qos.SERVICES
     )
 
-    may_be_late = not moves(service.srv_name, kind)
+    may_be_late = not moves(node.resolve_service_name(name), kind)
 
     def carry_out(taken: tuple[Any, Any], header: Any) -> None:
         def send(answer: Any) -> None:

@@ -123,7 +123,7 @@ def test_a_goal_is_followed_with_feedback_and_ends_with_a_result(stage) -> None:
 @pytest.mark.parametrize(
     ("change", "code", "words"),
     [
-        ({"joint_names": ["a"]}, Result.INVALID_JOINTS, "with a"),
+        ({"joint_names": ["a"]}, Result.INVALID_JOINTS, "unknown: a"),
         ({"points": []}, Result.INVALID_GOAL, "no points"),
     ],
 )
@@ -173,7 +173,7 @@ def test_a_cancelled_goal_holds_and_a_new_one_replaces_it(stage) -> None:
     third = client.send(goal(path(model, (0.3, 0.05))))
     done = client.result(second)
     assert done.status == GoalStatus.STATUS_ABORTED
-    assert "a new goal came" in done.result.error_string
+    assert "new goal came" in done.result.error_string
     assert client.result(third).status == GoalStatus.STATUS_SUCCEEDED
 
 
@@ -187,7 +187,7 @@ def test_a_halt_and_a_stop_abort_a_goal(stage) -> None:
     done = client.result(handle)
     assert (done.status, done.result.error_string) == (
         GoalStatus.STATUS_ABORTED,
-        "the robot was stopped",
+        "The robot was stopped.",
     )
     handle = client.send(goal(path(model, (5.0, 0.5))))
     physics = graph.client.create_publisher(msg.Collision, f"/{robot}/collision", qos.LATCHED)
@@ -236,7 +236,7 @@ def test_a_stream_of_set_points_moves_the_robot(stage, reliability) -> None:
 
     def refused():
         publisher.publish(command)
-        return "refused: shoulder_pan_joint is 99 rad" in states.last().message
+        return states.last().code == "command_refused"
 
     wait_for(refused, "the refusal in the robot's state")
     wait_for(lambda: states.last().label == "PAUSED", "the end of the stream")
@@ -292,7 +292,7 @@ def test_what_is_refused_again_and_again_is_logged_once_a_second(stage, monkeypa
         return said("refuses a joint_trajectory") > 1
 
     refuse()
-    wait_for(lambda: said("99 rad in the joint") and said("refuses a joint_traj"), "the warnings")
+    wait_for(lambda: said(f"{robot}: shoulder") and said("refuses a joint_traj"), "the warnings")
     wait_for(lambda: "live" in {state.trajectory_id for state in states}, "the stream")
     # A good trajectory is played when all before it were refused.
     wait_for(lambda: states.last().label == "PAUSED", "the end of the stream")

@@ -5,9 +5,12 @@ from __future__ import annotations
 from types import SimpleNamespace
 
 import pytest
+from refusals import refused
 
 from mrlab_ros.commands import system
+from mrlab_ros.core.base.diagnostics import NAME_TAKEN, NO_ROBOT_IN_SCENE
 from mrlab_ros.core.errors import BadInput, Misuse
+from mrlab_ros.core.playback.diagnostics import MEMBER_OF_SYSTEM
 from mrlab_ros.core.systems.cell_file import MemberEntry, SystemEntry
 
 
@@ -19,7 +22,7 @@ class Graph:
 
     def robot(self, name):
         if name != "ur5e_1":
-            raise Misuse(f"no robot '{name}' is in the scene")
+            raise Misuse(NO_ROBOT_IN_SCENE(robot=name, known=["ur5e_1"]))
 
     def __enter__(self):
         return self
@@ -42,12 +45,12 @@ def entry(name, *robots):
 def test_robots_and_names_are_checked_first(systems):
     system._check_entry(Graph(), entry("", "ur5e_1"))
     system._check_entry(Graph(), entry("cell", "ur5e_1"))
-    with pytest.raises(Misuse, match="no robot 'kuka_1'"):
+    with refused(NO_ROBOT_IN_SCENE, Misuse, robot="kuka_1"):
         system._check_entry(Graph(), entry("cell", "ur5e_1", "kuka_1"))
-    with pytest.raises(BadInput, match="the name 'ur5e_1' is taken"):
+    with refused(NAME_TAKEN, BadInput, name="ur5e_1"):
         system._check_entry(Graph(), entry("ur5e_1", "ur5e_1"))
     systems.append(SimpleNamespace(name="cell", members=[SimpleNamespace(robot="ur5e_1")]))
-    with pytest.raises(Misuse, match="member of system 'cell' already"):
+    with refused(MEMBER_OF_SYSTEM, Misuse, robot="ur5e_1", system="cell"):
         system._check_entry(Graph(), entry("other", "ur5e_1"))
 
 
@@ -60,7 +63,7 @@ def test_a_refused_file_converts_nothing(systems, monkeypatch, tmp_path):
         "name: cell\nmembers:\n"
         "  - {robot: ur5e_1, trajectory: a.mat}\n  - {robot: kuka_1, trajectory: b.mat}\n"
     )
-    with pytest.raises(Misuse, match="no robot 'kuka_1'"):
+    with refused(NO_ROBOT_IN_SCENE, Misuse, robot="kuka_1"):
         system.create(file)
     assert not converted
 

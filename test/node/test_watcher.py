@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import json
 import time
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from graph import Graph, wait_for
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.playback.diagnostics import GOAL_LOST
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.diagnostics import troubles_in
 from mrlab_ros.processes.watcher import Watcher
@@ -16,24 +19,30 @@ from mrlab_ros.processes.watcher import Watcher
 def test_a_process_that_falls_silent_is_reported_by_another(
     graph: Graph, monkeypatch: pytest.MonkeyPatch
 ):
-    said: dict[str, str] = {}
+    said: dict[str, Diagnostic | None] = {}
     graph.client.create_subscription(
         DiagnosticArray,
         "/diagnostics",
         lambda message: said.update(troubles_in(message)),
         qos.LATCHED_EVENTS,
     )
+
+    def code(process: str) -> str:
+        return "" if said[process] is None else said[process].code
+
     lab = Watcher("lab", context=graph.context)
     playback = Watcher("playback", context=graph.context)
     try:
-        wait_for(lambda: said == {"lab": "", "playback": ""}, "signs of life")
+        wait_for(lambda: said == {"lab": None, "playback": None}, "signs of life")
         playback.close()
-        wait_for(lambda: "no sign of life for" in said["playback"], "the report")
+        wait_for(lambda: code("playback") == "process_silent", "the report")
         playback = Watcher("playback", restarts=1, last_exit="SIGKILL", context=graph.context)
-        playback.lost = ["ur5e_1 has lost wave"]
-        wait_for(lambda: "died (SIGKILL)" in said["playback"], "the restart")
-        wait_for(lambda: "lost: ur5e_1 has lost wave" in said["playback"], "what was lost")
-        assert said["lab"] == ""
+        playback.lost = [GOAL_LOST(robot="ur5e_1")]
+        wait_for(lambda: code("playback") == "died_and_lost", "what was lost")
+        values = said["playback"].values
+        assert values["last_exit"] == "SIGKILL"
+        assert json.loads(values["lost"])["code"] == "goal_lost"
+        assert said["lab"] is None
         # The middleware names the nodes again when an end is made.
         made: list[str] = []
         make = lab._node.create_publisher
@@ -42,7 +51,7 @@ def test_a_process_that_falls_silent_is_reported_by_another(
         )
         # As if it had not run since.
         lab._watch.look(time.monotonic() - 5.0)
-        wait_for(lambda: "did not run for about" in said["lab"], "the freeze")
+        wait_for(lambda: code("lab") == "did_not_run", "the freeze")
         assert made
     finally:
         for watcher in (lab, playback):
