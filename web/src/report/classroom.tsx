@@ -363,6 +363,7 @@ function Picture({ result, spots = true }: { result: ClassResult; spots?: boolea
   return (
     <Linked to={page}>
       <Thumbnail way={path} reference={reference} scale={scale} lost={lost} />
+      <span class="spoken">{words.value.report.class.motion}</span>
     </Linked>
   )
 }

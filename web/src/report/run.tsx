@@ -167,7 +167,7 @@ function Figures({ run }: { run: SessionRun }) {
 
 /** The unit and factor in which a series is shown. */
 function shownIn({ quantity }: MeasuredSeries) {
-  return quantity === 'tracking' ? { unit: '°', scale: DEGREES } : { unit: 'ms', scale: 1000 }
+  return { unit: quantity === 'tracking' ? 'mrad' : 'ms', scale: 1000 }
 }
 
 /** What was measured of the lab itself: a table, and a strip for each. */

@@ -114,7 +114,7 @@ function View(props: ViewProps) {
   const x = (value: number) => LEFT + width / 2 + (value - centreX) * scale
   const y = (value: number) => TOP + height / 2 - (value - centreY) * scale
   const [right, bottom] = [LEFT + width, TOP + height]
-  const step = roundStep(Math.min(width, height) / scale / 2.5)
+  const step = roundStep(Math.min(width, height) / scale / 3)
   const marksOf = (centre: number, extent: number) => {
     const half = extent / scale / 2
     const first = Math.ceil((centre - half) / step)
