@@ -11,13 +11,14 @@ import numpy as np
 from small_lab import make
 
 from mrlab_ros.adapters.trajectories import json_file
-from mrlab_ros.core.base.diagnostic import plain
+from mrlab_ros.core.base.diagnostic import Severity, plain
 from mrlab_ros.core.checking.diagnostics import CHECK_READY, COLLISION
 from mrlab_ros.core.classroom.diagnostics import NO_FILE_HANDED_IN
 from mrlab_ros.core.rubrics import diagnostics
 
 TOUCHES = {"link": "wrist_3_link", "kind": "object", "other": "cube_1", "time": 0.2}
 TOUCHED = plain(diagnostics.TOUCHES(**TOUCHES))
+SLOW = plain(diagnostics.CYCLE_TIME(value=9.0, limit=8.0, unit="s", severity=Severity.WARNING))
 HIT = COLLISION(**TOUCHES, robot="ur5e_1", end=0.3, value=0.01, unit="m", point=(0.4, 0.1, 0.2))
 
 
@@ -49,7 +50,7 @@ def make_class(folder: Path, frames: int = 50) -> Path:
         entry(
             "ben",
             mark("no collision", 0, 2, time=0.2, found=TOUCHED, hint="Lift it"),
-            mark("cycle below 8 s", 0.5, 1),
+            mark("cycle below 8 s", 0.5, 1, found=SLOW),
             findings=[plain(HIT)],
         ),
         entry(

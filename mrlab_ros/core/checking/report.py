@@ -117,10 +117,9 @@ def digest(document: Any) -> str:
 
 def in_order(findings: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
     """Return the findings that refuse first, each kind by time; the same one once."""
-    kept = {(f.code, f.robot, f.link, f.joint, f.time, f.message): f for f in findings}
     return tuple(
         sorted(
-            kept.values(),
+            dict.fromkeys(findings),
             key=lambda f: (-f.severity, f.time if f.time is not None else -1.0, f.robot, f.code),
         )
     )

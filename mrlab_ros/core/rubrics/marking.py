@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
-from mrlab_ros.core.base.diagnostic import Diagnostic, plain
+from mrlab_ros.core.base.diagnostic import Diagnostic, Severity, plain
 from mrlab_ros.core.checking.report import rounded
 from mrlab_ros.core.rubrics.checked import Checked
 from mrlab_ros.core.rubrics.diagnostics import NO_MOTION_TO_MARK
@@ -99,12 +99,14 @@ def _marked(test: Test, checked: Checked, reference: Checked | None) -> Mark:
         )
     found = test.measure.assess(checked, reference)
     passed = found.share >= 1.0 - ROUNDING
+    points = test.points if passed else points_of(test.points, found.share)
+    severity = Severity.INFO if passed else Severity.WARNING if points else Severity.ERROR
     return Mark(
         test.name,
-        test.points if passed else points_of(test.points, found.share),
+        points,
         test.points,
         passed,
-        found.found,
+        replace(found.found, severity=severity),
         test.hint,
         test.hidden,
         None if passed else found.time,

@@ -10,7 +10,7 @@ from typing import Any
 import orjson
 
 from mrlab_ros.adapters.trajectories import json_file
-from mrlab_ros.core.base.diagnostic import PLACE, Diagnostic, Severity, from_plain
+from mrlab_ros.core.base.diagnostic import PLACE, Diagnostic, from_plain
 from mrlab_ros.core.errors import BadInput, Unavailable
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.gateway.classroom.diagnostics import (
@@ -110,7 +110,7 @@ def _lost(entry: Mapping[str, Any]) -> Iterator[Diagnostic]:
                 test=mark["name"],
                 found=found,
                 hint=mark.get("hint"),
-                severity=Severity.WARNING if mark["points"] > 0 else Severity.ERROR,
+                severity=found.severity,
             )
 
 

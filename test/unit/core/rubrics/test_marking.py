@@ -52,6 +52,8 @@ def test_marks_are_the_sum_of_their_tests_and_never_more_than_the_points(entries
         assert one.points <= points
         assert abs(one.points - share * points) <= 0.01 + 1e-6
         assert (one.time is None) == one.passed
+        assert (one.found.severity is Severity.INFO) == one.passed
+        assert one.found.refuses == (not one.passed and one.points == 0)
 
 
 @given(TESTS)
