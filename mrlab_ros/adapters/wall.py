@@ -22,6 +22,7 @@ import sys
 import sysconfig
 from collections.abc import Iterable, Iterator, Sequence
 from functools import cache
+from importlib import machinery
 from pathlib import Path
 
 PR_SET_NO_NEW_PRIVS, PR_GET_SECCOMP, PR_SET_SECCOMP, SECCOMP_MODE_FILTER = 38, 21, 22, 2
@@ -90,6 +91,10 @@ LIMITS = (resource.RLIMIT_AS, resource.RLIMIT_NOFILE, resource.RLIMIT_CPU, resou
 CLONE, NEW_NAMESPACES = (56, 220), 0x7E020080
 CLONE3 = (435, 435)  # its flags lie in memory; without it the C library takes clone
 
+# Folders that hold nothing but packages, and what else installers put beside a package.
+SITES = ("site-packages", "dist-packages")
+DISTRIBUTION = (".dist-info", ".egg-info", ".libs")
+
 
 def confine(*, memory: int, seconds: float, file_size: int) -> None:
     """Limit this process: bytes beyond those it has, s of a processor, bytes of a file.
@@ -149,8 +154,13 @@ def layers() -> dict[str, bool]:
 
 
 def libraries() -> tuple[Path, ...]:
-    """Return what a process that imports and computes reads of the system and of Python."""
-    named = {*sysconfig.get_paths().values(), sys.prefix, sys.base_prefix, *sys.path}
+    """Return what a process that imports and computes reads of the system and of Python.
+
+    Of a folder that PYTHONPATH adds, such as a source tree, the packages alone: keys and a
+    teacher's solutions may lie beside them.
+    """
+    own = {*sysconfig.get_paths().values(), sys.prefix, sys.base_prefix}
+    named = own | {part for entry in sys.path if entry for part in _importable(Path(entry), own)}
     # packages whose files are links to those in a source tree
     loaded = [m for m in list(sys.modules.values()) if getattr(m, "__path__", None)]
     named |= {str(Path(m.__file__).resolve().parent) for m in loaded if m.__file__}
@@ -159,6 +169,21 @@ def libraries() -> tuple[Path, ...]:
     devices = ("/usr/share/zoneinfo", "/dev/urandom")
     found = {Path(name).resolve() for name in (*named, *system, *devices) if name}
     return tuple(sorted(path for path in found if path.exists() and path != Path("/")))
+
+
+def _importable(entry: Path, own: Iterable[str]) -> list[str]:
+    """Return what Python imports from an entry of its path."""
+    if not entry.is_dir() or entry.name in SITES or str(entry) in own:
+        return [str(entry)]
+    with contextlib.suppress(OSError):
+        return [
+            str(part)
+            for part in entry.iterdir()
+            if part.suffix in DISTRIBUTION
+            or (part / "__init__.py").is_file()
+            or (part.name.endswith(tuple(machinery.all_suffixes())) and part.is_file())
+        ]
+    return []
 
 
 @cache

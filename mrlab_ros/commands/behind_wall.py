@@ -38,7 +38,7 @@ def run(
     the packages and the lab's own files. Raises BadInput where it does.
     """
     kept = {key: os.environ[key] for key in KEPT if key in os.environ}
-    known = [share.directory(), imported_folder(), *installed.packages(), *installed.indices()]
+    known = [*share.folders(), imported_folder(), *installed.packages(), *installed.indices()]
     with tempfile.TemporaryDirectory(prefix="mrlab-") as scratch:
         places = {"TMPDIR": scratch, "MPLCONFIGDIR": scratch}
         width = {"COLUMNS": str(shutil.get_terminal_size().columns)}

@@ -7,6 +7,8 @@ from pathlib import Path
 
 from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
 
+DATA = ("config", "robots", "launch", "examples", "web", "msg_schemas")
+
 
 @cache
 def directory() -> Path:
@@ -18,3 +20,8 @@ def directory() -> Path:
         return Path(get_package_share_directory("mrlab_ros"))
     except PackageNotFoundError:
         return Path(__file__).resolve().parents[2]
+
+
+def folders() -> list[Path]:
+    """Return the folders of directory() that hold data; in a source tree others lie beside."""
+    return [directory() / name for name in DATA if (directory() / name).is_dir()]

@@ -30,6 +30,7 @@ from mrlab_ros.core.errors import BadInput
 
 SUFFIXES = (".urdf", ".xacro")
 MOST_BYTES = 64 << 20  # of a URDF
+OTHERS = 0o077  # what the mode of a file or folder gives to others than its owner
 
 
 def find_description(source: str) -> Path:
@@ -162,11 +163,20 @@ class MeshFinder:
 
 
 def _shown(folder: Path) -> list[Path]:
-    """Return what lies in a folder; nothing hidden, such as keys or .git with its addresses."""
+    """Return what lies in a folder; nothing hidden, such as .git with its addresses.
+
+    Nothing either that is closed to other users in a folder that is not, such as a lab's keys.
+    """
+    if not folder.is_dir():
+        return [folder]
+    closed = not folder.stat().st_mode & OTHERS
     return [
         child
         for child in folder.iterdir()
-        if not child.name.startswith(".") and child.resolve().is_relative_to(folder)
+        if not child.name.startswith(".")
+        and child.exists()  # no link to nowhere
+        and child.resolve().is_relative_to(folder)
+        and (closed or child.stat().st_mode & OTHERS)
     ]
 
 

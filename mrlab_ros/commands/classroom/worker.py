@@ -26,7 +26,7 @@ from typing import Any
 import numpy as np
 import orjson
 
-from mrlab_ros.adapters import wall
+from mrlab_ros.adapters import installed, wall
 from mrlab_ros.adapters.guarded_streams import guard
 from mrlab_ros.adapters.trajectories import json_file
 from mrlab_ros.adapters.workspaces.reader import Limits
@@ -67,7 +67,7 @@ class Warm:
     def __init__(self, setup: Setup, scratch: Path) -> None:
         self.setup = setup
         self.share = share.directory()
-        self.readable = (*wall.libraries(), self.share)
+        self.readable = (*wall.libraries(), *share.folders(), *installed.packages())
         convert = Inside(Limits(memory=setup.bounds.memory, time=setup.bounds.wall))
         base = setup.setting(self.share)
         values = {**vars(base), "convert": convert, "drawn": True}

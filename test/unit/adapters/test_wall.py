@@ -134,3 +134,14 @@ def test_nothing_opens_without_a_descriptor_and_afterwards_it_does(given):
     with wall.nothing_opens(), pytest.raises(OSError, match="Too many open files"):
         (given / "read" / "file").read_text()
     assert (given / "read" / "file").read_text() == "in read"
+
+
+def test_of_a_folder_on_the_path_of_imports_its_modules_alone_are_read(tmp_path, monkeypatch):
+    for name in ("package", "keys", "a-1.dist-info"):
+        (tmp_path / name).mkdir()
+    for name in ("package/__init__.py", "module.py", "solution.mat", "keys/ca.key"):
+        (tmp_path / name).touch()
+    monkeypatch.syspath_prepend(tmp_path)
+    here = tmp_path.resolve()
+    found = {path for path in wall.libraries() if path.is_relative_to(here)}
+    assert found == {here / name for name in ("package", "module.py", "a-1.dist-info")}

@@ -72,6 +72,22 @@ def test_a_xacro_finds_installed_packages(folder: Path, monkeypatch: pytest.Monk
     monkeypatch.setenv("AMENT_PREFIX_PATH", f"{prefix}:{os.environ['AMENT_PREFIX_PATH']}")
     text = expanded(folder, '<xacro:include filename="$(find linked)/a.xacro"/>')
     assert 'name="installed"' in text
+    # what lies in the source tree and is not installed
+    (source / "keys").mkdir()
+    (source / "keys" / "secret.yaml").write_text("word: secret_word\n")
+    with pytest.raises(BadInput, match="Permission denied"):
+        expanded(folder, f"<link name=\"${{load_yaml('{source}/keys/secret.yaml')['word']}}\"/>")
+
+
+def test_a_xacro_reads_nothing_of_a_source_tree_that_is_no_module(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    tree = folder.parent / "tree"
+    (tree / "keys").mkdir(parents=True)
+    (tree / "keys" / "secret.yaml").write_text("word: secret_word\n")
+    monkeypatch.setenv("PYTHONPATH", f"{tree}:{os.environ['PYTHONPATH']}")
+    with pytest.raises(BadInput, match="Permission denied"):
+        expanded(folder, f"<link name=\"${{load_yaml('{tree}/keys/secret.yaml')['word']}}\"/>")
 
 
 @pytest.mark.parametrize(
@@ -98,6 +114,18 @@ def test_a_xacro_reads_nothing_hidden_in_a_package(folder: Path) -> None:
             other=folder.parent / "other",
         )
     assert "secret_word" not in str(caught.value)
+
+
+def test_a_xacro_reads_nothing_in_a_package_that_is_closed_to_others(folder: Path) -> None:
+    other = folder.parent / "other"
+    (other / "keys").mkdir(parents=True)
+    (other / "keys" / "secret.yaml").write_text("word: secret_word\n")
+    other.chmod(0o755)
+    asks = "<link name=\"${load_yaml('$(find other)/keys/secret.yaml')['word']}\"/>"
+    assert "secret_word" in expanded(folder, asks, other=other)
+    (other / "keys").chmod(0o700)
+    with pytest.raises(BadInput, match="Permission denied"):
+        expanded(folder, asks, other=other)
 
 
 @pytest.mark.parametrize(
