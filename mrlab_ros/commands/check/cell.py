@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from mrlab_ros.adapters.checking.apart import smallest_waits
 from mrlab_ros.adapters.checking.stage import Played, Stage, first_link
+from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.scenes import files as scene_files
 from mrlab_ros.commands.check.diagnostics import (
     MEMBER_FILE_MISSING,
@@ -21,7 +22,7 @@ from mrlab_ros.commands.check.diagnostics import (
     ROBOTS_TWICE,
 )
 from mrlab_ros.commands.convert import batch
-from mrlab_ros.commands.convert.one_file import of_trajectory_file
+from mrlab_ros.commands.convert.one_file import converted, of_trajectory_file
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, of_text, plain
 from mrlab_ros.core.checking import motion
 from mrlab_ros.core.checking.diagnostics import (
@@ -47,6 +48,10 @@ from mrlab_ros.core.systems.cell_file import MemberEntry, SystemEntry
 from mrlab_ros.core.systems.timeline import Mode
 from mrlab_ros.core.systems.waits import parse
 from mrlab_ros.core.trajectory.trajectory import Channels, Trajectory
+
+# A file, the model that it is for, and its end effector, empty: none
+Motion = tuple[Path, str, str]
+Convert = Callable[[Path, str, str, Options, RobotLibrary], ConversionResult]
 
 # Waits that are rehearsed before the search gives up.
 MOST_REHEARSED = 3
@@ -125,26 +130,30 @@ def read(file: Path, scene: SceneDocument, named: str) -> tuple[SystemEntry, Sce
 
 
 def load(
-    file: Path, system: SystemEntry, scene: SceneDocument, stage: Stage, options: Options
+    file: Path,
+    system: SystemEntry,
+    scene: SceneDocument,
+    stage: Stage,
+    options: Options,
+    convert: Convert = converted,
 ) -> Cell:
-    """Convert the motions of all members; files are beside the cell. Raises LabError."""
+    """Convert the motions of all members; files are beside the cell. Raises LabError.
+
+    convert: reads a motion; the one that starts a process for it starts several at once.
+    """
     robots = [stage.robot(r.name, r.model, r.end_effector, r.pose) for r in scene.robots]
     by_name = {robot.name: robot for robot in robots}
     loaded = {robot.name: robot.trajectory for robot in scene.robots}
-    wanted: dict[tuple[Path, str, str], batch.Wanted] = {}
-    keys: dict[str, tuple[Path, str, str]] = {}
-    results: dict[tuple[Path, str, str], ConversionResult] = {}
+    keys: dict[str, Motion] = {}
     for member in system.members:
         robot = by_name[member.robot]
         path = _path(file, member, loaded[member.robot])
-        key = (path, robot.model.id, robot.end_effector)
-        keys[member.robot] = key
-        given = of_trajectory_file(path)
-        if given is not None:
-            results[key] = given
-        else:
-            wanted[key] = batch.Wanted(path, robot.model, options, robot.end_effector or None)
-    results |= zip(wanted, batch.convert_files(list(wanted.values())), strict=True)
+        keys[member.robot] = (path, robot.model.id, robot.end_effector)
+    wanted = list(dict.fromkeys(keys.values()))
+    if convert is converted:
+        results = _converted(wanted, stage, options)
+    else:
+        results = {key: convert(*key, options, stage.library) for key in wanted}
     found = {name: results[key] for name, key in keys.items()}
     trajectories = {}
     for name, result in found.items():
@@ -159,6 +168,23 @@ def load(
             )
         trajectories[name] = _at_rate(result.trajectory, system.rate)
     return Cell(system.name or file.stem, system, scene, robots, found, trajectories)
+
+
+def _converted(
+    motions: Sequence[Motion], stage: Stage, options: Options
+) -> dict[Motion, ConversionResult]:
+    """Convert motions in processes of their own, several at once."""
+    wanted: dict[Motion, batch.Wanted] = {}
+    results: dict[Motion, ConversionResult] = {}
+    for key in motions:
+        path, model, end_effector = key
+        given = of_trajectory_file(path)
+        if given is not None:
+            results[key] = given
+        else:
+            robot = stage.library.model(model)
+            wanted[key] = batch.Wanted(path, robot, options, end_effector or None)
+    return results | dict(zip(wanted, batch.convert_files(list(wanted.values())), strict=True))
 
 
 def _path(file: Path, member: MemberEntry, loaded: str) -> Path:

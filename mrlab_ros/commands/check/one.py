@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from mrlab_ros.adapters.checking.stage import Played, Stage, first_link
-from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.scenes import files as scene_files
 from mrlab_ros.adapters.scenes.files import SceneFiles
 from mrlab_ros.commands.check import cell
@@ -31,8 +29,6 @@ from mrlab_ros.core.rubrics.checked import Checked, Motion
 from mrlab_ros.core.scene.document import RobotEntry, SceneDocument
 from mrlab_ros.core.systems.cell_file import plain_system
 from mrlab_ros.core.trajectory.trajectory import Trajectory
-
-Convert = Callable[[Path, str, str, Options, RobotLibrary], ConversionResult]
 
 CELLS = (".yaml", ".yml")
 # A file that the converter refuses for these holds a motion, which is not ready.
@@ -58,7 +54,7 @@ class Setting:
     points: tuple[Vector, ...] = ()
     within: float = 0.005
     drawn: bool = True
-    convert: Convert = converted
+    convert: cell.Convert = converted
 
 
 @dataclass(frozen=True, eq=False)
@@ -163,7 +159,7 @@ def _refused(file: str, why: Diagnostic) -> ConversionResult:
 
 def _cell(file: Path, setting: Setting) -> CheckedFile:
     system, scene = cell.read(file, setting.scene, setting.scene_name)
-    loaded = cell.load(file, system, scene, setting.stage, setting.options)
+    loaded = cell.load(file, system, scene, setting.stage, setting.options, setting.convert)
     played, pairs, delay = cell.rehearse(loaded, setting.stage, setting.closest)
     inputs = {
         **setting.stage.inputs(loaded.robots, scene),

@@ -127,6 +127,32 @@ def test_a_class_is_marked_kept_and_the_same_however_it_is_run(submissions, tmp_
     assert names.stat().st_mode & 0o077 == 0
 
 
+def test_cells_of_a_class_reach_their_own_motions_only(tmp_path):
+    rubric = tmp_path / "rubric.yaml"
+    rubric.write_text(
+        "name: A cell\nscene: handover\ntests:\n"
+        "  - {name: Nothing is hit, expect: no collision, points: 2}\n"
+    )
+    handed_in, kept = tmp_path / "submissions", tmp_path / "kept"
+    for name in ("anna", "ben"):
+        (handed_in / name).mkdir(parents=True)
+    kept.mkdir()
+    cell = (ROOT / "examples" / "handover_cell.yaml").read_text()
+    for motion in ROOT.glob("examples/two_robot_handover_*.mat"):
+        shutil.copy(motion, handed_in / "anna")
+        shutil.copy(motion, kept)
+    (handed_in / "anna" / "cell.yaml").write_text(cell)
+    others = cell.replace("trajectory: ", f"trajectory: {kept}/")
+    (handed_in / "ben" / "cell.yaml").write_text(others)
+    out = tmp_path / "marked"
+    said = grade(handed_in, "--rubric", rubric, "--out", out, "--jobs", 1, "--no-pages")
+    assert said.exit_code == 0, said.stdout + said.stderr
+    found = {s["name"]: s for s in json.loads((out / "class.json").read_text())["students"]}
+    assert (found["anna"]["points"], found["anna"]["file"]) == (2, "cell.yaml")
+    assert found["ben"]["points"] == 0
+    assert "Permission denied" in found["ben"]["words"]
+
+
 @pytest.mark.parametrize(
     ("words", "code", "values"),
     [
