@@ -11,10 +11,11 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from mrlab_ros.adapters import private_folder
+from mrlab_ros.ros import fast_dds
 
 # Any of these says that the user has chosen whom the graph can see.
 DISCOVERY = (
-    "ROS_AUTOMATIC_DISCOVERY_RANGE",
+    fast_dds.RANGE,
     "ROS_DISCOVERY_SERVER",
     "ROS_LOCALHOST_ONLY",
     "ROS_STATIC_PEERS",
@@ -22,13 +23,14 @@ DISCOVERY = (
 
 
 def graph_range(asked: str = "localhost") -> dict[str, str]:
-    """Return the variables that say who finds the graph; none where the user has set one.
+    """Return the variables that say who finds and reaches the graph; none where the user has.
 
     asked: localhost, or subnet: everybody on this network, without a key.
     """
     if asked == "localhost" and any(os.environ.get(name) for name in DISCOVERY):
         return {}
-    return {"ROS_AUTOMATIC_DISCOVERY_RANGE": asked.upper()}
+    reach = {fast_dds.RANGE: asked.upper()}
+    return reach | fast_dds.settings({**os.environ, **reach})
 
 
 def stay_on_this_machine() -> None:
