@@ -18,6 +18,7 @@ from mrlab_ros.commands import output
 from mrlab_ros.commands.diagnostics import EXTRACTED
 from mrlab_ros.commands.output import AsJson, say
 from mrlab_ros.core.base.diagnostic import plain
+from mrlab_ros.core.foreign_text import visible
 
 if TYPE_CHECKING:
     from mrlab_ros.adapters.bags.courses import Reference
@@ -101,7 +102,7 @@ def repaired(path: str, as_json: bool) -> None:
         print(json.dumps(plain(asdict(done))))
         return
     for trouble in done.troubles:
-        print(trouble)
+        print(visible(trouble))
     if not done.files:
         print(f"the bag is whole, with {done.messages} messages; there is nothing to mend")
         return
@@ -234,7 +235,8 @@ def reported(
 
     found = opened(bag)
     session = read_session(found, None if compared is None else _reference(*compared))
-    lines = [_title(found), *report_lines(session, output.with_fixes)]
+    # a name in it may hold the end of a line
+    lines = [visible(_title(found)), *report_lines(session, output.with_fixes)]
     text = "\n".join(lines) + "\n"
     said = {"bag": str(found.path.resolve()), **session.facts()}
     facts = json.dumps(said, indent=2) + "\n"
@@ -322,13 +324,13 @@ def _print(bag: Bag) -> None:
     table.add_column("Hz", justify="right")
     for topic in sorted(bag.topics.values(), key=lambda topic: topic.name):
         rate = "latched" if topic.latched else f"{topic.messages / max(bag.duration, 1e-9):.1f}"
-        table.add_row(topic.name, topic.type, str(topic.messages), rate)
+        table.add_row(visible(topic.name), visible(topic.type), str(topic.messages), rate)
     console.print(table)
     attachments = bag.attachments()
     groups: dict[str, list[int]] = {}
     for name, size in attachments.items():
         groups.setdefault(name.split("/")[0], []).append(size)
     for name, sizes in groups.items():
-        console.print(f"{name}: {len(sizes)} attached, {sum(sizes) / 1e3:.0f} kB")
+        console.print(f"{visible(name)}: {len(sizes)} attached, {sum(sizes) / 1e3:.0f} kB")
     for name, version in bag.versions().items():
-        console.print(f"{name} {version}")
+        console.print(visible(f"{name} {version}"))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 import sys
 import tempfile
 from collections import Counter
@@ -24,9 +25,10 @@ PICTURES = (".png", ".svg", ".html")
 def check_free(targets: Iterable[Path], inputs: Iterable[Path], *, force: bool) -> None:
     """Raise Misuse where writing `targets` would replace an input, or any file without `force`."""
     there = [path for path in targets if path.exists()]
-    read = {path.resolve(): path for path in inputs}
+    # not Path.resolve, which raises for a loop of links
+    read = set(map(os.path.realpath, inputs))
     for path in there:
-        if path.resolve() in read:
+        if os.path.realpath(path) in read:
             raise Misuse(WOULD_REPLACE_INPUT(file=str(path)))
     if there and not force:
         raise Misuse(TARGET_THERE(file=str(there[0]), more=len(there) - 1 or None))

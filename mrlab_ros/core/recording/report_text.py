@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.phrase import QUANTITIES
+from mrlab_ros.core.foreign_text import visible
 from mrlab_ros.core.recording.report import Hop, Series, SessionReport
 from mrlab_ros.core.recording.runs import Run
 
@@ -15,14 +16,19 @@ NOTHING = 1e-9
 
 
 def report_lines(report: SessionReport, worded: Callable[[Diagnostic], str] = str) -> list[str]:
-    """Return the report as lines of text. worded: returns what is said of a trouble."""
-    lines = [str(report.summary), *map(worded, report.troubles), ""]
-    lines += _table(report.runs)
+    """Return the report as lines of text. worded: returns what is said of a trouble.
+
+    A name in a bag may hold the end of a line: it is shown, and ends none.
+    """
+    lines = _table(report.runs)
     idle = without_runs(report)
     if idle:
         lines += ["", f"without a run: {', '.join(idle)}"]
     technical = technical_lines(report)
-    return [*lines, "", "technical", *technical] if technical else lines
+    if technical:
+        lines += ["", "technical", *technical]
+    head = [visible(str(report.summary)), *map(worded, report.troubles), ""]
+    return [*head, *map(visible, lines)]
 
 
 def without_runs(report: SessionReport) -> list[str]:

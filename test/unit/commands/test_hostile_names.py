@@ -56,7 +56,8 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     writer = BagWriter(folder / "bag", lambda kind: ("", ""))
     writer.attach("scene.json", NAME, b"{}", 0)
     writer.close()
-    topic = "/a" + NAME.replace("\n", "")
+    (folder / "mats" / "loop.mat").symlink_to("loop.mat")
+    topic = "/a" + NAME
     with Writer(folder / "other", version=9, storage_plugin=StoragePlugin.SQLITE3) as other:
         given = other.add_connection(
             topic, "std_msgs/msg/String", msgdef="string data\n", rihs01="RIHS01_0"
@@ -87,6 +88,7 @@ CASES = {
     "bag info": ["bag", "info", "bag"],
     "bag info of another": ["bag", "info", "other"],
     "bag report": ["bag", "report", "bag"],
+    "bag report of another": ["bag", "report", "other"],
     "bag extract": ["bag", "extract", "bag", "--out", "extracted"],
     "class": ["class", "class", "--rubric", str(RUBRIC), "--out", "marks", "--jobs", "1"],
     "robots import": ["robots", "import", "arm.urdf"],
@@ -107,7 +109,7 @@ def test_names_act_on_no_terminal(folder: Path, words: list[str]) -> None:
 
 def test_every_file_of_a_batch_is_reported(folder: Path) -> None:
     out, err, _ = mrlab(folder, "convert", "mats", "--robot", "ur5e", "--json", colours=False)
-    assert len([json.loads(line) for line in out.split("\n") if line]) == 4
+    assert len([json.loads(line) for line in out.split("\n") if line]) == 5
     assert not ACTS.search(out + err)
 
 
