@@ -125,6 +125,21 @@ def test_a_wall_with_folders_lets_only_these_open(given, listener):
     assert set(told.values()) == {"did"}, told
 
 
+@needs_kernel
+@pytest.mark.parametrize("version", [1, 2, 3])
+def test_on_an_older_kernel_no_file_elsewhere_is_emptied(given, monkeypatch, version):
+    monkeypatch.setattr(wall, "landlock_version", lambda: version)
+    kept = given / "keys" / "file"
+    told = outcomes(
+        {"truncate": lambda: os.truncate(kept, 0), "open": lambda: kept.open("w")},
+        read=wall.libraries(),
+        write=[given / "write"],
+        opens=True,
+    )
+    assert refused(told) == {"truncate", "open"}, told
+    assert kept.read_text() == "in keys"
+
+
 def test_files_are_named_only_where_something_may_open(given):
     with pytest.raises(ValueError, match="nobody may open"):
         wall.shut(read=[given])
