@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import itertools
 import os
 from pathlib import Path
 
 from ament_index_python.packages import get_packages_with_prefixes
 from ament_index_python.search_paths import get_search_paths
+
+MOST_LINKS = 8  # that follow one another to a file
 
 
 def packages() -> list[Path]:
@@ -27,13 +30,29 @@ def _places(share: Path) -> set[Path]:
     manifest = share / "package.xml"
     if manifest.is_symlink():
         tree = manifest.resolve().parent
-        for folder, folders, files in os.walk(share):
-            paths = (Path(folder, name) for name in (*folders, *files))
-            for target in (path.resolve() for path in paths if path.is_symlink()):
-                alone = target.is_dir() or target.parent == tree
-                found.add(target if alone else target.parent)
+        ends = {
+            _end(os.path.join(folder, name))
+            for folder, *names in os.walk(share)
+            for name in itertools.chain(*names)
+            if os.path.islink(os.path.join(folder, name))
+        }
+        # there are a thousand files, and their folders are few
+        folders = {folder: Path(folder).resolve() for folder in set(map(os.path.dirname, ends))}
+        for end in ends:
+            folder = folders[os.path.dirname(end)]
+            alone = folder == tree or os.path.isdir(end)
+            found.add(Path(end).resolve() if alone else folder)
         found -= {tree, *tree.parents}
     return found
+
+
+def _end(path: str) -> str:
+    """Return what a link leads to at last, as it is written there."""
+    for _ in range(MOST_LINKS):
+        if not os.path.islink(path):
+            break
+        path = os.path.join(os.path.dirname(path), os.readlink(path))
+    return path
 
 
 def indices() -> list[Path]:
