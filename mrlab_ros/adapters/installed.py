@@ -56,6 +56,8 @@ def _end(path: str) -> str:
 
 
 def indices() -> list[Path]:
-    """Return the folders by which the packages are found."""
+    """Return the folders by which the packages are found, and the files that they link to."""
     found = [Path(prefix, "share", "ament_index") for prefix in get_search_paths()]
-    return [folder for folder in found if folder.is_dir()]
+    folders = [folder for folder in found if folder.is_dir()]
+    links = (path for folder in folders for path in folder.rglob("*") if path.is_symlink())
+    return [*folders, *(path.resolve() for path in links if path.is_file())]

@@ -64,8 +64,9 @@ def test_a_xacro_finds_installed_packages(folder: Path, monkeypatch: pytest.Monk
     index = prefix / "share" / "ament_index" / "resource_index" / "packages"
     for made in (index, prefix / "share" / "linked", source):
         made.mkdir(parents=True)
-    (index / "linked").touch()
     # as colcon's --symlink-install leaves it
+    (source / "marker").touch()
+    (index / "linked").symlink_to(source / "marker")
     for name in ("package.xml", "a.xacro"):
         (source / name).write_text(XACRO.format(LINK.format("installed")))
         (prefix / "share" / "linked" / name).symlink_to(source / name)
