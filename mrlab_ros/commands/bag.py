@@ -102,7 +102,7 @@ def repaired(path: str, as_json: bool) -> None:
         print(json.dumps(plain(asdict(done))))
         return
     for trouble in done.troubles:
-        print(visible(trouble))
+        print(trouble)
     if not done.files:
         print(f"the bag is whole, with {done.messages} messages; there is nothing to mend")
         return

@@ -150,7 +150,9 @@ def test_cells_of_a_class_reach_their_own_motions_only(tmp_path):
     found = {s["name"]: s for s in json.loads((out / "class.json").read_text())["students"]}
     assert (found["anna"]["points"], found["anna"]["file"]) == (2, "cell.yaml")
     assert found["ben"]["points"] == 0
-    assert "Permission denied" in found["ben"]["words"]
+    refused = found["ben"]["found"]
+    assert refused["code"] == "member_refused"
+    assert refused["values"]["why"]["code"] == "unreadable"
 
 
 @pytest.mark.parametrize(
