@@ -18,6 +18,7 @@ from rclpy.context import Context
 from rclpy.parameter import Parameter
 
 from mrlab_ros.adapters import private_folder
+from mrlab_ros.adapters.robots.diagnostics import NO_END_EFFECTOR
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.store import keys
 from mrlab_ros.adapters.store.objects import open_store
@@ -38,7 +39,7 @@ from mrlab_ros.adapters.workspaces.results import Converted, Task, refused
 from mrlab_ros.core.errors import BadInput, LabError
 from mrlab_ros.core.foreign_text import visible
 from mrlab_ros.core.naming import close_to
-from mrlab_ros.core.trajectory.diagnostics import NO_SUCH_END_EFFECTOR, UPLOAD_OF_ANOTHER
+from mrlab_ros.core.trajectory.diagnostics import UPLOAD_OF_ANOTHER
 from mrlab_ros.core.trajectory.names import checked_id
 from mrlab_ros.core.trajectory.record import head_of
 from mrlab_ros.messages import trajectories
@@ -186,7 +187,7 @@ class ConverterNode(ParameterNode[ConverterParameters]):
         if request.end_effector and request.end_effector not in known:
             close = close_to(request.end_effector, known)
             raise BadInput(
-                NO_SUCH_END_EFFECTOR(end_effector=request.end_effector, known=known, close=close)
+                NO_END_EFFECTOR(end_effector=request.end_effector, known=known, close=close)
             )
         if request.id:
             checked_id(request.id)

@@ -173,11 +173,6 @@ NOT_A_TRAJECTORY_FILE = Code(
 REPLACED_MEANWHILE = Code(
     "replaced_meanwhile", "'{id}' was replaced while it was fetched.", "Load it again."
 )
-NO_SUCH_END_EFFECTOR = Code(
-    "no_such_end_effector",
-    "There is no end effector '{end_effector}'[; did you mean {close}?].",
-    "Take one of {known:list}, or leave it empty for a bare flange.",
-)
 UPLOAD_OF_ANOTHER = Code(
     "upload_of_another", "The upload is not one of {owner}'s.", "Send the file again."
 )
