@@ -68,7 +68,7 @@ def check(document: Any, name: str) -> None:
     error = jsonschema.exceptions.best_match(schema().iter_errors(sample))
     if error is not None:
         place = "/".join(str(p) for p in error.absolute_path)
-        raise BadInput(NOT_AS_SCHEMA(file=name, place=place, error=error.message[:200]))
+        raise BadInput(NOT_AS_SCHEMA(file=name, place=place, error=f"{error.message:.200}"))
 
 
 def parse(data: bytes, name: str) -> Trajectory:
