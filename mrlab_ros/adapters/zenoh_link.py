@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 import zenoh
 
+from mrlab_ros.adapters.zenoh.configuration import first_line
 from mrlab_ros.adapters.zenoh.diagnostics import NO_LAB_AT, NOTHING_ANSWERS
 from mrlab_ros.core.base.diagnostic import Diagnostic, Severity, of_text
 from mrlab_ros.core.errors import LabError, Unavailable
@@ -41,7 +42,7 @@ class ZenohLink:
         try:
             self._session = zenoh.open(config)
         except zenoh.ZError as error:
-            why = of_text(str(error).split(" at /")[0])
+            why = of_text(first_line(error))
             raise Unavailable(NO_LAB_AT(endpoint=endpoint, why=why)) from None
 
     def close(self) -> None:

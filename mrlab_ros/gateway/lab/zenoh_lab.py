@@ -14,7 +14,7 @@ from typing import Any
 
 import zenoh
 
-from mrlab_ros.adapters.zenoh.configuration import LOOPBACK, configuration
+from mrlab_ros.adapters.zenoh.configuration import LOOPBACK, configuration, first_line
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, Severity, of_text
 from mrlab_ros.core.bridge.latency import stamps
 from mrlab_ros.core.errors import LabError
@@ -163,8 +163,7 @@ class ZenohLab:
                 self._session = await asyncio.to_thread(zenoh.open, self._config)
             except zenoh.ZError as error:
                 if not told:
-                    reason = str(error).split(" at /", 1)[0]
-                    log.warning("no connection to the lab yet: %s; trying on", reason)
+                    log.warning("no connection to the lab yet: %s; trying on", first_line(error))
                     told = True
                 await asyncio.sleep(RETRY_S)
         for entry, (key, on_sample) in list(self._wanted.items()):
