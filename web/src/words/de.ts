@@ -1766,7 +1766,656 @@ export const diagnostics: Templates = {
     'Greif näher am Schwerpunkt, bewege sanfter, oder nimm einen stärkeren Greifer.',
   ],
   lost_points: ['{test}: {found:problem}.', '[{hint}]'],
+  made_room: ['Der älteste von {limit:integer} Gegenständen hat einem neuen Platz gemacht.'],
+  mail_not_admitted: [
+    'Mit dieser Adresse darf sich niemand anmelden[: {email}].',
+    'Sie muss bestätigt sein und zu denen gehören, die dieses Labor zulässt.',
+  ],
+  mass_or_fixed: [
+    'eine Zahl {limits:problem} (kg), oder fixed: true für einen Gegenstand, der sich nie bewegt',
+  ],
+  maximum_differs: [
+    'Das Maximum in Moodle ist {found}, das Bewertungsschema hat {points:number} Punkte; die Punkte werden eingetragen, wie sie sind.',
+  ],
+  may_be_old: [
+    'Der Prozess {process} stand {frozen:integer} s lang still, und dies wurde vielleicht davor gesendet; es wurde nicht ausgeführt.',
+    'Sende es noch einmal.',
+  ],
+  may_be_poses: ['es können Posen des Werkzeugs in m und rad sein: {why:reasons}'],
+  may_be_time: ['Spalte {column:integer} kann Zeit statt eines Gelenks sein: {why:problem}'],
+  may_not_call: [
+    `Die Rolle {role:choice ${ROLE}} darf {key} nicht aufrufen.`,
+    'Frag deine Lehrkraft.',
+  ],
+  may_not_publish: [
+    `Die Rolle {role:choice ${ROLE}} darf auf {key} nicht senden.`,
+    'Frag deine Lehrkraft.',
+  ],
+  may_still_move: [
+    '{why:problem}; {robots:list} antwortete nicht und bewegt sich vielleicht noch',
+  ],
+  mcap_without_chunks: [
+    '{path} enthält Nachrichten außerhalb von Chunks und keinen Index.',
+    'Importiere die Datei; das macht ein Bag des Labors daraus.',
+  ],
+  member_collided: ['Kollision von {robot}'],
+  member_lost: ['{robot} hat seine Wiedergabe verloren; Abspielen macht hier weiter'],
+  member_lost_at_end: ['{robot} hat seine Wiedergabe verloren; Abspielen beginnt von vorn'],
+  member_of_system: [
+    "Der Roboter[ {robot}] ist schon Mitglied des Systems '{system}'.",
+    'Löse zuerst dieses System auf.',
+  ],
+  member_place: ['{place:problem}, Mitglied {robot}'],
+  member_twice: ['{place:problem}: {robot} ist zweimal Mitglied.', 'Lass einen der Einträge weg.'],
+  member_waits_forever: ["{robot} wartet ohne Ende: '{wait}' tritt nie ein."],
+  members_move_to_places: [
+    'Die Mitglieder fahren an ihre Plätze.',
+    'Halte an, ändere dann die Richtung und spiele ab.',
+  ],
+  members_silent: ['[{robots:list} antwortete nicht; ]Abspielen macht hier weiter'],
+  mesh_no_file: ['{mesh} bezeichnet keine Datei: {why:problem}.'],
+  mesh_no_package: ["Das Paket '{package}' des Netzes {mesh} ist nicht installiert."],
+  mesh_no_vertex: ['Die Dreiecke eines Netzes nennen Eckpunkte, die es nicht hat.'],
+  mesh_outside: ['{mesh} ist {path}; das liegt weder neben der Beschreibung noch in einem Paket.'],
+  mesh_vertex_nowhere: ['ein Eckpunkt ist nicht endlich'],
+  mesh_without_triangles: ['es enthält keine Dreiecke'],
+  message_too_large: ['Eine Nachricht auf {topic} ist größer als {limit:bytes}.'],
+  messages_unreadable: [
+    '{messages:count Nachricht|Nachrichten} auf {topic} nicht lesbar und weggelassen',
+  ],
+  metadata_not_yaml: [
+    '{file} ist kein YAML ({problem}).',
+    'Entferne die Datei, oder repariere das Bag; dabei wird sie neu geschrieben.',
+  ],
+  metadata_too_new: [
+    '{file} hat die Version {version}; dieses Labor liest bis Version {known:integer}.',
+    'Nimm ein neueres Labor.',
+  ],
+  metadata_without_files: [
+    '{file} führt keine Dateien auf.',
+    'Repariere das Bag; dabei werden die Metadaten neu geschrieben.',
+  ],
+  method_not_possible: ['{method} geht bei {path} nicht.'],
+  middleware_none: ['Middleware: keine', 'Führe make demo aus; das installiert rmw_fastrtps_cpp.'],
+  middleware_other: [
+    'RMW_IMPLEMENTATION ist {wanted}[; installiert: {middlewares:list}]',
+    'Lösche RMW_IMPLEMENTATION aus der Umgebung, oder installiere diese Middleware.',
+  ],
+  middleware_there: ['Middleware vorhanden: {middlewares:list}'],
+  missed_hand_over: [
+    'Der Greifer schließt ins Leere: {giver} hat {other} {ago:time} vorher losgelassen[: {why:problem}].',
+    "Um {other} zu übergeben, schließe ihn, während {giver} noch hält; in einer parallelen Zelle mit 'after:', wo einer zu früh ist.",
+  ],
+  misses_point: [
+    'Das Werkzeug kommt am Punkt {number:integer} ({point:position}) in {value:length} Abstand vorbei; erwartet: höchstens {limit:length}.',
+    'Berichtige den Weg, oder lass einen größeren Abstand zu.',
+  ],
+  missing: [
+    "Die Datei '{file}' gibt es nicht[; meinst du '{close}'?].",
+    'Prüfe den Ordner und den Namen; die Datei endet auf .mat.',
+  ],
+  missing_field: ['{what:problem} fehlt; erwartet: {expected:problem}.'],
+  mistakes: ['{what:problem} hat {count:count Fehler|Fehler}:{all:problems}'],
+  mode_of_one_motion: [
+    'Die Musterlösung ist eine einzelne Bewegung und hat keinen Modus; nenne eine Zelle (.yaml).',
+  ],
+  mode_set: [
+    '{mode:choice parallel=alle zugleich|sequential=einer nach dem anderen}, {duration:time}',
+  ],
+  mode_used: [
+    'Die Zelle wird {mode:choice parallel=parallel|sequential=nacheinander} abgespielt.',
+  ],
+  model_left_out: ["Der Roboter '{robot}' bleibt weg: {why:problem}."],
+  module_missing: [
+    '{module} fehlt; das Labor läuft ohne Physik: keine Kontakte, kein Greifen',
+    'Führe aus: pip install {module}',
+  ],
+  module_there: ['{module}: vorhanden'],
+  module_without_wheel: [
+    'Für {module} gibt es bei diesem Python kein Wheel; das Labor läuft ohne Physik: keine Kontakte, kein Greifen',
+    'Nimm Python 3.10 oder 3.11.',
+  ],
+  motion_not_there: [
+    "Die Bewegung von '{key}' ist nicht da: {why:problem}.",
+    'Bewerte die Klasse noch einmal.',
+  ],
+  motion_outside: ["Die Bewegung von '{key}' liegt außerhalb des Ordners der Klasse."],
+  motion_size: [
+    'Verlangt ist eine Bewegung von {robot} von {start:integer} nach {goal:integer} Werten; erwartet werden je {joints:integer} Gelenkpositionen.',
+  ],
+  moved: ['{name} wurde bewegt'],
+  moves_at_end: [
+    '{joint} bewegt sich am Ende noch mit {value:measure}.',
+    'Bring die Bewegung zur Ruhe, etwa mit einem Polynom fünften Grades.',
+  ],
+  moves_at_start: [
+    '{joint} bewegt sich schon am Anfang mit {value:measure}.',
+    'Beginne mit der Geschwindigkeit 0, etwa mit einem Polynom fünften Grades.',
+  ],
+  moves_no_robot: [
+    '{topic} bewegt keinen Roboter: Keiner des Labors hat diese Gelenke[ ({joints:list})].',
+    'Ein Roboter kommt durch den Import seiner URDF dazu.',
+  ],
+  moves_to_start: ['fährt zum Start'],
+  multicast_blocked: [
+    'Multicast: ein Paket an {group} kommt nicht zurück[ ({why:problem})]',
+    'Setze ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST für ein Labor auf einem einzigen Rechner, oder erlaube in der Firewall UDP-Multicast an {group}.',
+  ],
+  multicast_works: ['Multicast: Knoten finden einander darüber'],
+  name_leads_out: ['Der Name führt aus dem Archiv hinaus; die Datei wird nicht gelesen.'],
+  name_of_another_model: [
+    "'{id}' ist schon eine Trajektorie von {there}, und diese ist für {robot_model}.",
+    "Wähle einen anderen Namen, etwa {name}_{robot_model}, oder lösche zuerst '{id}'.",
+  ],
+  name_says: [
+    'ihr Name [bedeutet {quantity:choice velocities=Geschwindigkeiten|accelerations=Beschleunigungen|jerks=dritte Ableitungen|torques=Momente oder Kräfte|currents=Motorströme|voltages=Spannungen|errors=Fehler oder Differenzen|poses=Positionen des Werkzeugs|times=Zeiten|parameters=Parameter eines Reglers oder Modells|turns=Zahlen von Umdrehungen|obstacles=Hindernisse|temperatures=Temperaturen|joint_velocities=Gelenkgeschwindigkeiten|inputs=Stellgrößen oder Pixelkoordinaten|pixels=Geschwindigkeiten oder Pixelkoordinaten|tool_or_states=Positionen des Werkzeugs oder Zustände|points=Punkte|states_or_path=Zustände oder Bahnparameter|angular_velocities=Winkelgeschwindigkeiten oder Gewichte|states=Zustände|turns_or_reversed=Zahlen von Umdrehungen oder ein umgekehrter Weg}][steht oft für {often:choice velocities=Geschwindigkeiten|accelerations=Beschleunigungen|jerks=dritte Ableitungen|torques=Momente oder Kräfte|currents=Motorströme|voltages=Spannungen|errors=Fehler oder Differenzen|poses=Positionen des Werkzeugs|times=Zeiten|parameters=Parameter eines Reglers oder Modells|turns=Zahlen von Umdrehungen|obstacles=Hindernisse|temperatures=Temperaturen|joint_velocities=Gelenkgeschwindigkeiten|inputs=Stellgrößen oder Pixelkoordinaten|pixels=Geschwindigkeiten oder Pixelkoordinaten|tool_or_states=Positionen des Werkzeugs oder Zustände|points=Punkte|states_or_path=Zustände oder Bahnparameter|angular_velocities=Winkelgeschwindigkeiten oder Gewichte|states=Zustände|turns_or_reversed=Zahlen von Umdrehungen oder ein umgekehrter Weg}][{hint:choice positions=passt zu Gelenkwinkeln|neutral=sagt nicht, was sie enthält|two_faced=steht für Gelenkwinkel ebenso wie für Bahnen des Werkzeugs|doubtful=steht oft für etwas anderes als Gelenkwinkel|against=sagt, dass sie etwas anderes ist als Gelenkwinkel}]',
+  ],
+  name_taken: ["Der Name '{name}' ist vergeben.", 'Wähle einen anderen, oder lass das Feld leer.'],
+  name_too_long: [
+    "{file}: Ein Name hat {count:integer} Zeichen, '{name}...'; erwartet: höchstens {most:integer}.",
+  ],
+  name_unprintable: [
+    "{file}: Ein Glied oder ein Gelenk heißt '{name}'; erwartet werden druckbare Zeichen und keines von = + - @ am Anfang.",
+  ],
+  named_entries: ['eine Zuordnung von Namen zu Einträgen'],
+  named_otherwise: ["'{file}' enthält die Trajektorie '{id}'.", 'Gib der Datei den Namen {name}.'],
+  named_twice: [
+    '{place:problem} nennt {what:choice robot=den Roboter|object=den Gegenstand|system=das System|surface=die Fläche} {name} zweimal.',
+    'Benenne eines davon um.',
+  ],
+  names_not_known: ['Das ist nicht lesbar; die Namen sind darum nicht bekannt: {why:problem}.'],
+  near_joint_limit: [
+    '{joint} kommt bis auf {value:measure} an das Ende seines Bereichs.',
+    'Wähle eine andere Konfiguration des Arms, oder drehe die Aufgabe um die Basis.',
+  ],
+  near_singularity: [
+    'Der Arm ist fast singulär: Seine Konditionierung sinkt auf {value:number} (1 ist gleichmäßig, 0 singulär).',
+    'Eine Bewegung der Gelenke geht dort, eine Gerade des Werkzeugs nicht. Beuge Ellbogen oder Handgelenk, wo der Weg es zulässt.',
+  ],
+  negative: ["'{text}' ist negativ; erwartet: {expected:problem}."],
+  nested_too_deep: ["'{variable}' ist tiefer als {most:integer} Ebenen verschachtelt"],
+  neutral_name: [
+    "'{variable}' wurde als Gelenkwinkel genommen, aber: {why:problem}[ ({seen:reasons})].",
+    'Ist es etwas anderes, sichere die Gelenkwinkel als q. Stimmt es, bestätige die Variable mit ihrem Namen.',
+  ],
+  never_filled: [
+    "'{variable}' ({size}) enthält nur Nullen; erwartet werden Gelenkwinkel.",
+    'Lass das Programm laufen, das sie füllt, bevor du sie sicherst.',
+  ],
+  never_grasped: ['{object} wird nie gegriffen; der Greifer schließt nicht.'],
+  never_grasped_closes: ['{object} wird nie gegriffen; der Greifer schließt bei {time:time}.'],
+  never_grasped_nothing: [
+    '{object} wird nie gegriffen; der Greifer schließt bei {time:time} ins Leere[: {why:problem}].',
+  ],
+  never_grasped_other: ['{object} wird nie gegriffen, wohl aber {other}, bei {time:time}.'],
+  new_keys_needed: [
+    'Die Schlüssel sind nicht mehr brauchbar: {why:problem}.',
+    'Mach neue Schlüssel in einem anderen Ordner, und verteile sie neu.',
+  ],
+  newer_format: [
+    "Die Trajektorie '{id}' hat das Format {found}; dieses MR-Lab liest Format {known:integer}.",
+    'Aktualisiere das Labor, oder wandle den Workspace noch einmal um.',
+  ],
+  newer_record: [
+    'Ein Eintrag des Katalogs hat das Format {found}; dieses MR-Lab liest Format {known:integer}.',
+    'Aktualisiere das Labor.',
+  ],
+  newer_socket: ['Diese Seite hat eine neuere Verbindung.'],
+  newest_already: ["Version {version:integer} von '{id}' ist schon die neueste."],
+  newest_taken: [
+    'Von {count:count Datei|Dateien}[ mit Namen wie {pattern}] zählt die neueste, die eine Bewegung enthält[: {files:list}].',
+  ],
+  no_answer_in_time: [
+    '{service} hat nicht innerhalb von {timeout:time} geantwortet.',
+    'Versuche es noch einmal.',
+  ],
+  no_arm_there: [
+    "{file}: Bevor sich die Ketten am Glied '{link}' teilen, bewegt sich kein Gelenk, wie bei einem Greifer oder einem Fahrzeug.",
+    'Importiere einen Arm, oder nenne sein letztes Glied.',
+  ],
+  no_arrivals: [
+    'Die Middleware meldet nicht, wenn auf {topic} Nachrichten ankommen (Fehler {error:integer}).',
+    'Setze RMW_IMPLEMENTATION auf eine, die das tut, etwa rmw_fastrtps_cpp.',
+  ],
+  no_asset: ['Die Datei {asset} gibt es im Labor nicht; was es gibt, sagen {documents:list}.'],
+  no_asset_name: [
+    "'{path}' bezeichnet keine Datei des Labors; erwartet wird ein Pfad wie mrlab_ros/robots/ur5e/meshes/base_link.glb, ohne '..' und ohne versteckte Namen.",
+  ],
+  no_attachment: ["{path} hat keinen Anhang '{attachment}'[; vorhanden: {known:list}]."],
+  no_authority: [
+    'Dieses Gateway hat keine eigene Zertifizierungsstelle; zu installieren gibt es nichts.',
+  ],
+  no_bag: [
+    "Das Bag {path} gibt es nicht[; meinst du '{close}'?].",
+    'Nenne den Ordner eines Bags oder eine MCAP-Datei.',
+  ],
+  no_cell: [
+    'Es ist eine einzelne Bewegung; erwartet wird eine Zelle, deren Roboter sich {mode:choice parallel=parallel|sequential=nacheinander} bewegen.',
+  ],
+  no_certificate: ['{path} ist kein Zertifikat (PEM): {why:problem}.'],
+  no_class: [
+    'Dieses Gateway zeigt keine Klasse.',
+    'Starte das Labor mit dem Ordner einer bewerteten Klasse.',
+  ],
+  no_class_file: [
+    'In {folder} gibt es kein {file}.',
+    'Bewerte die Abgaben einer Klasse in einen Ordner, und nenne diesen.',
+  ],
+  no_class_folder: [
+    '{folder} enthält {found} und ist kein Ordner einer früher bewerteten Klasse; nimm einen leeren oder einen neuen Ordner.',
+  ],
+  no_collision: ['keine Kollision'],
+  no_collision_mesh: [
+    "Das Kollisionsnetz {mesh} des Glieds '{link}' fehlt, oder die Physik liest sein Format nicht ({formats:list}).",
+    'Erzeuge die Netze des Roboters noch einmal.',
+  ],
+  no_column: ['sie ist {size}, wo eine einzelne Spalte erwartet wird'],
+  no_coordinator_runs: ['Es läuft kein Koordinator; die Systeme der Szene brauchen ihn.'],
+  no_description: [
+    "'{source}' ist weder eine Datei noch ein installiertes ROS-Paket.",
+    'Gib den Pfad einer URDF oder einer xacro-Datei an.',
+  ],
+  no_device: ['So ein Gerät gibt es nicht.', 'Vielleicht hat es sich abgemeldet.'],
+  no_device_shows: [
+    'Kein Gerät zeigt den Code {shown}.',
+    'Ein Code gilt {minutes:count Minute|Minuten}; vergleiche ihn noch einmal mit dem Gerät.',
+  ],
+  no_distance: ['In dem, was geprüft wurde, gibt es keinen Abstand[ zu {thing}].'],
+  no_ec_key: ['{path} ist {found}; erwartet wird ein EC-Schlüssel.'],
+  no_end_effector: [
+    "Den Endeffektor '{end_effector}' gibt es nicht; es gibt: {known:list}, oder none für den bloßen Flansch.",
+    "[Meinst du '{close}'?]",
+  ],
+  no_export: ['Einen Ordner oder ein Archiv {file} gibt es nicht; prüfe den Pfad und den Namen.'],
+  no_export_format: [
+    "In '{format}' wird nicht geschrieben[; meinst du {close}?].",
+    'Wähle eines von diesen: {known:list}.',
+  ],
+  no_file_handed_in: [
+    'Es wurde keine Datei abgegeben, in der eine Bewegung sein kann[; vorhanden: {files:list}].',
+  ],
+  no_file_name: [
+    "Die Datei hat keinen Namen[: '{file}' ist keiner].",
+    'Gib ihr einen, der sagt, was sie ist, etwa traj.mat.',
+  ],
+  no_free_place: [
+    'Für {type} ist innerhalb von {distance:length} kein Platz frei.',
+    'Verschiebe oder entferne etwas.',
+  ],
+  no_hello: [
+    'Das erste Paket ist kein hello, oder es kam nicht innerhalb von {wait:time}.',
+    'Siehe docs/link.md.',
+  ],
+  no_host: [
+    "'{host}' ist weder der Name eines Rechners noch eine Adresse.",
+    'Erwartet wird zum Beispiel lab.example.org oder 192.168.1.20, ohne Port.',
+  ],
+  no_https_file: [
+    'Die Datei {path}, die HTTPS braucht, gibt es nicht.',
+    'Erzeuge sie, oder nenne dein eigenes Zertifikat und seinen Schlüssel.',
+  ],
+  no_index: ["'{term}' ist keine {axis:choice row=Zeile|column=Spalte}"],
+  no_indices: ['damit ist gar keine {axis:choice row=Zeile|column=Spalte} genannt'],
+  no_joint_state: ['{size:integer} Bytes sind kein Gelenkzustand: {why:problem}.'],
+  no_json_object: [
+    'es ist kein JSON-Objekt; erwartet wird zum Beispiel {{"q": [[[[...]], ...]], "fs": 100}}',
+  ],
+  no_key_file: [
+    'Die Datei {path} gibt es nicht.',
+    'Spiele eine Kopie zurück, oder mach neue Schlüssel.',
+  ],
+  no_keys: ['{folder} enthält keine Schlüssel.', 'Mach zuerst welche.'],
+  no_lab_answers: [
+    'In der ROS-Domain {domain:integer} antwortet kein Labor.',
+    'Starte eines, oder setze ROS_DOMAIN_ID auf die Domain eines Labors, das läuft.',
+  ],
+  no_lab_at: ['An {endpoint} antwortet kein Labor: {why:problem}.'],
+  no_level_surface: [
+    "Eine waagerechte Fläche '{surface}' gibt es im Raum nicht; es gibt: {known:list}.",
+    "[Meinst du '{close}'?]",
+  ],
+  no_link: ["{robot} hat kein Glied '{link}'; seine Glieder: {known:list}."],
+  no_link_in_file: ["{file} hat kein Glied '{link}'; ihre Glieder: {known:list}."],
+  no_matrix: ["'{variable}' ist keine Matrix aus Zahlen"],
+  no_matrix_q: ['ihre Zeilen enthalten keine Matrix q; wandle den Workspace noch einmal um'],
+  no_members: ['Ein System braucht mindestens ein Mitglied.', 'Nenne die Roboter, die es bewegt.'],
+  no_members_in_file: ['members ist leer; erwartet wird eine Liste mit mindestens einem Roboter'],
+  no_metadata: [
+    '{file} enthält keine Metadaten eines Bags: {field} fehlt.',
+    'Nenne den Ordner eines Bags, oder repariere das Bag; dabei werden die Metadaten neu geschrieben.',
+  ],
+  no_motion_file: ['In dieser Datei kann keine Bewegung sein.'],
+  no_motion_in_file: ['aus der Datei ließ sich keine Bewegung entnehmen'],
+  no_motion_leads: [
+    'Keine Bewegung von {robot} führt von {start:list} nach {goal:list} rad ({why:problem}).',
+    'Prüfe die erste Zeile der Trajektorie.',
+  ],
+  no_motion_of: ['{robot} hat in dieser Datei keine Bewegung[; eine haben: {robots:list}].'],
+  no_motion_to_mark: ['Es gibt keine Bewegung zum Bewerten.'],
+  no_motion_to_show: [
+    "Die Abgabe '{key}' hat keine Bewegung, die sich zeigen lässt[: {why:problem}].",
+  ],
+  no_moving_joint: [
+    'Die Beschreibung von {robot} hat kein bewegliches Gelenk {missing:either}; ihre Gelenke: {known:list}.',
+  ],
+  no_name: ['eine Variable oder ein Objekt hat keinen Namen'],
+  no_name_left: ["Der Name '{name}' ist vergeben.", 'Bitte deine Lehrkraft um einen anderen.'],
+  no_node: [
+    '{node}: Einen solchen Knoten gibt es im Labor nicht; erwartet wird einer von {nodes:list}, oder /** für alle.',
+    "[Meinst du '{close}'?]",
+  ],
+  no_number: ['sie ist {found:problem}, wo eine reelle Zahl erwartet wird'],
+  no_numbers: ['sie enthält keine Zeile mit Zahlen'],
+  no_object_checked: ['In dem, was geprüft wurde, gibt es keinen Gegenstand {object}.'],
+  no_object_in_scene: [
+    'In der Szene ist kein Gegenstand {object}[; vorhanden: {known:list}].',
+    "[Meinst du '{close}'?]",
+  ],
+  no_object_type: [
+    "Im Katalog gibt es keinen Gegenstand '{type}'; es gibt: {known:list}.",
+    "[Meinst du '{close}'?]",
+  ],
+  no_ordinary_file: ['Das ist keine gewöhnliche Datei; sie wird nicht gelesen.'],
+  no_parameter_file: [
+    'Die Parameterdatei {path} gibt es nicht.',
+    'Nenne als config eine, die es gibt, oder lass config weg.',
+  ],
+  no_partial: ["partial ist '{rule}'; '{sentence}' kennt keine Teilpunkte; lass partial weg."],
+  no_person: ["Niemand heißt '{name}'."],
+  no_physics: ['Es gibt keine Physik: {why:problem}.'],
+  no_physics_to_save: ['Gegenstände und Flächen bleiben weg: Es läuft keine Physik'],
+  no_place_before_viewer: [
+    'Vor dir ist innerhalb von {distance:length} kein Platz frei.',
+    'Dreh dich um, entferne dort einen Roboter oder einen Gegenstand, oder gib eine Pose an.',
+  ],
+  no_place_on_floor: [
+    'Innerhalb von {distance:length} um den Ursprung ist kein Platz frei.',
+    'Entferne einen Roboter, oder gib eine Pose an.',
+  ],
+  no_place_on_surface: [
+    'Auf {surface} ist kein Platz frei.',
+    'Entferne dort einen Roboter oder einen Gegenstand, oder gib eine Pose an.',
+  ],
+  no_playback_runs: ['Es läuft keine Wiedergabe; die Trajektorien der Szene brauchen sie.'],
+  no_points: ['Das Ziel hat keine Punkte; erwartet wird mindestens einer.'],
+  no_poses: ['Es nennt keine Posen; ergänze poses: [[[[0.4, 0.2, 0.3]]]], in m in world.'],
+  no_positions: ['Die Punkte haben keine Positionen; erwartet wird eine für jedes Gelenk.'],
+  no_private_folder: [
+    'Kein Ordner gehört diesem Benutzer allein: {reasons:list}.',
+    'Setze XDG_RUNTIME_DIR auf einen solchen Ordner.',
+  ],
+  no_private_key: ['{path} ist kein privater Schlüssel ohne Passwort (PEM): {why:problem}.'],
+  no_provider: [
+    'Dieses Labor hat keinen Anbieter für OpenID Connect.',
+    'Melde dich mit einem Passwort an.',
+  ],
+  no_rate: ['{value:number} ist weder eine Rate noch ein Schritt der Zeilen'],
+  no_record: ['Es ist kein Eintrag einer Trajektorie ({error}).'],
+  no_recording: ['es wird nichts aufgenommen; beginne zuerst eine Aufnahme'],
+  no_reference: [
+    'Es nennt keine Musterlösung; so zeigt nichts, dass die volle Punktzahl erreichbar ist; ergänze reference: solution.mat',
+  ],
+  no_reference_motion: ['Zum Vergleichen gibt es keine Bewegung der Musterlösung.'],
+  no_reference_named: [
+    'Das Bewertungsschema nennt keine Musterlösung zum Vergleichen; ergänze reference: solution.mat',
+  ],
+  no_reference_of_model: ['Die Musterlösung hat keine Bewegung eines {model} zum Vergleichen.'],
+  no_references: ["'{variable}' enthält keine Verweise auf ihre Elemente"],
+  no_replay: ['es wird nichts wiedergegeben; starte zuerst eine Wiedergabe'],
+  no_robot_in_scene: [
+    'In der Szene ist kein Roboter {robot}[; vorhanden: {known:list}].',
+    "[Meinst du '{close}'?]",
+  ],
+  no_robot_model: [
+    "Den Roboter '{robot}' gibt es nicht; es gibt: {known:list}.",
+    "[Meinst du '{close}'?]",
+  ],
+  no_role_may: [
+    'Keine Rolle darf das in diesem Labor.',
+    'Seine Liste der Erlaubten sagt, wer was darf.',
+  ],
+  no_room_for_copy: [
+    'In {folder} lässt sich keine Trajektorie ablegen ({error}).',
+    'Mach auf dem Datenträger Platz.',
+  ],
+  no_room_for_trajectory: [
+    "Das Labor hat keinen Platz für '{file}' ({error}).",
+    'Mach auf dem Datenträger[ von {folder}] Platz, und wandle die Datei noch einmal um.',
+  ],
+  no_room_on_disk: [
+    'In {folder} lässt sich nicht schreiben ({why:problem}); nichts wurde geändert.',
+    'Mach dort Platz, und versuche es noch einmal.',
+  ],
+  no_scene: [
+    "Die Szene '{scene}' gibt es nicht; es gibt: {known:list}.",
+    "[Meinst du '{close}'?]",
+  ],
+  no_seal_at_edge: [
+    'Der Sauger schließt nicht dicht: Nur {share:share} seiner Lippe liegen auf {object}; darunter ist eine Kante, ein Loch oder ein Rand.',
+  ],
+  no_seal_curved: [
+    'Der Sauger schließt nicht dicht: {object} ist unter seiner Lippe zu stark gewölbt.',
+  ],
+  no_seal_tilted: [
+    'Der Sauger schließt nicht dicht: {object} ist um {tilt:angle} zu ihm geneigt; erwartet: höchstens {most:angle}.',
+  ],
+  no_shape: [
+    'pybullet konnte aus einem Körper keine Form machen.',
+    'Prüfe die Größen seiner Teile.',
+  ],
+  no_shared_link: [
+    "Kein Glied von {file}, das ein Netz hat[ ({meshed:list})], ist ein Glied von '{robot}' ({links:list}).",
+    'Gib eine URDF ohne Präfix an.',
+  ],
+  no_single_bag: [
+    '{folder} enthält {found:integer} aufgenommene Dateien; erwartet wird eine.',
+    'Nenne die Datei selbst.',
+  ],
+  no_speed: [
+    'Die Geschwindigkeit {found:list} von {object} ist keine; erwartet werden Werte in m/s und rad/s.',
+  ],
+  no_spherical_wrist: [
+    'Die letzten drei Achsen gehen um {distance:length} aneinander vorbei; für reach_definition wrist_centre müssen sie sich in einem Punkt schneiden.',
+    'Schreibe stattdessen flange.',
+  ],
+  no_state_of_robot: [
+    'Niemand sendet den Zustand der Wiedergabe von {robot}; vielleicht läuft sie nicht.',
+  ],
+  no_store: [
+    "Die Ablage '{store}' ist nicht brauchbar.",
+    'Erwartet wird ein Ordner oder eine URL wie s3://bucket/lab, gs://bucket/lab oder az://container/lab.',
+  ],
+  no_submission: ["In dieser Klasse gibt es keine Abgabe '{key}'; wähle eine aus ihrer Liste."],
+  no_such_column: ["'{variable}' hat die Spalten 1 bis {width:integer}"],
+  no_such_field: ['{type} hat kein Feld {names:either}[; vorhanden: {fields:list}].'],
+  no_such_frame: ["'{id}' hat den Frame {frame:integer} nicht; erwartet: 0 bis {last:integer}."],
+  no_such_joints: [
+    'Das Bag enthält keine Gelenkzustände von {model} mit den Gelenken {joints:list}[; vorhanden:{found:problems}]',
+  ],
+  no_such_limit: [
+    'Für diesen Roboter ist {of:choice ranges=kein Bereich|speeds=keine größte Geschwindigkeit|acceleration=keine Grenze der Beschleunigung|jerk=keine Grenze des Rucks} angegeben.',
+  ],
+  no_such_motion: [
+    'Diese Bewegung ist nicht mehr da.',
+    'Wandle die Datei noch einmal um, oder öffne die Trajektorie, die daraus wurde.',
+  ],
+  no_such_variable: ["es gibt keine Variable '{variable}'"],
+  no_such_version: ["'{id}' hat keine Version {version:integer}; vorhanden: {kept:list}."],
+  no_surface_below: [
+    'Unter {place:position} ist keine Fläche.',
+    'Gib eine Pose über einer Fläche an.',
+  ],
+  no_system: [
+    "Das System '{system}' gibt es nicht[; es gibt: {known:list}].",
+    "[Meinst du '{close}'?]",
+  ],
+  no_system_in_cell: [
+    '{place:problem} enthält kein System; erwartet wird members oder eine Liste von Systemen.',
+  ],
+  no_text: ['Byte {byte:integer} ist kein Text in {encoding}'],
+  no_times: [
+    "Gleichmäßig machen braucht die Zeiten der Zeilen von '{variable}', und die Datei hat keine.",
+    'Sichere für jede Zeile eine Zeit in s, zum Beispiel 2 s von Zeile zu Zeile.',
+  ],
+  no_times_of_rows: [
+    'ihre Werte sind keine Zeiten der Zeilen, die mit einer Rate für Gelenke steigen',
+  ],
+  no_tool_to_grasp: [
+    '{robots:list} hat kein Werkzeug zum Greifen; ergänze im Bewertungsschema tool: parallel_gripper.',
+  ],
+  no_topic_of_pages: [
+    '{key} ist kein Topic, das das Labor an Seiten gibt.',
+    'Sie stehen in docs/protocol.md, mit * für einen Teil eines Schlüssels.',
+  ],
+  no_trajectory: [
+    "Keine Variable in '{file}' sieht aus wie die Gelenkwinkel von {robot}, eine N x {joints:integer} Matrix in Radiant mit N >= 2. Die Datei enthält {count:count Variable|Variablen}[: {held:list}][ und {more:integer} weitere].[ Darin: {inside:list}.][{looks:problems}]",
+    'Sichere die Gelenkwinkel, eine Zeile je Messpunkt. Ist eine der Variablen das Gewünschte, nenne sie beim Namen.',
+  ],
+  no_trajectory_loaded: [
+    '{robot} hat keine Trajektorie.',
+    'Lade eine, oder nenne eine für das System.',
+  ],
+  no_trajectory_named: [
+    'Das System {system} nennt für {robot} keine Trajektorie.',
+    'Nenne eine aus dem Katalog.',
+  ],
+  no_trajectory_of_name: [
+    "Die Trajektorie '{id}' gibt es nicht[; meinst du {close}?].",
+    'Wandle eine Datei um[, oder nimm eine von diesen: {known:list}].',
+  ],
+  no_unit: ["'{text}' hat keine Einheit; erwartet: {expected:problem}."],
+  no_upload: ['Das Hochgeladene {upload} ist nicht da.', 'Sende die Datei noch einmal.'],
+  no_upload_key: [
+    "'{key}' ist kein Schlüssel {what:choice upload=von etwas Hochgeladenem|draft=eines Entwurfs}.",
+    'Sende die Datei noch einmal.',
+  ],
+  no_variable_here: ['wo eine Variable beginnen muss, beginnt keine[, bei Byte {byte:integer}]'],
+  no_wait_helps: [
+    'Kein Warten an einer ersten Zeile hält die beiden auseinander: Einer steht dem anderen im Weg.',
+    'Ändere einen Weg oder einen Platz.',
+  ],
+  no_worksheet: [
+    '{file} hat {count:count Spalte|Spalten}[: {columns:list}]; erwartet werden Identifier und Grade, wie in Moodles Bewertungstabelle.',
+  ],
+  no_xacro: [
+    '{file} ist keine xacro-Datei und nimmt keine Argumente.',
+    'Lass {arguments:list} weg.',
+  ],
+  no_zero: ['Zahlen außer 0'],
+  no_zip: [
+    '{file} ist kein lesbares ZIP-Archiv ({why:problem}); erwartet wird der Export, wie das System ihn geschrieben hat, oder sein Ordner.',
+  ],
+  nobody_answers: [
+    'Niemand antwortet auf {key}: Sein Knoten läuft nicht, der Roboter ist nicht da, oder der Schlüssel des Gateways darf ihn nicht aufrufen.',
+  ],
+  non_finite: [
+    "'{variable}' enthält {count:count Wert|Werte}, NaN oder Inf, den ersten in Zeile {first_row:integer}, Spalte {column:integer}.",
+    'Entferne diese Messpunkte, oder suche mit isfinite, woher sie kommen.',
+  ],
+  none_named_so: ['Keine Datei heißt so: {pattern}.'],
+  not_a_file: [
+    '{file} ist nicht lesbar: Es ist {what:choice folder=ein Ordner|special=keine gewöhnliche Datei}.',
+  ],
+  not_a_folder: ['{path} ist kein Ordner oder ein Verweis (Link) auf einen'],
+  not_a_new_folder: [
+    '{folder} {problem:choice file=ist kein Ordner|full=ist nicht leer}.',
+    'Nenne einen neuen Ordner.',
+  ],
+  not_a_new_name: [
+    "'{id}' lässt sich nicht veröffentlichen.",
+    'Gib einen Namen ohne Version und ohne andere Person an, etwa {name}.',
+  ],
+  not_a_number: ["'{text}' ist keine Zahl[; schreibe {better}]; erwartet: {expected:problem}."],
+  not_a_package_uri: ["Die URI ist '{uri}'; erwartet wird eine, die mit {begin} beginnt."],
+  not_a_place: ['Der Ort ist {text}; erwartet wird [[x, y]] oder [[x, y, z]] in m, in world.'],
+  not_a_trajectory_file: [
+    "'{file}' ist {found:choice folder=ein Ordner|none=keine Datei} und keine Trajektorie.",
+  ],
+  not_among_yours: [
+    "Unter deinen und den geteilten Trajektorien ist keine '{trajectory}'.",
+    'Suche sie in der Liste.',
+  ],
+  not_as_awaited: ['Was erwartet wurde, kam auf {topic} nicht innerhalb von {timeout:time}.'],
+  not_as_before: ['Das Labor ist nicht wie zuvor:{all:problems}'],
+  not_as_schema: [
+    "'{file}' ist keine Trajektoriendatei: [bei {place}, ]{error}.",
+    'Wandle den Workspace noch einmal um.',
+  ],
+  not_assembled: [
+    '{file} lässt sich nicht zusammensetzen: {why:problem}.',
+    'Vergleiche sie mit der Spezifikation von URDF, http://wiki.ros.org/urdf/XML.',
+  ],
+  not_at_rest: [
+    '{joint} {instant:choice start=beginnt|end=endet} mit {value:share} seiner größten Geschwindigkeit; erwartet: höchstens {limit:share}.',
+  ],
+  not_attached: ['{topic}: Was dazu gehört, ist nicht im Bag: {why:problem}'],
+  not_cdr: ['es ist {format} und nicht CDR'],
+  not_confirmed: [
+    'Der Anbieter hat nicht bestätigt, wer du bist: {why:problem}.',
+    'Beginne von vorn.',
+  ],
+  not_deleted: ["'{id}' ist nicht gelöscht.", 'Nenne die Version, die die nächste wird.'],
+  not_driven_by: [
+    "Der Roboter ist kein Mitglied des Systems '{system}'.",
+    'Erstelle das System noch einmal.',
+  ],
+  not_held: [
+    '{object} wird bei {time:time} nicht gehalten; erwartet: von {since:time} bis {until:time}.',
+  ],
+  not_imported: ["Als '{robot}' wurde nichts importiert; nichts wird entfernt."],
+  not_in_lab: ["Im Labor gibt es keinen Roboter '{robot}'[; vorhanden: {robots:list}]."],
+  not_in_place: [
+    'Der Arm steht nicht bei {position:time} seiner Trajektorie.',
+    'Lass ihn zuerst dorthin fahren.',
+  ],
+  not_in_store: ["Unter '{key}' liegt nichts in der Ablage.", 'Sende es noch einmal.'],
+  not_in_the_room: ['{object} ist am Ende nicht mehr im Raum.'],
+  not_in_worksheet: ['{student} steht nicht in der Bewertungstabelle.'],
+  not_in_world: ['Die Physik kennt {name} nicht.', 'Füge es zuerst hinzu.'],
+  not_inflated: ['die {form}-Datei lässt sich nicht entpacken ({why:problem})'],
+  not_json: ["'{file}' ist kein JSON ({error}).", 'Wandle den Workspace noch einmal um.'],
+  not_mcap: [
+    '{path} ist keine MCAP-Datei: Sie beginnt nicht mit den Kennbytes von MCAP.',
+    'Ein anderes ROS-2-Bag wird durch einen Import zu einem des Labors.',
+  ],
+  not_moved_yet: ['{robot} hat sich noch nicht bewegt.', 'Warte auf seinen ersten Gelenkzustand.'],
+  not_named_as_by: ['Sie heißt nicht so, wie {form} Dateien benennt.'],
+  not_of_format: ['{file}[:{line:integer}] ist kein {format}: {why:problem}.'],
+  not_of_library: [
+    "'{robot}' gehört nicht zu den eigenen Robotern des Labors.",
+    'Importiere ihn stattdessen noch einmal.',
+  ],
+  not_of_type: [
+    '{found} ist kein {type}: {why:problem}.',
+    'Gib jedem Feld einen Wert von seinem Typ.',
+  ],
+  not_offered: [
+    'Niemand bietet {service}[ in der ROS-Domain {domain:integer}] an; vielleicht läuft dieser Teil des Labors nicht.',
+  ],
+  not_played: ['{robot} hat hier keine Wiedergabe; ist er noch in der Szene?'],
+  not_readable: ['{file} ist nicht lesbar: {why:problem}.'],
+  not_real: [
+    "'{variable}' enthält komplexe Zahlen; Gelenkwinkel sind reell.",
+    'Oft kommen sie aus einer inversen Kinematik außerhalb der Reichweite. Prüfe den Weg; sind die Imaginärteile nur Rundung, nimm den Realteil.',
+  ],
+  not_recorded: ['nicht aufgenommen: {why:problem}'],
+  not_rehearsed: ['die Bewegung ging nicht durch die Physik'],
+  not_ros_bag: [
+    '{path} lässt sich nicht als ROS-2-Bag lesen ({why:problem}); erwartet wird sein Ordner mit metadata.yaml, eine MCAP-Datei oder eine .db3-Datei.',
+  ],
+  not_set_aside: ['Sie lässt sich nicht zur Seite legen: {problem}'],
   not_signed_in: ['Niemand ist angemeldet, oder die Anmeldung ist beendet.', 'Melde dich an.'],
+  not_standing: ['Der Roboter[ {robot}] ist im Zustand {state}.', 'Stoppe ihn zuerst.'],
+  not_taken_back: [
+    '{why:problem}. Was geändert wurde, ließ sich nicht zurücknehmen: {error:problem}.',
+    'Lade {robots:list} noch einmal.',
+  ],
+  not_unpacked: ['{file} lässt sich nicht entpacken: {why:problem}.'],
+  not_urdf: ['{file} beginnt mit <{tag}>; erwartet wird eine URDF, und die hat <robot>.'],
+  not_utf8: ['{file} ist kein Text in UTF-8.', 'Sichere die Datei als UTF-8.'],
+  not_writable: ['{file} lässt sich nicht schreiben: {why:problem}.'],
+  not_xml: ["{file} ist kein XML: {why:problem} in Zeile {line:integer}[, '{found}']."],
+  not_yours: ["'{trajectory}' gehört {owner}; {person} darf sie nur ansehen."],
   nothing_at: ['Unter {path} gibt es nichts.'],
   other_ending: [
     "'{file}' gehört zu keiner Art von Datei, die gelesen wird.",
