@@ -9,7 +9,7 @@ import zenoh
 
 from mrlab_ros.adapters.zenoh.configuration import first_line
 from mrlab_ros.adapters.zenoh.diagnostics import NO_LAB_AT, NOTHING_ANSWERS
-from mrlab_ros.core.base.diagnostic import Diagnostic, Severity, of_text
+from mrlab_ros.core.base.diagnostic import of_text
 from mrlab_ros.core.errors import LabError, Unavailable
 
 # A bridge that stands still does not answer a handshake either, ms.
@@ -67,6 +67,5 @@ class ZenohLink:
             if reply.ok is not None:
                 return reply.ok.payload.to_bytes()
             if reply.err is not None:
-                _, _, code = str(reply.err.encoding).partition(";")
-                raise Refusal(Diagnostic(code, Severity.ERROR, reply.err.payload.to_string()))
+                raise Refusal(of_text(reply.err.payload.to_string()))
         raise NoQueryable(NOTHING_ANSWERS(key=key))

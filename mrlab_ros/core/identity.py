@@ -10,13 +10,13 @@ from mrlab_ros.core.runtime.diagnostics import LAB_WITHOUT_ID, OTHER_LAB, SHARED
 
 
 class Identity:
-    """The id of this lab, and those of others that were met. log: takes a sentence for each.
+    """The id of this lab, and those of others that were met. log: takes what to say of each.
 
     Without an id, in the graph of a single node for instance, every message is of this lab; so is
     one that names none, but for lists of what the lab consists of.
     """
 
-    def __init__(self, lab: str, log: Callable[[str], None]) -> None:
+    def __init__(self, lab: str, log: Callable[[Diagnostic], None]) -> None:
         self.lab = lab
         self._log = log
         self.others: set[str] = set()
@@ -32,7 +32,7 @@ class Identity:
             return True
         if lab not in self.others:
             self.others.add(lab)
-            self._log(str(OTHER_LAB(other_lab=lab, lab=self.lab)))
+            self._log(OTHER_LAB(other_lab=lab, lab=self.lab))
         return False
 
     def obeys(self, lab: str) -> bool:
@@ -44,7 +44,7 @@ class Identity:
         if self.lab and not lab:
             if lab not in self.others:
                 self.others.add(lab)
-                self._log(str(LAB_WITHOUT_ID(lab=self.lab)))
+                self._log(LAB_WITHOUT_ID(lab=self.lab))
             return False
         return self.accepts(lab)
 

@@ -10,6 +10,7 @@ from mrlab_msgs import msg
 from small_lab import Catalogue, spawn
 
 from mrlab_ros.core.identity import Identity
+from mrlab_ros.core.runtime.diagnostics import OTHER_LAB, SHARED_SERVICE
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes.coordinator.node import CoordinatorNode
 from mrlab_ros.nodes.lab.node import LabNode
@@ -73,7 +74,7 @@ def test_a_lab_is_complete_by_its_own_parts_not_by_those_of_another_on_its_domai
     graph.add(CoordinatorNode, lab_id="b2")
     wait_for(lambda: second.missing() == "a robot", "the second lab's systems")
     (sentence,) = said
-    assert "another lab, a1, is on this ROS domain; this one, b2, ignores it" in sentence
+    assert sentence == OTHER_LAB(other_lab="a1", lab="b2")
 
 
 def test_what_two_labs_would_carry_out_is_not_called_when_one_is_ready(graph):
@@ -81,13 +82,12 @@ def test_what_two_labs_would_carry_out_is_not_called_when_one_is_ready(graph):
     start(graph, "b2")
     alone, said = follow(graph, "b2", 0)
     wait_for(lambda: not alone.missing(), "the lab")
-    assert alone.why_not("/lab/load_scene") == ""
+    assert alone.why_not("/lab/load_scene") is None
     assert not said
     first = start(graph, "a1")
     wait_for(lambda: graph.client.count_services("/lab/load_scene") == 2, "the other lab")
     why = wait_for(lambda: alone.why_not("/lab/load_scene"), "a reason")
-    assert "/lab/load_scene was not called, as another lab on this ROS domain" in why
-    assert "a1" in why
-    assert alone.why_not("/recorder/start") == "", "nobody has it twice"
+    assert why == SHARED_SERVICE(service="/lab/load_scene", labs=["a1"])
+    assert alone.why_not("/recorder/start") is None, "nobody has it twice"
     graph.drop(first.lab)
     wait_for(lambda: not alone.why_not("/lab/load_scene"), "the end of the other lab")

@@ -22,6 +22,8 @@ from mrlab_ros.core.bridge.rules import Congestion, Reliability, TopicRule
 from mrlab_ros.core.errors import Unavailable
 
 # Threads that answer queries for latched topics, and how many queries may wait for them.
+# Bytes of an encoding's schema; with a longer one zenoh's pipeline panics.
+LONGEST_SCHEMA = 255
 ANSWER_THREADS = 2
 ANSWERS_WAITING = 4096
 CONGESTION = {
@@ -278,6 +280,8 @@ class _Query:
     def refuse(self, reason: Diagnostic) -> None:
         # The text for whoever prints it; code and values for whoever words it.
         told = json.dumps({"code": reason.code, "values": plain(reason.values)})
+        if len(told) > LONGEST_SCHEMA:
+            told = json.dumps({"code": reason.code, "values": {}})
         encoding = zenoh.Encoding.TEXT_PLAIN.with_schema(told)
         self._query.reply_err(str(reason).encode(), encoding=encoding)
         self._query.drop()

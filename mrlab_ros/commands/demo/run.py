@@ -117,7 +117,7 @@ class Run:
 
     def _wait_for_lab(self, graph: Graph) -> None:
         options = self._stage.options
-        identity = Identity(options.lab_id, lambda text: self._say("start", text))
+        identity = Identity(options.lab_id, lambda said: self._say("start", str(said)))
         lab = Readiness(graph, lab_nodes(options), 0, identity)
         self._until(lambda: not lab.missing(), START_TIMEOUT_S, "lab")
         gateway = gateway_answers(self._stage.web)

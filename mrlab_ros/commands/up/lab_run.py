@@ -41,7 +41,7 @@ class LabRun:
         self._keys = self.options.keys if self.options.bridge else None
         self._web = {} if self.options.web is None else run_facts(self.options)
         self._begin = 0.0
-        self._identity = Identity(self.options.lab_id, lambda text: self.say(SELF, text))
+        self._identity = Identity(self.options.lab_id, lambda said: self.say(SELF, str(said)))
 
     def keep(self, run_file: RunFile, domain: int) -> None:
         """Keep the lab running until it is stopped.

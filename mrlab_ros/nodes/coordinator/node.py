@@ -73,7 +73,7 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
         )
         log = self.get_logger()
         self.caller = Caller(self)
-        self._identity = Identity(self.parameters.lab_id, log.warning)
+        self._identity = Identity(self.parameters.lab_id, lambda said: log.warning(str(said)))
         # After a restart another one.
         self._holder = secrets.token_hex(4)
         self._lab_clock = LabClock(self)

@@ -61,7 +61,9 @@ class FramesNode(ParameterNode[FramesParameters]):
             parameter_overrides=parameter_overrides,
         )
         self._log = self.get_logger()
-        self._identity = Identity(self.parameters.lab_id, self._log.warning)
+        self._identity = Identity(
+            self.parameters.lab_id, lambda said: self._log.warning(str(said))
+        )
         self._lab_clock = LabClock(self)
         self._robots: dict[str, ShownRobot] = {}
         self._batch = Batch()

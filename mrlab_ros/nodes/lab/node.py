@@ -75,7 +75,7 @@ class LabNode(ParameterNode[LabParameters]):
         file = Path(state_dir) / SCENE_FILE if state_dir else None
         self._file = StateFile(file, log.error, whole=True)
         # What could not be brought back, a sentence each.
-        self.lost: list[str] = []
+        self.lost: list[Diagnostic] = []
         self._library = RobotLibrary(share.directory() / "robots")
         self._scene = Scene()
         self._descriptions: dict[str, Publisher] = {}
@@ -205,14 +205,14 @@ class LabNode(ParameterNode[LabParameters]):
     def _on_robots(self, message: msg.Robots) -> None:
         self._identity.obeys(message.lab)
 
-    def _meet(self, said: str) -> None:
+    def _meet(self, said: Diagnostic) -> None:
         """Name another lab, also on /diagnostics."""
         self.lost.append(said)
-        self.get_logger().warning(said)
+        self.get_logger().warning(str(said))
 
     def _lose(self, why: Diagnostic) -> None:
         """Keep a copy of the state file, and say what could not be brought back."""
-        self.lost.append(str(why))
+        self.lost.append(why)
         self._file.keep_copy(str(why))
 
     def _restore_robots(self, last: SceneDocument) -> SceneDocument:

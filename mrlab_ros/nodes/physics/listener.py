@@ -79,7 +79,7 @@ class GraphListener:
         self._publishers = publishers
         self._lock = lock
         self._log = node.get_logger()
-        self._identity = Identity(lab, self._log.warning)
+        self._identity = Identity(lab, lambda said: self._log.warning(str(said)))
         self.robots: dict[str, Followed] = {}
         # The names in the newest /robots; None before the first one.
         self.known_robots: frozenset[str] | None = None

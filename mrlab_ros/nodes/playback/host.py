@@ -101,7 +101,8 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
             context=context,
             parameter_overrides=parameter_overrides,
         )
-        self._identity = Identity(self.parameters.lab_id, self.get_logger().warning)
+        log = self.get_logger()
+        self._identity = Identity(self.parameters.lab_id, lambda said: log.warning(str(said)))
         self._only = set(self.parameters.robots)
         self._planner = RuckigPlanner(self._staging_limits())
         self._library = RobotLibrary(share.directory() / "robots")

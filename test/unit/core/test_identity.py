@@ -4,34 +4,35 @@ from __future__ import annotations
 
 import pytest
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.identity import PRESENT_S, Identity, Neighbours
 from mrlab_ros.core.runtime.diagnostics import LAB_WITHOUT_ID, OTHER_LAB, SHARED_SERVICE
 
 
 def test_another_lab_is_named_once_and_ignored():
-    said: list[str] = []
+    said: list[Diagnostic] = []
     own = Identity("a1", said.append)
     assert own.accepts("a1")
     assert not own.accepts("b2")
     assert not own.accepts("b2")
-    assert said == [str(OTHER_LAB(other_lab="b2", lab="a1"))]
+    assert said == [OTHER_LAB(other_lab="b2", lab="a1")]
     assert own.others == {"b2"}
 
 
 def test_what_names_no_lab_is_accepted():
-    said: list[str] = []
+    said: list[Diagnostic] = []
     assert Identity("a1", said.append).accepts("")
     assert Identity("", said.append).accepts("b2")
     assert said == []
 
 
 def test_a_list_that_names_no_lab_removes_no_robots():
-    said: list[str] = []
+    said: list[Diagnostic] = []
     own = Identity("a1", said.append)
     assert own.obeys("a1")
     assert not own.obeys("")
     assert not own.obeys("")
-    assert said == [str(LAB_WITHOUT_ID(lab="a1"))]
+    assert said == [LAB_WITHOUT_ID(lab="a1")]
     assert Identity("", said.append).obeys("")
 
 
