@@ -759,6 +759,42 @@ export const words: Words = {
 
 const ROLE = 'display=eine Anzeige|student=Studierende|operator=Betrieb|instructor=Lehrende'
 
+const COMMANDS = [
+  'load=Laden',
+  'unload=Entladen',
+  'play=Abspielen',
+  'pause=Anhalten',
+  'stop=Stoppen',
+  'seek=Springen',
+  'step=Einzelschritt',
+  'clear the halt=Aufheben des Halts',
+  'set the mode=Ändern des Modus',
+  'start a recording=Beginn einer Aufnahme',
+  'split the recording=Teilen der Aufnahme',
+  'start a replay=Beginn einer Wiedergabe',
+  'pause the replay=Anhalten der Wiedergabe',
+  'resume the replay=Fortsetzen der Wiedergabe',
+  'seek in the replay=Springen in der Wiedergabe',
+  'set the rate=Ändern des Tempos',
+  'set the loop=Ändern der Schleife',
+].join('|')
+
+const STATES = [
+  'IDLE=untätig',
+  'READY=bereit',
+  'ADJUSTING=fährt zum Start',
+  'STAGING=fährt zum Start',
+  'PLAYING=läuft',
+  'PAUSED=Pause',
+  'COLLISION_HALT=Kollisionshalt',
+  'COMPLETE=fertig',
+  'STOPPING=stoppt',
+  'STOPPED=gestoppt',
+  'RECORDING=nimmt auf',
+  'PREPARING=bereitet vor',
+  'REPLAYING=gibt wieder',
+].join('|')
+
 /** What the lab says, by code; the placeholders are those of the English text. */
 export const diagnostics: Templates = {
   a_filled_text: ['ein Text, der nicht leer ist'],
@@ -1568,7 +1604,7 @@ export const diagnostics: Templates = {
     'Erwartet wird ein Zertifikat mit seinem Schlüssel ohne Passwort (PEM).',
   ],
   illegal_event: [
-    '{event:choice load=Laden|unload=Entladen|play=Abspielen|pause=Anhalten|stop=Stoppen|seek=Springen|step=Ein Schritt|clear the halt=Den Halt aufheben|set the mode=Den Modus setzen|start a recording=Eine Aufnahme beginnen|split the recording=Die Aufnahme teilen|start a replay=Eine Wiedergabe beginnen|pause the replay=Die Wiedergabe anhalten|resume the replay=Die Wiedergabe fortsetzen|seek in the replay=In der Wiedergabe springen|set the rate=Das Tempo setzen|set the loop=Die Schleife setzen} geht im Zustand „{state:choice IDLE=untätig|READY=bereit|ADJUSTING=fährt zum Start|STAGING=fährt zum Start|PLAYING=läuft|PAUSED=Pause|COLLISION_HALT=Kollisionshalt|COMPLETE=fertig|STOPPING=stoppt|STOPPED=gestoppt|RECORDING=nimmt auf|PREPARING=bereitet vor|REPLAYING=gibt wieder}“ nicht[: {reason:problem}][; möglich ist jetzt: {possible:list load=Laden|unload=Entladen|play=Abspielen|pause=Anhalten|stop=Stoppen|seek=Springen|step=ein Schritt|clear the halt=den Halt aufheben|set the mode=den Modus setzen|start a recording=eine Aufnahme beginnen|split the recording=die Aufnahme teilen|start a replay=eine Wiedergabe beginnen|pause the replay=die Wiedergabe anhalten|resume the replay=die Wiedergabe fortsetzen|seek in the replay=in der Wiedergabe springen|set the rate=das Tempo setzen|set the loop=die Schleife setzen}]',
+    `{event:choice ${COMMANDS}} geht im Zustand „{state:choice ${STATES}}“ nicht[: {reason:problem}][; möglich ist jetzt: {possible:list ${COMMANDS}}]`,
   ],
   in_brackets: ['Schreibe [[{text}]]'],
   in_cell: ['in einer Zelle mit {robots:count Roboter|Robotern}'],
