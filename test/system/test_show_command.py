@@ -65,7 +65,7 @@ def test_plot_writes_the_page(tmp_path):
         ((QUINTIC,), Misuse, "Add --robot"),
         ((QUINTIC, "--robot", "ur5e", "-o", "page.pdf"), Misuse, "ends in .html"),
         ((QUINTIC, "--robot", "ur55e"), BadInput, "ur5e"),
-        (("none.mat", "--robot", "ur5e"), BadInput, "no file none.mat"),
+        (("none.mat", "--robot", "ur5e"), BadInput, "no file 'none.mat'"),
         (("none.json",), BadInput, "none.json"),
     ],
 )
