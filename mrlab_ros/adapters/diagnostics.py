@@ -85,6 +85,19 @@ NOT_A_FOLDER = Code("not_a_folder", "{path} is no folder, or a link to one")
 OTHERS_WRITE = Code("others_write", "others can write into {path}")
 OTHERS_EXCHANGE = Code("others_exchange", "others can exchange what lies in {path}")
 
+# pages in one file
+REPORT_NOT_BUILT = Code(
+    "report_not_built",
+    "The page cannot be written: there is no {path}, which the pages' build makes.",
+    "Build the pages: npm ci and npm run build in web/.",
+    meaning="The code of the one-file pages is missing from the installation.",
+)
+NOTHING_TO_SHOW = Code(
+    "nothing_to_show",
+    "There is no motion to show: {why:problem}.",
+    meaning="A file was refused before a matrix was found in it.",
+)
+
 # what is set aside
 SET_ASIDE = Code("set_aside", "It is now called {file}", severity=INFO)
 COPY_KEPT = Code("copy_kept", "A copy is kept as {file}", severity=INFO)

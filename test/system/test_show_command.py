@@ -5,8 +5,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 import scipy.io
+from refusals import refused
 from typer.testing import CliRunner
 
+from mrlab_ros.adapters.diagnostics import NOTHING_TO_SHOW
 from mrlab_ros.cli import make_app
 from mrlab_ros.core.errors import BadInput, Misuse
 
@@ -77,5 +79,5 @@ def test_what_is_wrong_is_said(arguments, kind, words):
 def test_a_file_without_a_matrix_is_refused_with_its_reason(tmp_path):
     file = tmp_path / "words.mat"
     scipy.io.savemat(file, {"note": "hello"})
-    with pytest.raises(BadInput, match="no motion to show"):
+    with refused(NOTHING_TO_SHOW, BadInput):
         run(file, "--robot", "ur5e", "-o", tmp_path / "page.html")

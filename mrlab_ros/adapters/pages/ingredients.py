@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
+from mrlab_ros.adapters.diagnostics import REPORT_NOT_BUILT
 from mrlab_ros.adapters.robots import quantised, urdf
 from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.show.page import Code
@@ -18,10 +19,7 @@ def code(share: Path) -> Code:
             (folder / "show.js").read_bytes(), (folder / "show.css").read_text(encoding="utf-8")
         )
     except OSError:
-        raise BadInput(
-            f"the pages are not built: there is no {folder / 'show.js'}; run make setup, or "
-            "scripts/npm run build"
-        ) from None
+        raise BadInput(REPORT_NOT_BUILT(path=str(folder / "show.js"))) from None
 
 
 def meshes_of(descriptions: Iterable[str], resolve: Callable[[str], Path]) -> dict[str, bytes]:

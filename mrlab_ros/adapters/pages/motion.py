@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from mrlab_ros.adapters.diagnostics import NOTHING_TO_SHOW
 from mrlab_ros.adapters.pages import ingredients
 from mrlab_ros.adapters.pages.poster import poster
 from mrlab_ros.adapters.robots.library import RobotLibrary
@@ -32,7 +33,7 @@ def motion_page(
     robot = from_library(library, robot_model, end_effector)
     shown = document.of_result(result, robot)
     if shown is None:
-        raise BadInput(f"there is no motion to show: {result.message}")
+        raise BadInput(NOTHING_TO_SHOW(why=result.said))
     first = np.nan_to_num(unpacked(shown["positions"])[0].astype(float))
     names = [joint.name for joint in robot.joints]
     picture = poster(library, robot, dict(zip(names, first.tolist(), strict=True)))
