@@ -2452,23 +2452,621 @@ export const diagnostics: Templates = {
   not_writable: ['{file} lässt sich nicht schreiben: {why:problem}.'],
   not_xml: ["{file} ist kein XML: {why:problem} in Zeile {line:integer}[, '{found}']."],
   not_yours: ["'{trajectory}' gehört {owner}; {person} darf sie nur ansehen."],
+  nothing_answers: ['Auf {key} antwortet nichts.'],
   nothing_at: ['Unter {path} gibt es nichts.'],
+  nothing_came: [
+    'Auf {topic} kam innerhalb von {timeout:time} nichts; vielleicht läuft dieser Teil des Labors nicht.',
+  ],
+  nothing_loaded: [
+    'Der Roboter kann sich im Zustand {state} nicht bewegen: Er hat keine Trajektorie.',
+    'Lade zuerst eine Trajektorie.',
+  ],
+  nothing_near: ['Nichts kommt näher als {value:length}.'],
+  nothing_recorded: ['Darin wurde nichts aufgenommen'],
+  nothing_runs: ['es läuft keine Aufnahme und keine Wiedergabe'],
+  nothing_to_replay: [
+    '{path} enthält kein Topic, das sich wiedergeben lässt[:{left_out:problems}].',
+    'Nimm die Topics des Labors auf.',
+  ],
+  nothing_touched: ['Nichts wird berührt.'],
+  numbers_differ: ['zwei Leseprogramme finden verschiedene Zahlen darin'],
+  object_attached: ['{robot} hält {object}.'],
+  object_catalogue: ['der Katalog der Gegenstände'],
+  object_detached: ['{robot} hat {object} losgelassen.'],
+  object_entry: ["Gegenstand '{object}'"],
+  object_id: ['die Kennung eines Gegenstands im Katalog'],
+  object_ignored: [
+    '{objects:list} ließ sich nicht öffnen und wurde weggelassen: {why:problem}.',
+    'Du musst nichts tun, außer wenn die Trajektorie darin ist: Dann sichere in MATLAB die Zahlen daraus.',
+  ],
+  object_is_fixed: [
+    "'{object}' steht fest, nichts kann es greifen; nenne einen Gegenstand, der sich bewegt.",
+  ],
+  object_mesh_empty: [
+    'Das Netz {mesh} hat keine Dreiecke oder einen Eckpunkt, der nicht endlich ist.',
+    'Exportiere es noch einmal.',
+  ],
+  object_mesh_missing: [
+    'Das Netz {mesh} gibt es nicht.',
+    'Lege es unter {path} ab, oder berichtige die URI.',
+  ],
+  object_mesh_size: [
+    'Das Netz {mesh} misst {size:length}; erwartet: {low:length} bis {high:length}.',
+    'Exportiere es in Metern.',
+  ],
+  object_mesh_too_fine: [
+    'Das Netz {mesh} hat {count:integer} Dreiecke; erwartet: höchstens {most:integer}.',
+    'Vereinfache es, in Blender mit dem Modifikator Decimate.',
+  ],
+  object_mesh_unreadable: [
+    'Das Netz {mesh} ist nicht lesbar: {why:problem}.',
+    'Exportiere es noch einmal.',
+  ],
+  object_mesh_uri: [
+    "Das Netz ist '{mesh}'; erwartet wird eine URI, die mit {prefix} beginnt und auf {formats:either} endet.",
+  ],
+  object_moved: ['{object} wird {state:choice held=gehalten|released=losgelassen}.'],
+  object_not_in_scene: [
+    "Die Szene hat keinen Gegenstand '{object}'[; vorhanden: {known:list}].",
+    '[Meinst du {close}?]',
+  ],
+  object_removed: ['{object} ist entfernt.'],
+  object_spawned: ['{object} ist bei {place:position}.'],
+  object_unreadable: ['mat-io kann es nicht lesen ({error})'],
+  objects_removed: ['{count:count Gegenstand ist|Gegenstände sind} entfernt.'],
+  odd_bytes: [
+    '{part:choice variable=eine Variable hat|fields=die Feldnamen eines struct haben} {count:integer} Bytes; das ist kein Vielfaches von {unit_size:integer}',
+  ],
+  of_another_end_effector: [
+    "Die Trajektorie '{id}' wurde für den Endeffektor {made_for} gemacht, den dieser Roboter nicht trägt[; er trägt {carried}].",
+    'Tausche den Endeffektor, oder wandle die Datei noch einmal um.',
+  ],
+  of_another_model: [
+    "Die Trajektorie '{id}' wurde für {made_for} gemacht; dieser Roboter ist ein {robot_model}.",
+    'Wandle die Datei noch einmal für {robot_model} um.',
+  ],
+  of_other_joints: [
+    "Die Trajektorie '{id}' hat die Gelenke {found:list}; erwartet: {expected:list}.",
+    'Wandle die Datei noch einmal um.',
+  ],
+  of_robot: ['{robot}: {why:problem}'],
+  off_goal: ['{joint} ist {value:angle} vom Ziel entfernt; erwartet: höchstens {limit:angle}.'],
+  off_path: [
+    '{joint} ist {value:angle} von der Bahn entfernt; erwartet: höchstens {limit:angle}[; der Roboter ist im Zustand {state}].',
+  ],
+  one_local_user: [
+    'Dieses Labor hat eine einzige Person am Rechner selbst; es gibt kein Anmelden und keine gekoppelten Geräte.',
+    'Für mehr Personen starte es mit Schlüsseln.',
+  ],
+  one_of: ['{choices:either}'],
+  one_piece: ['es nennt eine einzige Variable; zusammenfügen lassen sich zwei oder mehr'],
+  one_pose_each: ["'partial: each' ergibt keine Teilpunkte: Es gibt nur eine Pose."],
+  open_endpoint: [
+    'Die Bridge soll an {endpoint} erreichbar sein; dort könnte jeder im Netz zusehen und die Roboter bewegen.',
+    'Gib dem Labor Schlüssel, nimm tcp/127.0.0.1, oder lass es mit dem Parameter insecure zu.',
+  ],
+  open_to_network: [
+    'An {host}:{port:integer} könnte jeder im Netz alles lesen und ändern.',
+    'Gib dem Labor Schlüssel, nimm nur 127.0.0.1, oder lass es ausdrücklich zu.',
+  ],
+  original_in_the_way: [
+    '{path} ist noch von einer früheren Reparatur da.',
+    'Lege es anderswohin, dann repariere noch einmal.',
+  ],
+  other_authority: [
+    'Das Zertifikat {path} wurde von {signer} unterschrieben und nicht von der Zertifizierungsstelle dieses Ordners, {authority}.',
+  ],
+  other_candidates: [
+    "'{variable}' wurde genommen; infrage kommt auch: {others:list}.",
+    'Willst du eine andere, nenne sie beim Namen.',
+  ],
+  other_class_schema: [
+    '{file} hat das Schema {found}; erwartet: {expected}.',
+    'Bewerte die Klasse mit dieser Version noch einmal.',
+  ],
   other_ending: [
     "'{file}' gehört zu keiner Art von Datei, die gelesen wird.",
     'Der Name muss auf {endings:either} enden.',
+  ],
+  other_key: [
+    '{path} ist nicht der Schlüssel zu {certificate}.',
+    'Hole den zurück, der damit erzeugt wurde.',
+  ],
+  other_lab: [
+    'In dieser ROS-Domain ist noch ein Labor, {other_lab}. Dieses hier, {lab}, beachtet es nicht, aber Topics und Dienste mit gleichem Namen teilen sie sich.',
+    'Starte eines der beiden mit einer anderen ROS_DOMAIN_ID neu.',
+  ],
+  other_length: ["'{variable}' ist {size}, und '{other}' hat {rows:count Zeile|Zeilen}"],
+  other_mode: [
+    'Die Zelle wird {found:choice parallel=parallel|sequential=nacheinander} abgespielt; erwartet: {mode:choice parallel=parallel|sequential=nacheinander}.',
+  ],
+  other_model: ['{name} ist ein anderer Roboter oder hat einen anderen Endeffektor'],
+  other_protocol: [
+    'Dieses Gateway spricht {ours}[ und die Seite {theirs}].',
+    'Lade die Seite neu.',
+  ],
+  other_storage: [
+    '{file} nennt als Speicherart {storage}[ mit der Kompression {compression}]; erwartet wird mcap ohne Kompression.',
+    'Importiere das Bag; das macht ein gewöhnliches daraus.',
+  ],
+  other_trajectory: ['Inzwischen wurde eine andere Trajektorie geladen.'],
+  other_unit: ["'{text}' hat die Einheit '{given}'; erwartet: {expected:problem}."],
+  others_exchange: ['andere können austauschen, was in {path} liegt'],
+  others_go_on: ['Kollision von {robot}; die anderen machen weiter'],
+  others_publish: [
+    'Die Wiedergabe beginnt nicht: {nodes:list} sendet auf {topics:list}.',
+    'Beende, was dort sendet, oder gib in einer anderen ROS-Domain wieder.',
+  ],
+  others_write: ['andere können in {path} schreiben'],
+  out_of_attach_reach: [
+    '{object} ist {distance:length} von der Hand von {robot} entfernt; erwartet: höchstens {limit:length} (attach_reach).',
+    'Bring die Hand zum Gegenstand oder den Gegenstand zur Hand, und hänge ihn dann an.',
+  ],
+  out_of_reach: [
+    '{place:position} ist außer Reichweite: Das Werkzeug kommt bis auf {value:length} heran, nicht bis auf {limit:length}.',
+  ],
+  outside_range: [
+    '{joint} ist {value:measure} außerhalb seines Bereichs von {lower:measure} bis {upper:measure}.',
+    'Lass das Gelenk in seinem Bereich, oder wandle die Datei für diesen Roboter noch einmal um.',
+  ],
+  over_payload: [
+    '{mass:mass} ist mehr als die {payload:mass}, die {robot} mit diesem Endeffektor tragen darf.',
+  ],
+  over_speed: [
+    '{joint} bewegt sich mit {value:measure}; seine Grenze ist {limit:measure}.',
+    'Lass die Bewegung mindestens {times:number}-mal so lange dauern.',
+  ],
+  own_pages_only: ['Das dürfen nur die eigenen Seiten dieses Gateways anfragen.'],
+  package_descriptions: [
+    "Das Paket '{package}' hat {count:count Beschreibung|Beschreibungen}[: {known:list}].",
+    '[Nenne die gewünschte, etwa {package}/{first}.]',
+  ],
+  package_missing: [
+    'Das Paket {package} ist hier nicht installiert.',
+    'Baue es mit `make`, oder mit colcon auf einem Rechner mit ROS.',
+  ],
+  package_no_file: [
+    "Das Paket '{package}' hat keine Datei {file}[; seine Beschreibungen: {known:list}].",
+  ],
+  page_silent: ['Von dieser Seite kam {wait:time} lang nichts.'],
+  pages_built: ['Seiten: gebaut'],
+  pages_full: [
+    'Verbunden sind {own:count Seite|Seiten} von {person} und {all:integer} von allen Personen.',
+    'Schließe einige, dann lade diese neu.',
+  ],
+  pages_not_built: ['Seiten: nicht gebaut', 'Führe make demo aus, oder scripts/npm run build.'],
+  pages_not_served: [
+    'Die Seiten lassen sich unter {host}:{port:integer} nicht anbieten: {why:problem}.',
+    'Vielleicht hat ein anderes Labor diesen Port; wähle einen anderen.',
+  ],
+  paired_role_too_high: [
+    `{person} hat die Rolle {role:choice ${ROLE}} und kann kein Gerät mit der Rolle {wanted:choice ${ROLE}} koppeln.`,
+    `Wähle höchstens die Rolle {role:choice ${ROLE}}.`,
+  ],
+  pairing_ended: ['Dieses Koppeln ist beendet.', 'Beginne ein neues.'],
+  parameter_fixed: [
+    '{parameter} wird gelesen, wenn {node} startet, und lässt sich danach nicht ändern.',
+    'Setze den Parameter in der Parameterdatei oder mit -p {node}:NAME:=VALUE, und starte den Knoten neu; docs/parameters.md nennt alle.',
+  ],
+  parameters_not_attached: ['die Parameter von {node} sind nicht im Bag: {why:problem}'],
+  parameters_refused: [
+    '{mistakes:problem}.',
+    'Die Parameter von {node} setzt man vor dem Start in der Parameterdatei oder mit -p {node}:NAME:=VALUE; sie stehen in docs/parameters.md.',
+  ],
+  partial_gives_nothing: [
+    "'partial: until' mit {until:measure} ergibt keine Teilpunkte: Der Wert muss {side:choice below=unter|above=über} der Grenze von {limit:measure} liegen.",
+  ],
+  passed_already: [
+    'Der Roboter ist an {until:time} schon vorbei.',
+    'Halte an, dann springe zurück.',
   ],
   password_length: [
     'Das Passwort hat {count:count Zeichen|Zeichen}; nötig sind {least:integer} bis {most:integer}.',
     'Mehrere Wörter merkt man sich leicht.',
   ],
+  path_length: [
+    'Der Weg des Werkzeugs ist {value:length} lang; erwartet: höchstens {limit:length}.',
+  ],
+  pause_first: ['halte zuerst an'],
+  paused: ['angehalten bei {position:time}'],
+  paused_without: ['angehalten bei {position:time}; {robots:list} antwortete nicht'],
+  payload: [
+    'Der Roboter trägt mit {other} {value:mass}; neben seinem Endeffektor darf er {limit:mass} tragen.',
+    'Nimm einen leichteren Gegenstand, oder einen Roboter mit mehr Traglast.',
+  ],
+  person_exists: [
+    "Jemand heißt schon '{name}'.",
+    'Wähle einen anderen Namen, oder entferne erst diese Person.',
+  ],
+  pieces_differ: [
+    "Die Gelenke ab '{variable}' sind verschieden lang: Die meisten haben {usual:count Messpunkt|Messpunkte}, aber nicht {others:list}.",
+    'Suche die fehlenden Messpunkte, und sichere alle neu. Beginnen alle gleichzeitig, kürze sie auf die ersten {rows:integer}.',
+  ],
+  playback_gone: [
+    'Die Wiedergabe von {robot} wurde neu gestartet, oder sie machte Platz für die Wiedergabe eines Bags.',
+    'Sieh nach, wo der Roboter steht, und spiele von dort weiter ab.',
+  ],
+  playback_restarted: ['ihr Prozess wurde neu gestartet; Abspielen macht hier weiter'],
+  playback_silent: [
+    'Die Wiedergabe von {robots:list} hat nicht innerhalb von {timeout:time} geantwortet.',
+    'Versuche es noch einmal.',
+  ],
+  playbacks_missing: ['Nach {limit:time} ist die Wiedergabe von {robots:list} noch nicht da.'],
+  played_back: ['rückwärts bis zum Anfang abgespielt'],
+  played_to_end: ['bis zum Ende abgespielt'],
+  plays: ['läuft'],
+  plays_once: ['läuft einmal'],
+  point_count: [
+    '{file} enthält {count:count Punkt|Punkte}; erwartet: 1 bis {most:integer}, einer je Zeile: x, y, z in m.',
+  ],
+  point_not_numbers: [
+    "{file}, Zeile {line:integer} ist '{found:list}'; erwartet werden drei Zahlen: x, y, z in m, in world.",
+  ],
+  point_out_of_order: [
+    'Das Werkzeug kommt am Punkt {number:integer} ({point:position}) vor dem Punkt {before:integer} vorbei und nicht danach.',
+    'Ordne die Punkte so, wie das Werkzeug an ihnen vorbeikommen soll, oder ändere den Weg.',
+  ],
+  point_too_far: [
+    '{file}, Zeile {line:integer} ist {point:position}; erwartet wird ein Punkt höchstens {most:length} vom Ursprung von world.',
+  ],
+  points_nowhere: ["'{variable}' verweist ins Leere"],
+  port_free: ['Port {port:integer} ({what}): frei'],
+  port_in_use: [
+    'Port {port:integer} ({what}): ein anderes Programm hat ihn',
+    'Beende dieses Programm, oder starte das Labor mit einem anderen Port.',
+  ],
+  port_ours: ['Port {port:integer} ({what}): das laufende Labor hat ihn'],
+  pose_count: [
+    'poses hat {count:count Eintrag|Einträge}; erwartet: 1 bis {most:integer}, etwa [[0.4, -0.3, 0.2]], in m in world.',
+  ],
+  pose_hint: [
+    '{hint:choice down=die Spalten 4 bis 6 sind die Orientierung eines Werkzeugs, das nach unten zeigt|still=die Spalten 4 bis 6 ändern sich nie, während sich 1 bis 3 bewegen|wraps=die Spalten 4 bis 6 springen zwischen -pi und pi wie Winkel einer Orientierung|circle=zwei der Spalten 1 bis 3 laufen auf einem Kreis}',
+  ],
+  pose_not_finite: ['Die Pose {found:list} ist nicht endlich.'],
+  pose_not_turned: [
+    'Verlangt ist ein Winkel, aber die Pose {number:integer} hat keine Orientierung; ergänze rpy_deg: [[180, 0, 0]] neben ihrer position, oder lass den Winkel weg.',
+  ],
+  pose_out_of_reach: [
+    'Die Pose {number:integer} ({place:position}) ist außer Reichweite: Das Werkzeug kommt bis auf {value:length} heran, nicht bis auf {limit:length}.',
+  ],
+  pose_ranges: [
+    'die Spalten 1 bis 3 reichen bis {far:number} und die Spalten 4 bis 6 nur bis {near:number}: mm und {angles:choice rad=rad|deg=Grad}',
+  ],
+  pose_too_early: [
+    'Das Werkzeug kommt an der Pose {number:integer} ({place:position}) bei {time:time} vorbei, vor der, die zuerst kommt; erreicht: {passed:integer} von {count:count Pose|Posen}.',
+  ],
+  pose_too_far: [
+    'Das Werkzeug kommt an der Pose {number:integer} ({place:position}) bei {time:time} in {value:length} Abstand vorbei; erwartet: höchstens {limit:length}; erreicht: {passed:integer} von {count:count Pose|Posen}.',
+  ],
+  pose_turned: [
+    'Das Werkzeug ist an der Pose {number:integer} ({place:position}) bei {time:time} um {value:angle} verdreht; erwartet: höchstens {limit:angle}; erreicht: {passed:integer} von {count:count Pose|Posen}.',
+  ],
+  poses_passed: [
+    'Das Werkzeug erreicht {passed:integer} von {count:count Pose|Posen}, mit höchstens {value:length} Abstand.',
+  ],
+  position_beyond: [
+    "Die Szene will {robot} bei {position:time} von '{trajectory}', und die dauert {duration:time}.",
+    "Setze 'at' auf höchstens {most:exact}.",
+  ],
+  position_count: [
+    'Es gibt {count:count Position|Positionen}; erwartet: {joints:integer}, eine für jedes bewegliche Gelenk.',
+  ],
+  positions_in_range: ['Positionen in ihren Bereichen'],
+  positions_not_finite: [
+    "Die Positionen von '{id}' enthalten NaN oder Inf.",
+    'Sichere endliche Werte in Radiant.',
+  ],
+  positions_shape: [
+    "Die Positionen von '{id}' sind {size}; erwartet werden mindestens 2 Zeilen und {joints:count Spalte|Spalten}, eine für jedes Gelenk.",
+  ],
+  process_silent: [
+    'seit {silent:integer} s kein Lebenszeichen: abgebrochen oder hängen geblieben',
+  ],
+  provider_incomplete: ['{url} nennt nicht: {missing:list}.'],
+  provider_other: [
+    '{url} gehört zu einem anderen Anbieter[, {issuer},] und nicht zum eingestellten.',
+  ],
+  provider_silent: [
+    'Der Anbieter {issuer} antwortet nicht, wie er sollte: {why:problem}.',
+    'Versuche es noch einmal, oder melde dich mit einem Passwort an.',
+  ],
+  published_already: ["Dieser Entwurf wurde schon veröffentlicht, als '{id}'."],
+  pybullet_missing: [
+    'pybullet ist für dieses Python {version} nicht installiert; Wheels gibt es für 3.10 und 3.11.',
+    'Installiere eines davon und richte alles neu ein, oder baue es mit pip install pybullet; das dauert Minuten.',
+  ],
+  python_fits: ['Python {version} passt'],
+  python_unfit: [
+    'Python {version}; erwartet: {first} bis {last}',
+    'Installiere Python 3.11, und richte das Labor damit ein: PYTHON=python3.11 make demo.',
+  ],
+  quantity: [
+    '{quantity:choice length=eine Länge|angle=ein Winkel|time=eine Zeit|speed=eine Geschwindigkeit|share=ein Anteil in Prozent|number=eine Zahl}, etwa {example}[ (Einheiten: {units:list})]',
+  ],
+  quaternions: ['die Spalten 4 bis 7 sind Einheitsquaternionen'],
+  quic_unbounded: [
+    'Die Bridge soll an {endpoint} erreichbar sein; bei QUIC kann sie für eine Person weder die Zahl der Verbindungen noch die der Bytes begrenzen, und so könnte eine das Labor allen anderen nehmen.',
+    'Nimm {better}.',
+  ],
   quota_full: [
     'Deine Dateien belegen {used:bytes} von {most:bytes}, und diese passt nicht mehr dazu.',
     'Hochgeladenes wird nach einigen Tagen entfernt.',
+  ],
+  rate_assumed: [
+    "Aus '{variable}' wurden {rate:number} Zeilen pro Sekunde genommen; der Name kann etwas anderes bedeuten.",
+    'Stimmt es, sichere die Zahl als fs; sonst setze die Rate.',
+  ],
+  rate_conflict: [
+    "'{variable}' nennt {rate:number} Zeilen pro Sekunde, '{other}' aber {limit:number}; genommen wurde die erste Zahl.",
+    'Sichere nur eine davon, oder setze die Rate.',
+  ],
+  rate_default: [
+    "'{file}' nennt keine Zahl von Zeilen pro Sekunde; genommen wurden {rate:number}.",
+    'Sichere sie mit der Trajektorie als fs, oder setze die Rate.',
+  ],
+  rate_found: ["{rate:number} Zeilen pro Sekunde, aus '{variable}'."],
+  rate_of_velocity: [
+    "Die Datei nennt keine Zahl von Zeilen pro Sekunde; '{variable}' ist die Ableitung der Positionen bei {rate:number} Zeilen pro Sekunde, und diese Zahl wurde genommen.",
+    'Sind die Geschwindigkeiten nicht in rad/s, setze die Rate.',
+  ],
+  rate_set: ['Tempo {rate:number}'],
+  rate_unclear: [
+    'In {found:list} kann eine Rate oder ein Schritt stehen, aber auch etwas anderes; genommen wurden {rate:number} Zeilen pro Sekunde.',
+    'Sichere die Rate als fs, oder setze sie.',
+  ],
+  rate_unused: [
+    "'{variable}' heißt wie Zeiten oder eine Rate der Zeilen, wurde aber nicht benutzt: {why:problem}; genommen wurden {rate:number} Zeilen pro Sekunde.",
+    'Sichere für jede Zeile eine steigende Zeit in Sekunden, oder die Rate als die Zahl fs.',
+  ],
+  reach_members_first: ['warte, bis alle Mitglieder erreicht wurden, oder löse das System auf'],
+  reader_died: [
+    "'{file}' hat das Leseprogramm zum Absturz gebracht[ (Exit-Code {exit:integer})][ (Signal {signal:integer}[, {meaning}])][ ({error})]; die Datei ist beschädigt oder dafür gemacht.",
+    'Sichere sie in MATLAB noch einmal.',
+  ],
+  reader_failed: [
+    'Das Leseprogramm ist an {file} gescheitert (Exit-Status {status:integer})[: {problem}]',
+  ],
+  reader_memory: ['{file} zu lesen braucht mehr als {limit:bytes} Speicher.'],
+  reader_slow: ['{file} zu lesen dauert länger als {limit:time}.', 'Ist es die richtige Datei?'],
+  readers_disagree: [
+    "'{variable}' aus '{file}' ist nicht zu trauen, denn zwei Leseprogramme sind sich nicht einig: {why:problem}.",
+    'Sichere sie in MATLAB noch einmal, und sende die neue Datei.',
+  ],
+  reads_no_poses: ["'{sentence}' liest keine Posen; schreibe 'passes within 5 mm of poses'."],
+  record_of_another: ["Es enthält '{id}'."],
+  recorded: ['{folder} enthält {messages:count Nachricht|Nachrichten}'],
+  recorded_states: [
+    "'{variable}' enthält Gelenkzustände, eine Nachricht je Zeitpunkt: eine Aufnahme und keine Trajektorie.",
+    'Gib das Bag wieder, wie es aufgenommen wurde. Willst du es ansehen, mach eine Sitzung daraus.',
+  ],
+  recorder_restarted: ['die Aufnahme wurde neu gestartet, bevor sie etwas empfangen hatte'],
+  recording_failed: [
+    '{why:problem}; das Bag ist vollständig, mit {messages:count Nachricht|Nachrichten}.',
+  ],
+  recording_gap: ['{missing:time} fehlen ab {time:time}: Die Aufnahme wurde neu gestartet'],
+  recording_gap_unknown: ['Ab {time:time} fehlt etwas: Die Aufnahme wurde neu gestartet'],
+  recording_lost: ['Die Aufnahme {folder} endete mit ihrem Prozess: {why:problem}.'],
+  recording_runs: ['eine Aufnahme in {bag} läuft; beende sie zuerst'],
+  recording_split: ['wird in einer neuen Datei fortgesetzt'],
+  recording_with_gap: ['die Aufnahme {folder}: {gap:problem}'],
+  records: ['nimmt in {folder} auf'],
+  reference_loses: [
+    'Die Musterlösung verliert {lost:number} von {of:number} Punkten: {why:problem}.',
+  ],
+  reference_within_nothing: [
+    'Keine Bewegung ist um höchstens 0 von einer anderen entfernt; nimm mindestens 1 mm oder 1 deg.',
+  ],
+  refused_by_conversion: ['beim Umwandeln nicht angenommen'],
+  released_by: ['vom System {system} freigegeben'],
+  remove_robots: ['{robots:list} entfernen'],
+  removed_meanwhile: ["'{id}' wurde inzwischen entfernt."],
+  renewal_needed: [
+    'Das Zertifikat des Labors ist nicht brauchbar: {why:problem}.',
+    'Mach ein neues.',
+  ],
+  repair_runs: ['Eine andere Reparatur von {path} läuft gerade.', 'Warte auf ihr Ende.'],
+  repeated_columns: ['die Spalten {columns} nennen eine Spalte mehr als einmal'],
+  repeated_pieces: ['{join} nennt eine Variable mehr als einmal'],
+  replaced_meanwhile: ["'{id}' wurde ersetzt, während sie geholt wurde.", 'Lade sie noch einmal.'],
+  replay_at: ['bei {position:time}'],
+  replay_broke: [
+    'Das Bag {path} lässt sich nicht weiterlesen ({problem}).',
+    'Sieh nach, was damit ist.',
+  ],
+  replay_loops: ['läuft in Schleife'],
+  replay_once: ['hört am Ende auf'],
+  replay_over: ['die Wiedergabe ist zu Ende'],
+  replay_paused: ['angehalten bei {position:time}'],
+  replay_rate: ['Tempo {rate:number}'],
+  replay_resumed: ['läuft weiter'],
+  replay_runs: ['{bag} wird gerade wiedergegeben; beende das zuerst'],
+  replays: [
+    'gibt {duration:time} mit {messages:count Nachricht|Nachrichten} wieder[:{left_out:problems}]',
+  ],
+  request_missing: [
+    'Der Dienst {service} wurde ohne Anfrage aufgerufen.',
+    'Sende die Anfrage von {type} als CDR im Inhalt des Aufrufs.',
+  ],
+  request_not_cdr: [
+    'Der Dienst {service} bekam {size:integer} Bytes, die keine Anfrage von {type} sind.',
+    'Sende ihr CDR, mit dem Kopf von 4 Bytes.',
+  ],
+  request_too_large: [
+    'Eine Anfrage an {service} hat {size:integer} Bytes; erwartet: höchstens {largest:integer} (max_size in der Liste der Erlaubten).',
+  ],
+  resampled: [
+    "{points:count Punkt|Punkte} von '{variable}' ({duration:time}) wurden durch {curve:choice lines=Geraden|splines=kubische Splines durch ihre Geschwindigkeiten} verbunden; das ergibt {frames:count Zeile|Zeilen} mit {rate:rate}.",
+    'Für eine andere Rate setze sie.',
+  ],
+  reserved_name: [
+    "'{name}' ist ein Name des Labors selbst.",
+    'Wähle einen anderen, etwa {name}_1.',
+  ],
+  robot_degrees: [
+    "Die Grenzen von '{joint}' sind {lower:number} bis {upper:number} rad.",
+    'Das sind anscheinend Grad: Schreibe Radiant.',
+  ],
+  robot_effort: [
+    "Die größte Kraft oder das größte Moment (effort) von '{joint}' ist nicht bekannt.",
+  ],
+  robot_frame: [
+    "Das Glied '{link}' von {origin} liegt {distance:length} und {angle:angle} von dem von {robot} entfernt.",
+    'Nimm die Beschreibung desselben Produkts in derselben Version.',
+  ],
+  robot_gone: ['{robot} wurde inzwischen entfernt.'],
+  robot_hull: [
+    "Der Körper von '{link}' steht um {smaller:length} aus seinen Hüllen heraus, und sie stehen bis {larger:length} von ihm ab; erlaubt sind 5 und 20 mm.",
+    'Mach die Hüllen neu, aus mehr Teilen (CoACD und V-HACD können das).',
+  ],
+  robot_id_taken: ["Einen Roboter '{robot}' gibt es schon.", 'Wähle eine andere Kennung.'],
+  robot_inertia: [
+    "Die Hauptträgheitsmomente von '{link}' sind {least:number}, {middle:number} und {most:number} kg*m^2.",
+    'Solche hat kein Körper: Jedes ist positiv, und keines ist größer als die Summe der anderen.',
+  ],
+  robot_joints: [
+    '{count:count Gelenk bewegt sich|Gelenke bewegen sich}; erwartet: 1 bis {most:integer}.',
+    'Mach die Gelenke fest, die der Arm nicht braucht.',
+  ],
+  robot_left_out: ['{robot} bleibt weg: {why:problem}.'],
+  robot_limits: [
+    "Die Grenzen von '{joint}' sind {lower:number} bis {upper:number}.",
+    'Die untere Grenze muss unter der oberen liegen.',
+  ],
+  robot_mass: [
+    "Das <inertial> von '{link}' hat keine positive Masse oder keine Trägheit.",
+    'Gib beides an, oder lass <inertial> weg.',
+  ],
+  robot_mesh_format: [
+    'Das Netz {uri} hat ein Format, das das Labor nicht zeichnet.',
+    'Wandle es in {formats:either} um.',
+  ],
+  robot_mesh_unreadable: [
+    'Das Netz {uri} ist nicht lesbar: {why:problem}.',
+    'Exportiere es noch einmal aus dem Programm, mit dem es gemacht wurde.',
+  ],
+  robot_mesh_uri: ["Das Netz ist '{mesh}'; erwartet wird eine URI, die mit {prefix} beginnt."],
+  robot_millimetres: [
+    "[Die Größe des Netzes {mesh}][Der Abstand zum Ursprung von '{joint}'] ist {size:length}; so groß ist kein Arm.",
+    'Exportiere in Metern, oder ergänze beim Netz scale="0.001 0.001 0.001".',
+  ],
+  robot_mimic: ["'{joint}' folgt '{other}'; das Labor bewegt es mit."],
+  robot_no_limits: [
+    "'{joint}' hat keine Grenzen.",
+    'Ergänze <limit lower= upper= velocity= effort=> aus dem Datenblatt.',
+  ],
+  robot_no_link: [
+    "Das Gelenk '{joint}' nennt das Glied '{link}', und das gibt es nicht.",
+    'Ergänze das Glied, oder berichtige den Namen.',
+  ],
+  robot_no_mass: [
+    "Die Masse von '{link}' ist {mass:mass}.",
+    'Gib die Masse aus dem Datenblatt in kg an, oder lass <inertial> weg.',
+  ],
+  robot_no_mesh: [
+    'Das Netz {uri} fehlt[: {why:problem}].',
+    'Installiere das Paket, in dem es ist, oder gib beim Import des Roboters dessen Ordner an.',
+  ],
+  robot_no_texture: [
+    'Das Netz {uri} nennt {file}, und diese Datei fehlt.',
+    'Lege sie neben das Netz, oder verzichte auf seine Farben.',
+  ],
+  robot_not_among: [
+    "{place:problem}: {name} nennt den Roboter '{robot}', den die Szene nicht hat[; ihre Roboter: {known:list}].",
+  ],
+  robot_nowhere: ['Den Roboter gibt es weder hier noch im Labor: {here:problem}; {lab:problem}.'],
+  robot_placed: ['{robot} hat seinen Platz.'],
+  robot_removed: ['{robot} ist entfernt.'],
+  robot_repeated: ["'{robot}' ist {count:integer}-mal genannt.", 'Nenne den Roboter einmal.'],
+  robot_roots: [
+    'Erwartet wird genau ein Wurzelglied; gefunden: {count:integer}[: {roots:list}].',
+    'Verbinde die Glieder durch feste Gelenke.',
+  ],
+  robot_spawned: ['{robot} steht bei {place:position}.'],
+  robot_speed: [
+    "'{joint}' nennt keine größte Geschwindigkeit; Bewegungen werden mit {value:measure} verglichen.",
+    'Schreibe <limit velocity=> aus dem Datenblatt in die URDF, und importiere sie noch einmal.',
+  ],
+  robot_still: ["'{joint}' bewegt weder den Arm noch seine Hand; das Labor lässt es auf 0."],
+  robot_velocity: [
+    "Die Grenze der Geschwindigkeit von '{joint}' ist {value:number}.",
+    'Schreibe die größte Geschwindigkeit in rad/s oder m/s, oder gib sie beim Import des Roboters an.',
+  ],
+  robots_not_known: [
+    'Das Labor sagt nicht, welche Roboter es hat; warte, bis es läuft, und versuche es noch einmal.',
+  ],
+  robots_stay: [
+    'Nach {limit:time} sind die Wiedergabe und die Physik von {robots:list} noch nicht beendet.',
   ],
   role_too_low: [
     `{person} hat die Rolle {role:choice ${ROLE}}; nötig ist {needed:choice ${ROLE}}.`,
     'Frag deine Lehrkraft.',
   ],
+  root_links: ['{file} hat die Wurzelglieder {links:list}; erwartet wird eines.'],
+  route_without_policy: [
+    '{method} {path} hat in gateway/policy.py keine Zeile; darum darf es niemand benutzen.',
+  ],
+  router_keys_needed: [
+    'Das Labor kann sich mit seinen Schlüsseln nicht mit seinem Router verbinden: {why:problem}.',
+    'Mach die Datei des Routers neu.',
+  ],
+  router_needs_client: [
+    'Die Bridge hat Schlüssel und verbindet sich mit {endpoints:list}, mit mode {mode}[ und listen {listen:list}]; die Personen verbinden sich dann nur mit diesem Router.',
+    'Lass listen leer, und setze mode auf client.',
+  ],
+  router_takes_certificates: [
+    'Die Personen in {folder} melden sich mit {login} an, und ein Router nimmt nur Zertifikate.',
+    'Mach einen Ordner, dessen Personen sich mit einem Zertifikat anmelden.',
+  ],
+  router_without_tls: [
+    'Die Bridge hat Schlüssel und soll sich mit {endpoint} verbinden, wo sie keinen zeigen kann; erwartet wird die Adresse eines Routers wie tls/router.example.org:7447.',
+  ],
+  rows_already: ["'{variable}' ist {size}: ihre Messpunkte sind schon Zeilen"],
+  rows_not_filled: [
+    "Die Zeilen {first_row:integer} bis {last_row:integer} von '{variable}' sind nur Nullen, und die Bewegung springt dorthin: Sie wurden reserviert (zeros(N, d)) und nicht gefüllt.",
+    'Lass sie weg, oder fülle sie, bevor du sicherst.',
+  ],
+  rows_of_numbers: [
+    'eine Liste von Zeilen mit je {columns:integer} {numbers:choice any=Zahlen|whole=ganzen Zahlen}',
+  ],
+  rubric_entry: ['{file}[:{line:integer}]: Test {number:integer}'],
+  rubric_test: ["{file}[:{line:integer}]: Test '{test}'"],
+  rule_goes_out: [
+    'Die Regel für {topic} hat eine Rolle, geht aber hinaus; wer sich verbinden darf, empfängt es.',
+    'Lass die Rolle weg, oder setze direction: in.',
+  ],
+  rule_without_name: [
+    '{place} enthält {found}; erwartet wird ein Eintrag mit einem Namen, etwa {example}.',
+  ],
+  run_began: ['beginnt {trajectory}'],
+  run_completed: [
+    'abgeschlossen[, {rounds:integer}-mal][ nach {halts:count Kollision|Kollisionen}]',
+  ],
+  run_deviated: [
+    'bis [{angle:fine_angle}][{distance:length}] von {reference} entfernt ({joint} bei {time:duration})[, das Werkzeug {tool:length}]',
+  ],
+  run_ended: ['{trajectory}: {outcome:problem}'],
+  run_followed: ['folgte {reference} genau'],
+  run_grasped: [
+    'griff {object}[, {mass:mass}, Reibung {friction:number}, nötig {friction_needed:number}, {wrist_moment:moment} am Handgelenk]',
+  ],
+  run_halted: [
+    'nach einer Kollision angehalten[ bei {position:time} von {length:time}], als die Aufnahme endete',
+  ],
+  run_handed_over: ['übergab {object} an {to}'],
+  run_hit: ['{link} stieß in Zeile {row:integer} an {other}'],
+  run_lost: ['verlor {object}[ bei {place:position}]'],
+  run_missed: ['schloss den Greifer ins Leere'],
+  run_open: ['lief noch[ bei {position:time} von {length:time}], als die Aufnahme endete'],
+  run_released: [
+    'ließ {object} los[ bei {place:position}][, {distance:length} vom vorgesehenen Ort entfernt]',
+  ],
+  run_silent: [
+    '{robot} bewegte sich und meldet seit {silent:integer} s nichts: Er wurde entfernt, oder sein Teil des Labors ist beendet.',
+  ],
+  run_stopped: [
+    'gestoppt[ nach {halts:count Kollision|Kollisionen}][ bei {position:time} von {length:time}]',
+  ],
+  runs_without_physics: ['Das Labor läuft ohne Physik: {why:problem}.'],
   store_failed: [
     'Die Ablage {store} hat versagt ({why:problem}); nichts wurde geändert.',
     'Versuche es noch einmal, wenn sie wieder geht.',
