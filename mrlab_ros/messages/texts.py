@@ -8,7 +8,6 @@ from typing import Any
 from diagnostic_msgs.msg import KeyValue
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, to_texts
-from mrlab_ros.core.base.diagnostic import heard as heard
 from mrlab_ros.core.base.phrase import Value
 
 

@@ -102,6 +102,7 @@ def test_a_lab_that_may_not_listen_so_does_not_start(keys: Path) -> None:
         (("--zenoh-listen", "tcp/0.0.0.0:7447"), "try: mrlab keys init"),
         (("--zenoh-listen", "tcp/127.0.0.1:7447", "--keys", str(keys)), "leave the keys out"),
         (("--keys", str(keys / "clients")), "mrlab keys init"),
+        (("--keys", str(keys), "--insecure"), "--keys and --insecure"),
     ):
         refused = in_process.mrlab("up", *arguments)
         assert refused.returncode == 1

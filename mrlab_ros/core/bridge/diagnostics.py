@@ -68,7 +68,7 @@ OPEN_ENDPOINT = Code(
     "robots.",
     "Give the lab keys, listen on tcp/127.0.0.1, or accept it with the parameter insecure.",
     meaning="An endpoint that other machines reach without encryption.",
-    commands=("keys init", "up --keys FOLDER"),
+    commands=("keys init", "up --keys FOLDER", "up --insecure"),
 )
 CONFIG_AND_KEYS = Code(
     "config_and_keys",
