@@ -3067,13 +3067,594 @@ export const diagnostics: Templates = {
     'gestoppt[ nach {halts:count Kollision|Kollisionen}][ bei {position:time} von {length:time}]',
   ],
   runs_without_physics: ['Das Labor läuft ohne Physik: {why:problem}.'],
+  same_name: ["zwei Variablen heißen '{variable}'"],
+  same_names: [
+    "Der Roboter '{robot}' und der Endeffektor '{end_effector}' haben beide {names:list}.",
+    'Gib ihnen in einer der beiden URDFs andere Namen.',
+  ],
+  same_test_name: [
+    "'{test}' heißt auch der Test in Zeile {line:integer}; gib jedem Test einen eigenen Namen.",
+  ],
+  scene_loaded: [
+    '{scene} ist geladen: {robots:count Roboter|Roboter}, {objects:count Gegenstand|Gegenstände}, {surfaces:count Fläche|Flächen}, {systems:count System|Systeme}[; {missing:problem}].',
+  ],
+  scene_not_cell: [
+    '{place:problem} enthält {parts:list}; eine Zelle hat nur Systeme.',
+    'Lade sie als Szene.',
+  ],
+  scene_saved: [
+    '{file} ist gesichert: {robots:count Roboter|Roboter}, {objects:count Gegenstand|Gegenstände}, {surfaces:count Fläche|Flächen}, {systems:count System|Systeme}[; {missing:problem}].',
+  ],
+  scheduler_needs_cluster: [
+    'Ein Scheduler braucht das Backend dask oder ray; loky benutzt nur diesen Rechner.',
+  ],
+  scheduler_not_reached: [
+    'Der Scheduler {address} von dask ist nicht erreichbar ({why:problem}); starte einen: dask scheduler',
+  ],
+  second_cannot_read: ['{reader} kann sie nicht lesen ({error})'],
+  second_finds: [
+    '{reader} findet {second}, wo {first} gelesen wurde (Zeile {row:integer}, Spalte {column:integer}[, Seite {page:integer}]; {count:integer} von {total:integer} Werten sind verschieden)',
+  ],
+  second_finds_size: ['{reader} findet {size} Werte'],
+  second_finds_type: ['{reader} findet Werte vom Typ {found}'],
+  second_reader_crashed: [
+    'das zweite Leseprogramm stürzte daran ab[ (Exit-Code {exit:integer})][ (Signal {signal:integer}[, {meaning}])][ ({error})]',
+  ],
+  seen: [
+    '{what:choice message=es ist eine JointTrajectory für diese Gelenke|named=ihre Spalten heißen wie die Gelenke|not_finite=sie enthält NaN oder Inf|square=sie ist quadratisch|last_column=ihre letzte Spalte ist nicht die eines Greifers|between_zeros=sie beginnt und endet bei null wie Geschwindigkeiten|limits=sie verlässt die Grenzen der Gelenke|still=sie bewegt sich nie|smooth=sie bewegt sich glatt|rough=ihre Zeilen folgen nicht aufeinander wie eine Bewegung|zeros=alles darin ist 0, sie wurde nie gefüllt}',
+  ],
+  seen_by_all: [
+    "'{id}' gehört dem Labor selbst; alle dürfen sie sehen.",
+    'Damit sie jemandem gehört, veröffentliche sie als diese Person.',
+  ],
+  self_distance: [
+    "Der Abstand eines Roboters zu sich selbst wird nicht gemessen; nimm 'no collision'.",
+  ],
+  sender_not_named: ['{file} nennt nicht, wer {folder} gesendet hat.'],
+  sends_too_much: ['Diese Seite sendet zu viel.', 'Lade sie neu.'],
+  server_silent: [
+    'Der Dienst {service} hat nicht innerhalb von {timeout:time} geantwortet.',
+    'Prüfe, ob sein Knoten läuft, dann rufe noch einmal auf.',
+  ],
+  service_ended: ['{service} endete, bevor er antworten konnte.', 'Versuche es noch einmal.'],
+  service_gone: [
+    'Der Dienst {service} ist weg.',
+    'Prüfe, welche Knoten laufen, dann rufe noch einmal auf.',
+  ],
+  session_summary: [
+    '{duration:duration}, {robots:count Roboter|Roboter}, {runs:count Lauf|Läufe}[, {completed:integer} abgeschlossen][, {collisions:count Kollision|Kollisionen}]',
+  ],
+  set_aside: ['Sie heißt jetzt {file}'],
+  set_contents: [
+    '{objects:count Gegenstand|Gegenstände} und {surfaces:count Fläche|Flächen} setzen',
+  ],
+  seven_axes: [
+    "Spalte {column:integer} von '{variable}' bewegt sich wie ein Gelenk ({first:number} bis {last:number}, {levels:count Wert|Werte}) und nicht wie ein Greifer, der offen oder zu ist; {robot} hat {joints:integer} Gelenke.[ Ist es ein Greifer, der sich langsam bewegt ({meaning:choice states=0 offen, 1 zu|position=eine Position von 0 (offen) bis 255 (zu) wie bei Robotiq|width_m=eine Öffnungsweite in m, größer heißt offen|percent=Prozent|width_mm=eine Öffnungsweite in mm, größer heißt offen}), dann nenne ihn.]",
+    'Wähle den Roboter, für den die Datei gemacht wurde, nimm nur die Gelenke, oder sag, dass es der Greifer ist.',
+  ],
+  several_assets: [
+    "'{key}' steht für mehrere Dateien des Labors.",
+    'Hole jede über ihren eigenen Schlüssel, wie in {robots} und {objects}.',
+  ],
+  several_models: ['Die Gelenke auf {topic} sind die von {models:list}.', 'Nenne den Roboter.'],
+  several_nodes_refuse: ['{count:integer} Knoten starten nicht:{mistakes:problems}'],
+  several_types: ['{topic} hat mehrere Typen ({types:list}).'],
+  shape_and_parts: ['Er hat eine Form und Teile.', 'Lass eines von beiden weg.'],
+  shape_lacks: ['{place:problem}: Einem <{tag}> fehlt {missing:list}.', 'Ergänze es.'],
+  shared_service: [
+    '{service} wurde nicht aufgerufen, denn ein anderes Labor in dieser ROS-Domain hat den Dienst auch: {labs:list}.',
+    'Starte eines der Labore mit einer anderen ROS_DOMAIN_ID neu; Anhalten und Stoppen erreichen weiter beide.',
+  ],
+  sheet_format: [
+    "Die Datei ist '{file}'; erwartet wird ein Name mit der Endung {formats:either}.",
+  ],
+  short_point: [
+    'Punkt {point:integer} hat {count:count Position|Positionen} für {joints:count Gelenk|Gelenke}',
+  ],
+  side_of_cup: ['Der Sauger berührt {object} mit der Seite.'],
+  sign_in_ended: [
+    'Deine Anmeldung ist beendet, oder deine Rolle hat sich geändert.',
+    'Melde dich an.',
+  ],
+  sign_in_not_begun: [
+    'Diese Anmeldung dauerte zu lange, oder sie begann nicht in diesem Browser.',
+    'Beginne von vorn.',
+  ],
+  sign_ins_full: [
+    'Zu viele melden sich gleichzeitig an.',
+    'Versuche es in ein paar Minuten noch einmal.',
+  ],
+  single_sample: [
+    "'{variable}' ist {size}, eine einzelne Konfiguration; eine Trajektorie hat mindestens 2 Zeilen.",
+    'Sichere eine Bewegung mit zwei oder mehr Zeilen.',
+  ],
+  sizes_above_zero: ['{count:count Größe|Größen} über 0, in m'],
+  sizes_differ: ['die Größen sind verschieden: {sizes:list}'],
+  slipped_out: [
+    '{object} ist aus den Fingern gerutscht: {mass:mass}, Reibung {friction:number}, nötig {friction_needed:number}.',
+  ],
+  slips: [
+    'Es rutscht: {mass:mass} zu halten braucht eine Reibung von {friction_needed:number}, vorhanden ist {friction:number}.',
+  ],
+  small_for_degrees: [
+    'ihre Einheit in der Datei ist Grad, aber sie reicht nur bis {largest:number}, wie es auch Radiant tun',
+  ],
+  smoothness: ['Die Glattheit ist {value:number}; erwartet: mindestens {limit:number}.'],
+  some_numbers: ['eine Liste von Zahlen[ {limits:problem}][ ({unit})]'],
+  some_texts: ['eine Liste von Texten[, jeder {item:problem}]'],
+  spawn_robots: ['{robots:list} aufstellen'],
+  speed_at_end: ['{value:measure} bei {joint}'],
+  speed_step: [
+    '{joint} ändert seine Geschwindigkeit von einer Zeile zur nächsten um {value:measure}; sonst bleiben seine Änderungen unter {usual:measure}.',
+    'Verbinde die beiden Teile der Bewegung glatt, oder halte dazwischen an.',
+  ],
+  speeds_in_limits: ['Geschwindigkeiten unter ihren Grenzen'],
+  squeezed: ["'{variable}' ist {size}; sie wurde als {taken} genommen, wie {line} es ergibt."],
+  stages: ['fährt seine Mitglieder an ihre Plätze[, in {duration:time}], dann läuft es'],
+  stands_elsewhere: ['{name} steht anderswo'],
+  starts_inside: [
+    '{robot} beginnt innerhalb der Fläche {other}[; {more:count Kontakt|Kontakte} mehr].',
+  ],
+  step_failed: ['{step:problem}: gescheitert, {why:problem}.'],
+  step_of_zero: ['ein Schritt von 0 führt nirgendwohin'],
+  still_collides: ['{robot} ist noch in Kollision'],
+  still_halted: [
+    '{robot} ist noch im Kollisionshalt[ ({why:problem})]; der endet, wenn der Arm kurze Zeit frei war.',
+    'Wenn der Arm noch etwas berührt, nimm es weg, oder stelle den Roboter anderswohin. Dann spiele weiter ab.',
+  ],
+  still_held: ['{object} wird am Ende noch von {robot} gehalten.'],
+  still_moves: ['{object} bewegt sich am Ende noch mit {value:speed}.'],
+  still_touches: [
+    'Der Arm berührt noch etwas.',
+    'Stelle den Roboter anderswohin, verschiebe, was er berührt, oder springe zurück.',
+  ],
+  still_xacro: [
+    '{file} enthält <xacro:{tag}>; erwartet wird eine einfache URDF.',
+    'Wandle die Datei um: xacro {name} -o robot.urdf',
+  ],
+  stop_and_clear_first: [
+    'stoppe es; dabei fahren seine Arme an ihren Anfang zurück; sind alle frei, spiele ab',
+  ],
+  stop_first: ['stoppe zuerst'],
+  stopped: ['gestoppt'],
   store_failed: [
     'Die Ablage {store} hat versagt ({why:problem}); nichts wurde geändert.',
     'Versuche es noch einmal, wenn sie wieder geht.',
   ],
+  store_folder_unusable: [
+    'Der Ordner {folder} kann nicht die Ablage sein: {why:problem}.',
+    'Wähle einen anderen mit dem Parameter store, oder ein anderes state_dir.',
+  ],
+  store_read_only: [
+    'Ablage: in {folder} lässt sich nicht schreiben',
+    'Gib diesem Benutzer dort Schreibrecht, oder wähle für den Zustand des Labors einen anderen Ordner.',
+  ],
+  store_unusable: [
+    "Die Ablage '{store}' ist nicht brauchbar: {why:problem}.",
+    'Prüfe die URL und die Zugangsdaten in der Umgebung (docs/store.md).',
+  ],
+  store_writable: ['Ablage: in {folder} lässt sich schreiben'],
+  submission_crashed: [
+    'Die Prüfung stürzte daran ab ({why:problem}); der Grund ist diese Datei und keine andere.',
+  ],
+  submission_ended: [
+    'Die Prüfung wurde beendet: Sie brauchte mehr als {limit:duration} eines Prozessors, oder dem Rechner fehlte Speicher.',
+  ],
+  submission_failed: ['Die Prüfung ist daran gescheitert ({error}).'],
+  submission_given_up: ['Die Prüfung wurde nach {limit:duration} aufgegeben.'],
+  submission_out_of_memory: [
+    'Die Prüfung braucht mehr als {limit:bytes} Speicher; vielleicht ist die Bewegung sehr lang.',
+  ],
+  subscriptions_full: [
+    'Diese Seite hat {count:count Abonnement|Abonnements}.',
+    'Beende erst einige.',
+  ],
+  surface_beyond: [
+    'Die Fläche {surface} hat einen Eckpunkt, der nicht endlich ist oder weiter als 1 km weg.',
+  ],
+  surface_half_triangle: [
+    'Die Fläche {surface} hat {count:integer} Indizes für Dreiecke; erwartet werden drei für jedes Dreieck.',
+  ],
+  surface_is_line: [
+    'Der Umriss der Fläche {surface} ist eine Linie; erwartet wird ein Umriss mit Inhalt.',
+  ],
+  surface_no_vertex: [
+    'Die Fläche {surface} nennt den Eckpunkt {vertex:integer} von {count:integer}; erwartet werden Indizes ihrer eigenen Eckpunkte.',
+  ],
+  surface_outline: [
+    'Der Umriss der Fläche {surface} hat {count:count Punkt|Punkte}; erwartet werden 3 bis {most:integer}, oder Dreiecke.',
+  ],
+  surface_too_fine: [
+    'Die Fläche {surface} hat {count:integer} Dreiecke; erwartet: höchstens {most:integer}.',
+    'Vereinfache das Netz, oder sende stattdessen die Ebenen des Raums.',
+  ],
+  surface_without_name: [
+    'Eine Fläche hat keinen Namen.',
+    'Gib jeder einen eigenen, etwa table_1.',
+  ],
+  surfaces_changed: ['die Flächen des Raums haben sich geändert'],
+  surfaces_of_one_name: ['Zwei Flächen heißen {name}.', 'Gib jeder einen eigenen Namen.'],
+  surfaces_set: [
+    'Der Raum hat {count:count Fläche|Flächen}[; in einem Roboter steckt {inside:list}: Das zählt erst, wenn er sich daraus bewegt hat].',
+  ],
+  system_created: [
+    '{system} bewegt {robots:list}: {duration:time}, {mode:choice parallel=alle zugleich|sequential=einer nach dem anderen}',
+  ],
+  system_gone: ['Das System {system} ist aufgelöst.'],
+  system_left_out: ['Das System {system} bleibt weg: Seine Roboter sind nicht alle da.'],
+  system_lost: [
+    'Das System {system} ging verloren: Sein Eintrag im Journal ist beschädigt.',
+    'Erstelle es noch einmal.',
+  ],
+  test_count: ['tests hat {count:count Eintrag|Einträge}; erwartet: 1 bis {most:integer}.'],
+  test_pose: ['{place:problem}: Pose {number:integer}'],
+  text_no_json: ['Ein Textpaket ist kein JSON-Objekt[: {why:problem}].'],
+  text_not_read: ['Es gibt auch einen Online-Text; er wird nicht gelesen.'],
+  text_or_texts: ['ein Text oder eine Liste von Texten[, jeder {item:problem}]'],
+  thing_not_in_scene: [
+    "In der Szene heißt nichts '{thing}'; vorhanden: {known:list}.",
+    '[Meinst du {close}?]',
+  ],
+  time_backward: [
+    "Die Zeit '{variable}' geht in {count:count Zeile|Zeilen} zurück, zuerst in Zeile {first_row:integer}; die Zeilen werden in ihrer Reihenfolge abgespielt, {rate:number} pro Sekunde.",
+    'Prüfe, ob zwei Aufnahmen zusammengefügt wurden; sortiere die Zeilen in MATLAB, oder nimm eine davon, etwa q(1:{last:integer}, :).',
+  ],
+  time_column: [
+    "Spalte {column:integer} von '{variable}' ist Zeit ({first:number} bis {last:number}) und kein Gelenk: {why:problem}.[ Die Spalten {columns} sind die Gelenke.][ Es {left:count bleibt Spalte|bleiben Spalten}, und {robot} hat {joints:integer} Gelenke.]",
+    'Nimm nur die Gelenke, oder sichere sie allein und die Zeit als t.',
+  ],
+  time_counts_rows: [
+    "'{variable}' zählt in Einerschritten: Sekunden, Millisekunden oder die Nummern der Zeilen; genommen wurden {rate:number} Zeilen pro Sekunde.",
+    'Sichere die Zeit in Sekunden, oder setze die Rate.',
+  ],
+  time_length: [
+    "'{variable}' hat {value:integer} Elemente und die Trajektorie {limit:integer} Zeilen; die Zeit wurde nicht benutzt, sie ergäbe {rate:number} Zeilen pro Sekunde.",
+    'Sichere für jede Zeile eine Zeit, oder setze die Rate.',
+  ],
+  time_not_finite: ['ihre Zeile {first_row:integer} ist {value:number}'],
+  time_repeated: [
+    "{count:count Zeile|Zeilen} von '{variable}' mit der Zeit der Zeile davor, zuerst Zeile {first_row:integer}; die Zeilen werden gleichmäßig abgespielt, {rate:number} pro Sekunde.",
+    'Lass diese Zeilen weg, und mach die übrigen gleichmäßig.',
+  ],
+  time_rounded: [
+    "Die Zeiten von '{variable}' sind auf {value:number} s gerundet; die Zeilen kommen gleichmäßig, {rate:number} pro Sekunde.",
+  ],
+  time_uneven: [
+    "Die Schritte von '{variable}' gehen von {least:number} bis {most:number} s, der schlechteste vor Zeile {first_row:integer}; gleichmäßig abgespielt, mit {rate:number} Zeilen pro Sekunde, ist eine Zeile bis zu {value:number} s von ihrer Zeit entfernt.",
+    'Mach die Zeiten gleichmäßig, hier oder in MATLAB mit interp1.',
+  ],
+  time_unit: [
+    "'{variable}' steigt von Zeile zu Zeile um {step:number}; das wurde als {taken:choice s=Sekunden|ms=Millisekunden|us=Mikrosekunden|ns=Nanosekunden|days=Tage, wie datenum sie zählt,|min=Minuten|h=Stunden} gelesen und ergibt {rate:number} Zeilen pro Sekunde.",
+    'Sichere die Zeit in Sekunden, oder setze die Rate.',
+  ],
+  times_not_rising: [
+    'Punkt {point:integer} ist bei {before:time} und der nächste bei {after:time}; erwartet werden steigende Zeiten.',
+  ],
+  times_of_class: ['ihre Klasse ist {found:problem}'],
+  times_swapped: [
+    '{first:time} liegt nicht vor {last:time}; erwartet wird die frühere Zeit zuerst.',
+  ],
+  tip_given: ['bis zu dem Glied, das genannt wurde'],
+  tip_of_chain: ['die längste Kette angetriebener Gelenke'],
+  tip_of_group: ["Gruppe '{group}' der SRDF"],
+  tip_unmoved: [
+    "{file}: Kein Gelenk bewegt das Glied '{link}'.",
+    'Wähle ein anderes letztes Glied des Arms.',
+  ],
+  tls_needs_keys: [
+    'Die Bridge soll an {endpoint} erreichbar sein; für {protocol} braucht sie Schlüssel.',
+    'Mach welche, und nenne ihren Ordner (Parameter keys).',
+  ],
+  tolerance_no_number: [
+    'Die Toleranz für {joint} ist {tolerance:number}; erwartet wird eine endliche Zahl.',
+  ],
+  tolerance_of_no_joint: [
+    'Eine Toleranz ist für {found}; erwartet wird eines von {expected:list}.',
+  ],
+  too_close: [
+    '{link}[ (hält {held})] kommt auf {value:length} an {kind:choice self=das eigene Glied|robot=den Roboter|object=den Gegenstand|surface=die Fläche} {other}[ ({other_link})] heran.',
+    'Halte mehr Abstand: Eine echte Zelle ist weniger genau gemessen als diese.[ {advice:problem}.]',
+  ],
+  too_few_bytes: [
+    "[die Zahlen von '{variable}' haben][der Text '{text}' hat][{element:choice any=ein Element hat}] {left:integer} Bytes, nötig sind {needed:integer}",
+  ],
+  too_few_columns: [
+    "'{variable}' hat {width:integer} Spalten, und ohne Spalte {column:integer} bleiben für die {joints:integer} Gelenke von {robot} nur {left:integer}",
+  ],
+  too_large: [
+    "'{file}' ist zu groß: {part:choice file=Sie hat|bag=Das Bag hat|numbers=Ihre Matrizen haben|variable=Eine ihrer Variablen hat|inflated=Entpackt hat sie|reading=Sie zu lesen braucht|converting=Sie umzuwandeln braucht} mehr als {limit:bytes}[, nämlich {size:bytes}].",
+    'Sichere nur die Trajektorie.',
+  ],
+  too_long: [
+    "'{variable}' dauert {duration:time}; das sind bei {rate:rate} mehr als {most:integer} Zeilen.",
+    'Prüfe ihre Zeiten auf eine Lücke, und die Zeit ihres letzten Punkts; höchstens {lower:rate} passen.',
+  ],
+  too_long_for_lab: [
+    "'{trajectory}' dauert {duration:time}; erwartet: im Labor höchstens {most:time}.",
+    'Lade sie herunter, und prüfe sie auf deinem eigenen Rechner.',
+  ],
+  too_many_bytes: [
+    "{count:count Byte folgt|Bytes folgen} auf [den Inhalt von '{variable}'][{behind:choice checksum=die Prüfsumme einer komprimierten Variablen}]",
+  ],
+  too_many_checks: [
+    '{count:count Bewegung wartet|Bewegungen warten} schon auf ihre Prüfung; versuche es in {seconds:time} noch einmal.',
+  ],
+  too_many_files: ['{file} enthält mehr als {most:integer} Dateien; erwartet werden weniger.'],
+  too_many_links: ['{file} hat {count:integer} Glieder; erwartet: höchstens {most:integer}.'],
+  too_many_objects: [
+    '{count:count Gegenstand ist|Gegenstände sind} zu viel; erwartet: höchstens {most:integer} (max_objects in config/physics.yaml).',
+  ],
+  too_many_parts: ['es hat mehr als {most:integer} Teile'],
+  too_many_requests: [
+    'Das ist zu oft: {what:choice uploads=Hochladen|conversions=Umwandeln|checks=Prüfen|sign_ins_by_address=Anmelden von dieser Adresse|sign_ins_by_name=Anmelden mit diesem Namen|links=Links von dieser Adresse|pairings=Koppeln von dieser Adresse|tries=Versuche}.',
+    'Versuche es in {wait:time} noch einmal.',
+  ],
+  too_many_rows: [
+    "'{variable}' hat {rows:count Messpunkt|Messpunkte}; die Grenze ist {most:integer}.",
+    'Sichere einen Teil davon oder jeden zehnten Messpunkt, oder erhöhe die Grenze der Zeilen.',
+  ],
+  too_much_waits: [
+    '{count:count Nachricht wartet|Nachrichten warten} mit {size:bytes} auf diese Seite; sie bestätigt sie nicht.',
+    'Verbinde dich neu, und hole, was fehlt.',
+  ],
+  too_slow: [
+    "'{file}' ließ sich nicht innerhalb von {limit:time} lesen; das Lesen wurde abgebrochen.",
+    'Sichere nur die Trajektorie.',
+  ],
+  too_wide: ['{object} ist breiter, als der Greifer sich öffnet.'],
+  tool_from_place: [
+    'Das Werkzeug {instant:choice start=beginnt|end=endet} {value:length} von {place:position} entfernt; erwartet: höchstens {limit:length}.',
+  ],
+  tool_of: ["ihre Spalten 1 bis 3 sind die Positionen des Werkzeugs bei '{other}'"],
+  tool_path: ["'{other}' ist der Weg des Werkzeugs bei diesen Gelenkwinkeln"],
+  tool_path_differs: [
+    "'{other}' ist auf diesem Roboter nicht der Weg des Werkzeugs bei '{variable}': Sie liegen {value:length} auseinander, und der Weg erstreckt sich über {limit:length}.",
+    'Wähle den Roboter, für den die Datei gemacht wurde, oder prüfe, ob beide zu einer Bewegung gehören.',
+  ],
+  tool_speed: ['Das Werkzeug bewegt sich mit {value:speed}; erwartet: höchstens {limit:speed}.'],
+  total_time: ['Alles dauert {value:time}; erwartet: höchstens {limit:time}.'],
+  touches: [
+    '{link}[ (hält {held})] berührt {kind:choice self=das eigene Glied|robot=den Roboter|object=den Gegenstand|surface=die Fläche} {other}[ ({other_link})] bei {time:time}[; {more:count Kontakt|Kontakte} mehr].',
+  ],
+  trajectory_deleted: ["'{id}' wurde gelöscht.", 'Stelle sie wieder her, wenn du sie brauchst.'],
+  trajectory_hidden: ["'{id}' sehen {owner} und Lehrende."],
+  trajectory_lost: ['{robot} hat {trajectory} verloren: {why:problem}.', 'Lade sie noch einmal.'],
+  trajectory_not_fitting: [
+    "Die Szene will, dass {robot} '{trajectory}' abspielt; der Katalog hat sie für ihn nicht[; vorhanden: {known:list}].",
+    'Wandle die Datei um, dann lade noch einmal.',
+  ],
+  trajectory_published: ["'{id}' ist veröffentlicht, Version {version:integer}."],
+  trajectory_quota: [
+    'Die Trajektorien von {owner} belegen {used:bytes} und diese {size:bytes}; erwartet: zusammen höchstens {limit:bytes}.',
+    'Lösche, was niemand mehr braucht.',
+  ],
+  trajectory_restored: ["'{id}' ist wieder da, Version {version:integer}."],
+  trajectory_shared: ["'{id}' sehen alle."],
+  trajectory_taken: [
+    "'{variable}' aus '{file}' wurde genommen: {frames:count Zeile|Zeilen} mit {rate:rate}, {duration:time}[, mit {warnings:count Warnung|Warnungen}]",
+  ],
+  trajectory_unreadable: [
+    '{attachment} ist nicht lesbar; Läufe davon werden mit nichts verglichen',
+  ],
+  transforms: [
+    "'{variable}' ({size}) enthält homogene Transformationen, eine je Seite: Posen und keine Gelenkwinkel.",
+    'Sichere die Gelenkwinkel, eine Zeile je Messpunkt; MATLAB berechnet sie aus Posen mit inverseKinematics, die Toolbox von Corke mit ikine.',
+  ],
+  transpose_applied: ["Wie gewünscht wurde '{variable}' transponiert."],
+  transposed: [
+    "'{variable}' ist {size}: Ihre Messpunkte sind Spalten, {robot} braucht eine Zeile je Messpunkt.[ Zeile {time_row:integer} ist Zeit.]",
+    'Transponiere sie.',
+  ],
+  true_or_false: ['true oder false'],
+  turned_twice: ['rpy_deg und orientation sind beide angegeben; schreibe nur eines davon.'],
+  twice_in_archive: ['Es ist zweimal im Archiv; das letzte wird gelesen.'],
+  twice_in_urdf: [
+    "{file}: {what:choice joint=Zwei Gelenke heißen|link=Zwei Glieder heißen|child=Zwei Gelenke haben als child} '{name}'; erwartet wird ein Baum von Gliedern, jedes mit eigenem Namen.",
+  ],
+  twin: [
+    "'{variable}' wurde genommen; fast dieselbe Bewegung ist in {others:list}.",
+    'Willst du die andere, nenne sie beim Namen.',
+  ],
+  two_dates: ['sie hat in {count:integer} Spalten ein Datum; behalte eine davon'],
+  type_not_installed: [
+    "Der Nachrichtentyp '{type}' ist hier nicht installiert.",
+    'Installiere sein Paket, und starte das Labor neu.',
+  ],
+  type_unknown: ['das Bag beschreibt {type} nicht, und der Typ ist hier nicht installiert'],
+  type_without_text: [
+    'Der Text von {type} ist nicht installiert.',
+    'Installiere das Paket {package}, oder lass die Topics dieses Typs weg.',
+  ],
+  uncertain_grasp: [
+    '{other} im Greifer: {why:problem}.',
+    'Bewege dort sanfter, oder greife näher am Schwerpunkt.',
+  ],
+  unit_mixed: [
+    'die Spalten {columns} reichen bis {largest:number} wie Grad, die Spalten {others} aber bewegen sich wie Radiant',
+  ],
+  unit_named: ['ihr Name sagt Grad'],
+  unit_reaches: [
+    'sie reicht bis {largest:number}[ und bleibt nur in den Grenzen von {robot}, wenn das {fits:choice degrees=Grad sind|hundredths=Hundertstelgrad oder Zählschritte sind|thousandths=Tausendstelgrad oder Zählschritte sind}][, wie es Grad tun und Radiant bei {beyond} nicht][{counted:choice counts=, in ganzen Zahlen wie die Zählschritte eines Encoders}]',
+  ],
+  units_applied: [
+    "Wie gewünscht wurde '{variable}' als {taken:choice deg=Grad|rad=Radiant|mm=mm|counts=Zählschritte}[, {counts:number} je Umdrehung,] gelesen.",
+  ],
+  units_contradict: ['zugleich wurden Grad verlangt; nenne eine Einheit, etwa {found}'],
+  units_unknown: [
+    "in ihrer Zeile mit Einheiten steht '{found}', und diese Einheit ist hier nicht bekannt",
+  ],
+  unknown_backend: ["Das Backend ist '{backend}'; erwartet: {known:either}."],
+  unknown_class: ['diese Klasse kennt nur MATLAB'],
+  unknown_class_number: [
+    "'{variable}' hat die Klassennummer {found:integer}; die schreibt MATLAB nie",
+  ],
+  unknown_field: [
+    "{place:problem}: '{key}' ist unbekannt[; erwartet: {fields:list}].",
+    "[Meinst du '{close}'?]",
+  ],
+  unknown_message_type: [
+    '{type} ist kein bekannter Nachrichtentyp.',
+    'Erwartet wird ein üblicher Typ oder einer aus mrlab_msgs, etwa mrlab_msgs/msg/Robots oder mrlab_msgs/srv/Seek_Request.',
+  ],
+  unknown_partial: ["partial ist '{rule}'; '{sentence}' kennt {rules:list}."],
+  unknown_sentence: [
+    "'{text}' kann ein Bewertungsschema nicht messen; meinst du {close:either}?",
+    'Was sich messen lässt, steht in docs/rubrics.md.',
+  ],
+  unknown_unit: ['die Einheiten sind {known:list}'],
+  unknown_variable: [
+    "'{file}' hat keine Variable '{variable}'. Die Datei enthält {count:count Variable|Variablen}[: {held:list}][ und {more:integer} weitere].[ Darin: {inside:list}.]",
+    'Nimm einen dieser Namen, genauso geschrieben.',
+  ],
+  unloaded: ['entladen'],
+  unreadable: [
+    "'{file}' ist beschädigt: {why:problem}.",
+    'Kopiere die Datei noch einmal, oder sichere sie in MATLAB noch einmal.',
+  ],
+  unsupported_format: [
+    "'{file}' ist {form:choice folder=ein Ordner|special=keine gewöhnliche Datei|empty=eine leere Datei|version=eine MAT-Datei einer unbekannten Version|header=eine MATLAB-Datei mit beschädigtem Kopf|zip=ein ZIP-Archiv (oder eine Datei aus Office, .mlx oder .slx)|spreadsheet=eine Tabellenkalkulation (sichere das Blatt als CSV UTF-8, und wandle diese Datei um)|numpy=ein NumPy-Array (sichere es so: np.savez('traj.npz', q=q, fs=100))|png=ein PNG-Bild|jpeg=ein JPEG-Bild|gif=ein GIF-Bild|pdf=ein PDF-Dokument|lfs=ein Platzhalter von Git LFS (die Datei selbst wurde nicht heruntergeladen)|octave=eine Octave-Datei (sichere sie mit: save -7 traj.mat q)|seven_zip=ein 7-Zip-Archiv|rar=ein RAR-Archiv|elf=ein Programm|exe=ein Windows-Programm|bzip=ein bzip2-Archiv|xz=ein xz-Archiv|sqlite=eine SQLite-Datenbank, aber kein vollständiges rosbag2-Bag|html=eine Webseite (wurde statt der Datei die Seite zum Herunterladen gesichert?)|text=eine Textdatei|unknown=eine Datei unbekannter Art}[ ({detail})] und kein MATLAB-Workspace.",
+    'Sichere die Gelenkwinkel in MATLAB, und wandle diese Datei um.',
+  ],
+  unsupported_object: [
+    "{objects:list} ließ sich nicht öffnen: {why:problem}. Keine andere Matrix in '{file}' ist die Trajektorie.",
+    'Sichere in MATLAB die Zahlen daraus.',
+  ],
+  unwrap_applied: ["Wie gewünscht wurden die Sprünge um 2*pi in '{variable}' entfernt."],
+  upload_broke_off: [
+    "Das Senden von '{file}' brach ab; nichts wurde behalten.",
+    'Sende die Datei noch einmal.',
+  ],
+  upload_of_another: ['{owner} hat dieses Hochgeladene nicht.', 'Sende die Datei noch einmal.'],
   upload_too_large: [
     'Die Datei hat mehr als {most:bytes}, die Grenze.',
     "Sichere nur die Trajektorie: save('file.mat', 'q', 't').",
   ],
+  urdf_joint: ["{file}: Gelenk '{joint}'"],
+  urdf_link: ["{file}: Glied '{link}'"],
+  urdf_too_large: ['{file} ist größer als {most:bytes}; erwartet wird eine URDF.'],
+  users_unusable: [
+    '{path} ist für Personen und Anmeldungen nicht brauchbar: {why:problem}.',
+    'Erwartet wird eine Datei, in die dieser Benutzer schreiben kann, oder keine.',
+  ],
+  value_not_finite: [
+    '{joint} hat keine endliche {what:choice positions=Position|velocities=Geschwindigkeit|accelerations=Beschleunigung}[ an Punkt {point:integer}]; erwartet wird eine Zahl.',
+  ],
+  values_elsewhere: ["'{variable}' nimmt ihre Werte von anderswo; dem wird nicht gefolgt"],
+  velocities_of: ['das sind die Geschwindigkeiten ihrer Spalten {columns}'],
+  velocity_limit: [
+    '{joint} bewegt sich in Zeile {first_row:integer} ({time:time}) mit {value:measure}; {robot} erreicht {limit:measure}; zu schnell ist das Gelenk in {count:count Schritt|Schritten}.',
+    'Nimm mehr Messpunkte für die Bewegung, oder prüfe, ob {rate:number} Zeilen pro Sekunde stimmen: Mit {slower:number} kann der Roboter folgen.',
+  ],
+  version_gone: [
+    'Die Datei der Version {version:integer} ist nicht mehr in {place}.',
+    'Wandle den Workspace noch einmal um.',
+  ],
+  version_removed: [
+    'Version {version:integer} wurde inzwischen entfernt.',
+    'Frag sie noch einmal an.',
+  ],
+  wait_beyond_end: [
+    '{robot} wartet am Frame {frame:integer}; seine Trajektorie hat die Frames 0 bis {last_frame:integer}.',
+  ],
+  wait_clears: [
+    'Wartet {robot} {seconds:time}, kommen sich die beiden in der Probe nicht in den Weg.',
+    "Ergänze beim Mitglied {robot}: 'after: {other}.frame {frame:integer}'.",
+  ],
+  wait_clears_two: [
+    'Wartet {robot} {seconds:time}, kommen sich die beiden in der Probe nicht in den Weg; andere berühren sich noch.',
+    "Ergänze beim Mitglied {robot}: 'after: {other}.frame {frame:integer}'.",
+  ],
+  wait_for_itself: ["{robot} wartet auf sich selbst: '{wait}'.", 'Nenne ein anderes Mitglied.'],
+  wait_for_stranger: [
+    "'{wait}' nennt {robot}; erwartet wird ein Mitglied des Systems: {members:list}.",
+  ],
+  wait_not_enough: [
+    '{seconds:time} Warten für {robot} ist das Kürzeste, das hilft, reicht aber nicht bei dem, was die Roboter halten.',
+    "Ergänze beim Mitglied {robot}: 'after: {other}.frame {frame:integer}', und ändere einen Weg.",
+  ],
+  waited_in_freeze: [
+    'Der Prozess {process} stand {frozen:integer} s lang still, und diese Anfrage wartete davon {waited:integer} s; sie wurde nicht ausgeführt.',
+    'Sende sie noch einmal.',
+  ],
+  waited_too_long: [
+    'Diese Anfrage wartete {waited:time} auf die vor ihr; sie wurde nicht ausgeführt.',
+    'Sende sie noch einmal.',
+  ],
+  waiting_circle: [
+    'Die Mitglieder würden ohne Ende aufeinander warten:{steps:problems}',
+    'Lass eine dieser Wartebedingungen weg.',
+  ],
+  waiting_files: [
+    '{count:count Datei wartet|Dateien warten} mit {size:bytes} schon darauf, umgewandelt zu werden.',
+    'Sende diese in einer Minute noch einmal.',
+  ],
+  waits_at: ['{robot} wartet: {wait}'],
+  waits_forever: [
+    "Wartet ohne Ende: '{wait}' tritt nie ein.",
+    'Berichtige die Wartebedingung, oder die Bewegung, auf die sie wartet.',
+  ],
+  was_let_go: ['{name} wurde losgelassen'],
+  waypoints: [
+    "Die Zeilen von '{variable}' kommen mit {rate:rate} und liegen bis zu {value:angle} auseinander, am weitesten vor Zeile {first_row:integer}: Es sind Wegpunkte, zwischen denen der Roboter springt.",
+    'Mach die Zeiten gleichmäßig: Dann verbinden Geraden die Punkte. Dafür sind ihre Zeiten nötig, gesichert als t.',
+  ],
+  wheels_missing: [
+    'Wheels: es fehlt {modules:list}',
+    'Führe einmal make demo aus; in einer eigenen Shell: . .venv/mrlab.sh',
+  ],
+  wheels_there: ['Wheels: alle vorhanden'],
+  whole_like_poses: ['die ganze Matrix sieht aus wie Posen des Werkzeugs: {why:problem}'],
+  within_nothing: ['Bei 0 mm kommt keine Bewegung an etwas vorbei; nimm 1 mm oder mehr.'],
+  without_quotes: ['Schreibe {number} ohne Anführungszeichen'],
+  worlds_full: ['pybullet hat keinen Platz für eine weitere Welt.', 'Schließe erst eine.'],
+  wrong_cell: [
+    "in Zeile {line:integer} steht '{found}', wo {expected:choice number=eine Zahl|date=ein Datum} erwartet wird",
+  ],
+  wrong_class: [
+    "'{variable}' hat die Klasse {kind}; Gelenkwinkel sind double oder single.",
+    'Sichere Radiant als double.',
+  ],
+  wrong_csrf: ['Der Header X-CSRF-Token fehlt oder ist alt.', 'Nimm csrf aus GET /api/session.'],
+  wrong_host: [
+    "Dieses Gateway heißt nicht '{host}'.",
+    'Öffne es unter der Adresse, die es beim Start genannt hat.',
+  ],
+  wrong_inflated_size: [
+    'eine komprimierte Variable ist entpackt {found:choice less=kleiner|more=größer} als die {declared:integer} Bytes, die sie nennt',
+  ],
+  wrong_joint_names: [
+    'Die Namen der Gelenke sind nicht die des Roboters[; es fehlt: {missing:list}][; unbekannt: {unknown:list}][; mehrmals vorhanden: {repeated:list}]; erwartet wird jedes von {expected:list} einmal, in beliebiger Reihenfolge.',
+  ],
+  wrong_origin: [
+    'Diese Anfrage kommt nicht von den Seiten dieses Gateways[, sondern von {origin}].',
+    'Der Header Origin muss {expected} sein.',
+  ],
   wrong_password: ['Name und Passwort passen nicht zusammen.', 'Versuche es noch einmal.'],
+  wrong_shape: [
+    "'{variable}' ist {size}; {robot} braucht {joints:integer} Spalten, eine für jedes Gelenk, oder {more:integer} mit dem Greifer zuletzt.[ In den Spalten 1 bis {dates:integer} steht ein Datum.][ Spalte {time_column:integer} sieht wie Zeit aus, neben {beside:integer} anderen.][ Vielleicht ist ein Roboter mit {meant:integer} Gelenken gemeint.][ Vielleicht sind die Spalten {columns} die Gelenke.][ Sie hat {dimensions:integer} Dimensionen.]",
+    'Sichere eine Zeile je Messpunkt und eine Spalte je Gelenk[, oder nimm die Spalten {columns}].',
+  ],
+  wrong_type: [
+    "{part:choice name=ein Name hat|dimensions=Abmessungen haben|flags=die Flags einer Variablen haben|fields=Feldnamen haben|indices=Indizes einer dünn besetzten Matrix haben|numbers=Zahlen haben|text=ein Text hat|variable=was eine Variable sein müsste, hat} den Elementtyp {found}[ (in '{variable}')]",
+  ],
+  wrong_value_count: [
+    '{what:choice positions=Positionen|velocities=Geschwindigkeiten|accelerations=Beschleunigungen}[ an Punkt {point:integer}]: {found:integer}; erwartet werden {expected:integer}, je Gelenk ein Wert.',
+  ],
+  xacro_no_wall: [
+    '{file} ist eine xacro-Datei, also ein Programm, und der Kernel hier kann sie nicht einsperren (erwartet werden Landlock und seccomp).',
+    'Vertraust du ihr, wandle sie selbst um, und importiere das Ergebnis: xacro {file} > {plain}',
+  ],
+  xacro_refused: [
+    '{file}: xacro meldet: {why:problem}.',
+    '{hint:choice package=Gib den Ordner des Pakets an, das sie nennt.|folder=Eine xacro-Datei liest, was neben ihr und in ihren Paketen liegt; gib den Ordner des Pakets an, das sie braucht.|argument=Gib an, wonach sie fragt, als NAME:=WERT.|file=Berichtige die Datei.}',
+  ],
+  yaml_alias: [
+    '*{alias} in Zeile {line:integer} ist ein Alias; ROS liest keine.',
+    'Schreibe die Werte aus.',
+  ],
+  yaml_mapping: ['eine Zuordnung in YAML'],
+  zenoh_not_open: [
+    'Die Bridge kann zenoh nicht an {endpoints:list} öffnen: {why:problem}.',
+    'Prüfe die Parameter listen, connect und zenoh_config.',
+  ],
 }
