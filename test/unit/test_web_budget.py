@@ -11,7 +11,7 @@ import pytest
 
 DIST = Path(__file__).parents[2] / "web" / "dist"
 # gzip, bytes
-WITHOUT_3D, WITH_3D = 60_000, 300_000
+WITHOUT_3D, WITH_3D = 100_000, 340_000
 PAGES = (
     "src/pages/upload/page.tsx",
     "src/pages/trajectories/page.tsx",
@@ -25,7 +25,6 @@ MOTION = (
     "src/pages/motion/motion_view.tsx",
     "src/pages/motion/link_with_code.tsx",
     "src/scene/preview.ts",
-    "src/scene/words.ts",
     "src/words/de.ts",
 )
 

@@ -167,11 +167,19 @@ def session(document: Json) -> str:
         for run in told["runs"]
     ]  # fmt: skip
     heads = ("Run", "Robot", "Trajectory", "Began", "Took", "Result")
+    robots = [
+        (one["name"], one["model"], str(one["joint_states"]), str(one["contacts"]))
+        for one in told["robots"]
+    ]
     return report(
         document["title"],
         (_sentence(told["summary"]),),
         findings=told["troubles"],
-        tables=(Table("Runs", heads, runs), Table("Events", ("Time", "Robot", "Event"), events)),
+        tables=(
+            Table("Runs", heads, runs),
+            Table("Events", ("Time", "Robot", "Event"), events),
+            Table("Robots", ("Robot", "Model", "Joint states", "Contacts"), robots),
+        ),
     )
 
 
