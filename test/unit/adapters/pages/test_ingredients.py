@@ -2,8 +2,9 @@
 
 from pathlib import Path
 
-import pytest
+from refusals import refused
 
+from mrlab_ros.adapters.diagnostics import REPORT_NOT_BUILT
 from mrlab_ros.adapters.pages import ingredients
 from mrlab_ros.core.errors import BadInput
 
@@ -15,7 +16,7 @@ URDF = """<robot name="r"><link name="a">
 
 
 def test_pages_that_are_not_built_are_said_to_be(tmp_path):
-    with pytest.raises(BadInput, match="make setup"):
+    with refused(REPORT_NOT_BUILT, BadInput):
         ingredients.code(tmp_path)
 
 
