@@ -757,7 +757,7 @@ export const words: Words = {
   },
 }
 
-const ROLE = 'display=eine Anzeige|student=Studierende|operator=Betrieb|instructor=Lehrende'
+const ROLE = 'display=Anzeige|student=Studierende|operator=Betrieb|instructor=Lehrende'
 
 const COMMANDS = [
   'load=Laden',
@@ -1828,7 +1828,7 @@ export const diagnostics: Templates = {
     'Frag deine Lehrkraft.',
   ],
   may_still_move: [
-    '{why:problem}; {robots:list} antwortete nicht und bewegt sich vielleicht noch',
+    '{why:problem}; keine Antwort von {robots:list}: Dort kann sich noch etwas bewegen',
   ],
   mcap_without_chunks: [
     '{path} enthält Nachrichten außerhalb von Chunks und keinen Index.',
@@ -1848,7 +1848,7 @@ export const diagnostics: Templates = {
     'Die Mitglieder fahren an ihre Plätze.',
     'Halte an, ändere dann die Richtung und spiele ab.',
   ],
-  members_silent: ['[{robots:list} antwortete nicht; ]Abspielen macht hier weiter'],
+  members_silent: ['[keine Antwort von {robots:list}; ]Abspielen macht hier weiter'],
   mesh_no_file: ['{mesh} bezeichnet keine Datei: {why:problem}.'],
   mesh_no_package: ["Das Paket '{package}' des Netzes {mesh} ist nicht installiert."],
   mesh_no_vertex: ['Die Dreiecke eines Netzes nennen Eckpunkte, die es nicht hat.'],
@@ -1887,7 +1887,7 @@ export const diagnostics: Templates = {
     'Berichtige den Weg, oder lass einen größeren Abstand zu.',
   ],
   missing: [
-    "Die Datei '{file}' gibt es nicht[; meinst du '{close}'?].",
+    "Die Datei '{file}' gibt es nicht[; gemeint ist vielleicht '{close}'].",
     'Prüfe den Ordner und den Namen; die Datei endet auf .mat.',
   ],
   missing_field: ['{what:problem} fehlt; erwartet: {expected:problem}.'],
@@ -2022,7 +2022,7 @@ export const diagnostics: Templates = {
     'Dieses Gateway hat keine eigene Zertifizierungsstelle; zu installieren gibt es nichts.',
   ],
   no_bag: [
-    "Das Bag {path} gibt es nicht[; meinst du '{close}'?].",
+    "Das Bag {path} gibt es nicht[; gemeint ist vielleicht '{close}'].",
     'Nenne den Ordner eines Bags oder eine MCAP-Datei.',
   ],
   no_cell: [
@@ -2064,7 +2064,7 @@ export const diagnostics: Templates = {
   ],
   no_export: ['Einen Ordner oder ein Archiv {file} gibt es nicht; prüfe den Pfad und den Namen.'],
   no_export_format: [
-    "In '{format}' wird nicht geschrieben[; meinst du {close}?].",
+    "Das Format '{format}' wird nicht geschrieben[; gemeint ist vielleicht {close}].",
     'Wähle eines von diesen: {known:list}.',
   ],
   no_file_handed_in: [
@@ -2297,7 +2297,7 @@ export const diagnostics: Templates = {
     'ihre Werte sind keine Zeiten der Zeilen, die mit einer Rate für Gelenke steigen',
   ],
   no_tool_to_grasp: [
-    '{robots:list} hat kein Werkzeug zum Greifen; ergänze im Bewertungsschema tool: parallel_gripper.',
+    'Ohne Werkzeug zum Greifen: {robots:list}; ergänze im Bewertungsschema tool: parallel_gripper.',
   ],
   no_topic_of_pages: [
     '{key} ist kein Topic, das das Labor an Seiten gibt.',
@@ -2316,7 +2316,7 @@ export const diagnostics: Templates = {
     'Nenne eine aus dem Katalog.',
   ],
   no_trajectory_of_name: [
-    "Die Trajektorie '{id}' gibt es nicht[; meinst du {close}?].",
+    "Die Trajektorie '{id}' gibt es nicht[; gemeint ist vielleicht {close}].",
     'Wandle eine Datei um[, oder nimm eine von diesen: {known:list}].',
   ],
   no_unit: ["'{text}' hat keine Einheit; erwartet: {expected:problem}."],
@@ -2468,6 +2468,7 @@ export const diagnostics: Templates = {
     '{path} enthält kein Topic, das sich wiedergeben lässt[:{left_out:problems}].',
     'Nimm die Topics des Labors auf.',
   ],
+  nothing_to_show: ['Es gibt keine Bewegung zu zeigen: {why:problem}.'],
   nothing_touched: ['Nichts wird berührt.'],
   numbers_differ: ['zwei Leseprogramme finden verschiedene Zahlen darin'],
   object_attached: ['{robot} hält {object}.'],
@@ -2476,7 +2477,7 @@ export const diagnostics: Templates = {
   object_entry: ["Gegenstand '{object}'"],
   object_id: ['die Kennung eines Gegenstands im Katalog'],
   object_ignored: [
-    '{objects:list} ließ sich nicht öffnen und wurde weggelassen: {why:problem}.',
+    'Nicht zu öffnen und darum weggelassen: {objects:list} ({why:problem}).',
     'Du musst nichts tun, außer wenn die Trajektorie darin ist: Dann sichere in MATLAB die Zahlen daraus.',
   ],
   object_is_fixed: [
@@ -2594,7 +2595,7 @@ export const diagnostics: Templates = {
   others_exchange: ['andere können austauschen, was in {path} liegt'],
   others_go_on: ['Kollision von {robot}; die anderen machen weiter'],
   others_publish: [
-    'Die Wiedergabe beginnt nicht: {nodes:list} sendet auf {topics:list}.',
+    'Die Wiedergabe beginnt nicht: Auf {topics:list} wird schon gesendet, von {nodes:list}.',
     'Beende, was dort sendet, oder gib in einer anderen ROS-Domain wieder.',
   ],
   others_write: ['andere können in {path} schreiben'],
@@ -2669,7 +2670,7 @@ export const diagnostics: Templates = {
   ],
   pause_first: ['halte zuerst an'],
   paused: ['angehalten bei {position:time}'],
-  paused_without: ['angehalten bei {position:time}; {robots:list} antwortete nicht'],
+  paused_without: ['angehalten bei {position:time}; keine Antwort von {robots:list}'],
   payload: [
     'Der Roboter trägt mit {other} {value:mass}; neben seinem Endeffektor darf er {limit:mass} tragen.',
     'Nimm einen leichteren Gegenstand, oder einen Roboter mit mehr Traglast.',
@@ -2882,6 +2883,10 @@ export const diagnostics: Templates = {
   replay_runs: ['{bag} wird gerade wiedergegeben; beende das zuerst'],
   replays: [
     'gibt {duration:time} mit {messages:count Nachricht|Nachrichten} wieder[:{left_out:problems}]',
+  ],
+  report_not_built: [
+    'Die Seite lässt sich nicht schreiben: Es fehlt {path}; das entsteht, wenn die Seiten gebaut werden.',
+    'Baue die Seiten: npm ci und npm run build in web/.',
   ],
   request_missing: [
     'Der Dienst {service} wurde ohne Anfrage aufgerufen.',
@@ -3140,7 +3145,7 @@ export const diagnostics: Templates = {
   several_nodes_refuse: ['{count:integer} Knoten starten nicht:{mistakes:problems}'],
   several_types: ['{topic} hat mehrere Typen ({types:list}).'],
   shape_and_parts: ['Er hat eine Form und Teile.', 'Lass eines von beiden weg.'],
-  shape_lacks: ['{place:problem}: Einem <{tag}> fehlt {missing:list}.', 'Ergänze es.'],
+  shape_lacks: ['{place:problem}: In <{tag}> fehlt: {missing:list}.', 'Ergänze es.'],
   shared_service: [
     '{service} wurde nicht aufgerufen, denn ein anderes Labor in dieser ROS-Domain hat den Dienst auch: {labs:list}.',
     'Starte eines der Labore mit einer anderen ROS_DOMAIN_ID neu; Anhalten und Stoppen erreichen weiter beide.',
@@ -3190,7 +3195,7 @@ export const diagnostics: Templates = {
   ],
   speeds_in_limits: ['Geschwindigkeiten unter ihren Grenzen'],
   squeezed: ["'{variable}' ist {size}; sie wurde als {taken} genommen, wie {line} es ergibt."],
-  stages: ['fährt seine Mitglieder an ihre Plätze[, in {duration:time}], dann läuft es'],
+  stages: ['fährt seine Mitglieder an ihre Plätze[, das dauert {duration:time}], dann läuft es'],
   stands_elsewhere: ['{name} steht anderswo'],
   starts_inside: [
     '{robot} beginnt innerhalb der Fläche {other}[; {more:count Kontakt|Kontakte} mehr].',
@@ -3300,7 +3305,7 @@ export const diagnostics: Templates = {
     'Prüfe, ob zwei Aufnahmen zusammengefügt wurden; sortiere die Zeilen in MATLAB, oder nimm eine davon, etwa q(1:{last:integer}, :).',
   ],
   time_column: [
-    "Spalte {column:integer} von '{variable}' ist Zeit ({first:number} bis {last:number}) und kein Gelenk: {why:problem}.[ Die Spalten {columns} sind die Gelenke.][ Es {left:count bleibt Spalte|bleiben Spalten}, und {robot} hat {joints:integer} Gelenke.]",
+    "Spalte {column:integer} von '{variable}' ist Zeit ({first:number} bis {last:number}) und kein Gelenk: {why:problem}.[ Die Spalten {columns} sind die Gelenke.][ Übrig: {left:count Spalte|Spalten}; {robot} hat {joints:integer} Gelenke.]",
     'Nimm nur die Gelenke, oder sichere sie allein und die Zeit als t.',
   ],
   time_counts_rows: [
@@ -3447,7 +3452,7 @@ export const diagnostics: Templates = {
   ],
   true_or_false: ['true oder false'],
   turned_twice: ['rpy_deg und orientation sind beide angegeben; schreibe nur eines davon.'],
-  twice_in_archive: ['Es ist zweimal im Archiv; das letzte wird gelesen.'],
+  twice_in_archive: ['Die Datei ist zweimal im Archiv; die letzte wird gelesen.'],
   twice_in_urdf: [
     "{file}: {what:choice joint=Zwei Gelenke heißen|link=Zwei Glieder heißen|child=Zwei Gelenke haben als child} '{name}'; erwartet wird ein Baum von Gliedern, jedes mit eigenem Namen.",
   ],
@@ -3516,7 +3521,7 @@ export const diagnostics: Templates = {
     'Sichere die Gelenkwinkel in MATLAB, und wandle diese Datei um.',
   ],
   unsupported_object: [
-    "{objects:list} ließ sich nicht öffnen: {why:problem}. Keine andere Matrix in '{file}' ist die Trajektorie.",
+    "Nicht zu öffnen: {objects:list} ({why:problem}). Keine andere Matrix in '{file}' ist die Trajektorie.",
     'Sichere in MATLAB die Zahlen daraus.',
   ],
   unwrap_applied: ["Wie gewünscht wurden die Sprünge um 2*pi in '{variable}' entfernt."],
@@ -3557,11 +3562,11 @@ export const diagnostics: Templates = {
     '{robot} wartet am Frame {frame:integer}; seine Trajektorie hat die Frames 0 bis {last_frame:integer}.',
   ],
   wait_clears: [
-    'Wartet {robot} {seconds:time}, kommen sich die beiden in der Probe nicht in den Weg.',
+    'Wartet {robot} {seconds:time}, bleiben die beiden in der Probe auseinander.',
     "Ergänze beim Mitglied {robot}: 'after: {other}.frame {frame:integer}'.",
   ],
   wait_clears_two: [
-    'Wartet {robot} {seconds:time}, kommen sich die beiden in der Probe nicht in den Weg; andere berühren sich noch.',
+    'Wartet {robot} {seconds:time}, bleiben die beiden in der Probe auseinander; andere berühren sich noch.',
     "Ergänze beim Mitglied {robot}: 'after: {other}.frame {frame:integer}'.",
   ],
   wait_for_itself: ["{robot} wartet auf sich selbst: '{wait}'.", 'Nenne ein anderes Mitglied.'],
