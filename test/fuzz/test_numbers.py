@@ -117,6 +117,7 @@ def mat5(lengths: list[int]) -> bytes:
 
 
 @pytest.mark.timeout(300)
+@pytest.mark.slow
 def test_no_file_ends_the_converter_or_a_report(tmp_path: Path) -> None:
     wanted = []
     (tmp_path / "written").mkdir()

@@ -98,6 +98,7 @@ def test_without_a_lab_nothing_is_offered(lab, monkeypatch, domain):
     assert completion.robots("") == []
 
 
+@pytest.mark.slow
 def test_what_a_shell_needs_is_installed_where_it_looks(tmp_path):
     mrlab = f"{sys.executable} -m mrlab_ros.cli"
     # Not as its last command: bash would become what it runs, and not be found above it.

@@ -176,6 +176,7 @@ def test_a_command_that_reaches_the_bridge_loads_neither_nodes_nor_the_message_g
     assert done.stdout.split() == ["False", "[]"]
 
 
+@pytest.mark.slow
 def test_every_command_and_option_that_is_named_is_run() -> None:
     ran = run_options()
     missing = []

@@ -34,6 +34,9 @@ from mrlab_ros.adapters.robots.source import find_description
 from mrlab_ros.core.base.diagnostic import Code
 from mrlab_ros.core.errors import BadInput
 
+# Each file is read by a process of its own.
+pytestmark = pytest.mark.slow
+
 ROBOTS = Path(__file__).resolve().parents[4] / "robots"
 Y = "0 1 0"
 

@@ -40,6 +40,9 @@ from mrlab_ros.core.base.diagnostic import Code
 from mrlab_ros.core.base.diagnostics import BAD_VALUE, EMPTY_VALUE
 from mrlab_ros.core.errors import BadInput
 
+# Each file is read by a process of its own.
+pytestmark = pytest.mark.slow
+
 ROBOTS = Path(__file__).resolve().parents[4] / "robots"
 
 KR6 = "kuka_kr6_r900_sixx"

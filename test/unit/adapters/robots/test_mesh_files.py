@@ -15,6 +15,9 @@ from mrlab_ros.adapters.robots.importing import import_robot
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.core.base.diagnostic import Severity
 
+# Each file is read by a process of its own.
+pytestmark = pytest.mark.slow
+
 ROBOTS = Path(__file__).resolve().parents[4] / "robots"
 MARKER = b"BEGIN PRIVATE KEY 7f3a"
 RED, BLUE, SECRET = (200, 0, 0), (0, 0, 200), (1, 2, 3)

@@ -15,6 +15,9 @@ from mrlab_ros.adapters.robots.diagnostics import XACRO_NO_WALL, XACRO_REFUSED
 from mrlab_ros.adapters.robots.source import description_text
 from mrlab_ros.core.errors import BadInput
 
+# Each file is read by a process of its own.
+pytestmark = pytest.mark.slow
+
 XACRO = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="r">{}</robot>'
 LINK = '<link name="{}"/>'
 # xacro refuses names such as __class__ in an expression, but not in a function within it.

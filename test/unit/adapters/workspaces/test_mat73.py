@@ -125,6 +125,7 @@ def test_an_object_whose_parts_lie_elsewhere_stays_closed(marker, reader):
     assert not hostile.leaked(said(reader, buffer.getvalue()))
 
 
+@pytest.mark.slow
 def test_files_made_at_random_give_nothing_of_another(marker, reader):
     for seed in range(AT_ONCE):
         found = hostile.leaked(said(reader, hostile.made_at_random(seed, marker)))
