@@ -2672,7 +2672,7 @@ export const diagnostics: Templates = {
   paused: ['angehalten bei {position:time}'],
   paused_without: ['angehalten bei {position:time}; keine Antwort von {robots:list}'],
   payload: [
-    'Der Roboter trägt mit {other} {value:mass}; neben seinem Endeffektor darf er {limit:mass} tragen.',
+    'Mit {other} trägt der Roboter {value:mass}; neben seinem Endeffektor darf er {limit:mass} tragen.',
     'Nimm einen leichteren Gegenstand, oder einen Roboter mit mehr Traglast.',
   ],
   person_exists: [
@@ -3198,7 +3198,7 @@ export const diagnostics: Templates = {
   stages: ['fährt seine Mitglieder an ihre Plätze[, das dauert {duration:time}], dann läuft es'],
   stands_elsewhere: ['{name} steht anderswo'],
   starts_inside: [
-    '{robot} beginnt innerhalb der Fläche {other}[; {more:count Kontakt|Kontakte} mehr].',
+    '{robot} beginnt innerhalb der Fläche {other}[; dazu {more:count weiterer Kontakt|weitere Kontakte}].',
   ],
   step_failed: ['{step:problem}: gescheitert, {why:problem}.'],
   step_of_zero: ['ein Schritt von 0 führt nirgendwohin'],
@@ -3419,7 +3419,7 @@ export const diagnostics: Templates = {
   tool_speed: ['Das Werkzeug bewegt sich mit {value:speed}; erwartet: höchstens {limit:speed}.'],
   total_time: ['Alles dauert {value:time}; erwartet: höchstens {limit:time}.'],
   touches: [
-    '{link}[ (hält {held})] berührt {kind:choice self=das eigene Glied|robot=den Roboter|object=den Gegenstand|surface=die Fläche} {other}[ ({other_link})] bei {time:time}[; {more:count Kontakt|Kontakte} mehr].',
+    '{link}[ (hält {held})] berührt {kind:choice self=das eigene Glied|robot=den Roboter|object=den Gegenstand|surface=die Fläche} {other}[ ({other_link})] bei {time:time}[; dazu {more:count weiterer Kontakt|weitere Kontakte}].',
   ],
   trajectory_deleted: ["'{id}' wurde gelöscht.", 'Stelle sie wieder her, wenn du sie brauchst.'],
   trajectory_hidden: ["'{id}' sehen {owner} und Lehrende."],
