@@ -165,7 +165,7 @@ def test_a_missing_mesh_is_said(shown: Open, monkeypatch: pytest.MonkeyPatch) ->
     monkeypatch.setattr("mrlab_ros.adapters.pages.motion.poster", lambda *_: "data:,")
     watched = shown(accepted())
     note = watched.page.get_by_role("status").first
-    expect(note).to_contain_text("upper_arm_link.glb is not in this page", timeout=DEADLINE_MS)
+    expect(note).to_contain_text("upper_arm_link.glb", timeout=DEADLINE_MS)
     assert watched.page.locator("canvas").is_visible()
 
 
