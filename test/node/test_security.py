@@ -273,7 +273,7 @@ def test_a_pattern_calls_no_service(graph, people):
         answers, reasons = ask(session, "*/stop")
         assert answers == []
         assert reasons == [
-            "the service /recorder/stop is called by its key recorder/stop, not as */stop"
+            "The service /recorder/stop is called by its key recorder/stop, not as */stop."
         ]
     assert called == []
 

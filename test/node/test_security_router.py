@@ -179,7 +179,7 @@ def test_a_bridge_connects_with_keys_to_a_secured_router_only(graph, keys, tmp_p
     refused("it can show none", keys=folder, mode="client", connect=["tcp/router:7447"])
     refused("set mode to client", keys=folder, connect=["tls/router:7447"])
     refused(
-        "leave listen empty",
+        "Leave listen empty",
         keys=folder,
         mode="client",
         connect=["tls/router:7447"],
@@ -197,5 +197,5 @@ def test_a_bridge_connects_with_keys_to_a_secured_router_only(graph, keys, tmp_p
 
 def test_a_router_takes_certificates_only(tmp_path):
     keys = Keys.create(tmp_path / "keys", [], Login.BOTH, now())
-    with pytest.raises(Misuse, match="--login certificate"):
+    with pytest.raises(Misuse, match="log in by certificate"):
         write_router(keys)

@@ -108,7 +108,7 @@ def test_what_a_student_did_comes_back(endpoint: str, tmp_path: Path) -> None:
         )
         try:
             wait_for(lambda: publishers() == {"_recorder_streams"}, "the playback aside")
-            state.wait(lambda s: s.state == s.REPLAYING, DEADLINE, "the replay")
+            state.wait(lambda s: s.state == s.REPLAYING, DEADLINE)
             assert state.value.bag == str(bag)
             assert "the replay is over" in replay.communicate(timeout=DEADLINE)[0]
         finally:
@@ -123,5 +123,4 @@ def test_what_a_student_did_comes_back(endpoint: str, tmp_path: Path) -> None:
         robot.wait(
             lambda s: (s.label, s.trajectory_id) == ("READY", "quintic_ur5e"),
             DEADLINE,
-            "the robot with what it had loaded",
         )

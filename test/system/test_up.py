@@ -126,7 +126,7 @@ def ends_cleanly(lab: Lab, number: signal.Signals) -> None:
     wait_for(lab.all_gone, "all processes of the lab gone")
     done = mrlab("status", "--once")
     assert done.returncode == 1
-    assert "start one with: mrlab up" in done.stderr
+    assert "try: mrlab up" in done.stderr
     assert "Traceback" not in lab.said + done.stderr
 
 
@@ -166,15 +166,16 @@ def test_play_follows_a_workspace_file_to_its_end(used: Lab) -> None:
     assert done.returncode == 0, done.stderr
     assert "ur5e_1 played 601 frames" in done.stdout
     for arguments, words in (
-        (("play", "nobody", "quintic_ur5e"), "no robot 'nobody' is in the scene"),
+        (("play", "nobody", "quintic_ur5e"), "nobody"),
         (("play", "ur5e_1", "nothing"), "no trajectory 'nothing'"),
-        (("play", "ur5e_1", "quintic_ur5e", "--speed", "9"), "expected 0.1 to 4"),
-        (("up",), "a lab runs on ROS domain"),
+        (("play", "ur5e_1", "quintic_ur5e", "--speed", "9"), "0.1 to 4"),
+        (("up",), "domain"),
     ):
         refused = in_process.mrlab(*arguments)
         assert refused.returncode == 1
         assert words in refused.stderr
-        assert refused.stderr.count("\n") == 1
+        said = [line for line in refused.stderr.splitlines() if not line.startswith("  try: ")]
+        assert len(said) == 1
 
 
 def test_a_lab_that_was_used_stops_cleanly_and_leaves_nothing(used: Lab) -> None:
@@ -205,11 +206,11 @@ def test_help_teaches() -> None:
         (
             in_process.mrlab,
             ("up", "--config", "/nowhere.yaml"),
-            "there is no parameter file /nowhere.yaml",
+            "no parameter file /nowhere.yaml",
         ),
-        (in_process.mrlab, ("up", "--http", "0.0.0.0:8080"), "give the lab keys"),
-        (in_process.mrlab, ("up", "--http", "here"), "expected HOST:PORT"),
-        (mrlab, ("demo", "--once", "--file", "/nowhere.mat"), "there is no file /nowhere.mat"),
+        (in_process.mrlab, ("up", "--http", "0.0.0.0:8080"), "try: mrlab keys init"),
+        (in_process.mrlab, ("up", "--http", "here"), "HOST:PORT"),
+        (mrlab, ("demo", "--once", "--file", "/nowhere.mat"), "no file /nowhere.mat"),
     ],
 )
 def test_a_wrong_argument_is_one_sentence(
@@ -235,7 +236,7 @@ def test_a_wrong_parameter_file_is_named_whole_and_nothing_starts(tmp_path: Path
         "telemetry_rate is 0; expected a number above 0",
         "standing_rate is nan",
         "split_size is -5",
-        "did you mean 'lab'",
+        "did you mean lab",
     ):
         assert words in done.stderr
     assert "Traceback" not in done.stdout + done.stderr
@@ -253,7 +254,7 @@ def test_a_process_that_refuses_its_configuration_ends_the_start(
         monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
         done = mrlab("up", "--no-physics", "--no-web", "--config", str(config))
     assert done.returncode == 1
-    assert "the bridge cannot read its allow-list /nowhere.yaml" in done.stdout
+    assert "allow-list /nowhere.yaml" in done.stdout
     assert "the lab does not start: bridge refused the configuration" in done.stderr
     assert "Traceback" not in done.stdout + done.stderr
 

@@ -8,8 +8,8 @@ from mrlab_ros.core.base.diagnostic import INFO, WARNING, Code
 
 SYSTEM_CREATED = Code(
     "system_created",
-    "{system} drives {robots:list}: {duration:time}, {mode:choice parallel=all at once|sequential="
-    "one after another}",
+    "{system} drives {robots:list}: {duration:time}, {mode:choice parallel=parallel|"
+    "sequential=sequential}",
     severity=INFO,
     meaning="A robot system was created.",
 )
@@ -18,7 +18,7 @@ DISSOLVED = Code(
 )
 MODE_SET = Code(
     "mode_set",
-    "{mode:choice parallel=all at once|sequential=one after another}, {duration:time}",
+    "{mode:choice parallel=parallel|sequential=sequential}, {duration:time}",
     severity=INFO,
     meaning="How the members of a system share its timeline was set.",
 )
