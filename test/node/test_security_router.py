@@ -185,10 +185,10 @@ def test_a_bridge_connects_with_keys_to_a_secured_router_only(graph, keys, tmp_p
         connect=["tls/router:7447"],
         listen=["tls/0.0.0.0:7447"],
     )
-    refused("name the router", keys=folder, mode="client")
+    refused("Name the router", keys=folder, mode="client")
     without = Keys.create(tmp_path / "keys", [], Login.CERTIFICATE, now())
     refused(
-        "mrlab keys router",
+        "no file",
         keys=str(without.folder),
         mode="client",
         connect=["tls/router:7447"],

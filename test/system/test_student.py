@@ -21,6 +21,7 @@ from mrlab_ros import Lab, Options
 from mrlab_ros.cli import make_app
 from mrlab_ros.client.lab import FileRefused
 from mrlab_ros.client.link import LinkGraph
+from mrlab_ros.commands.output import with_fixes
 from mrlab_ros.core.errors import LabError, Misuse
 
 RATE = 100.0
@@ -41,7 +42,7 @@ def said(*words: str) -> tuple[int, str]:
     """Run a command in this process; return its exit code and all that it printed."""
     done = CliRunner().invoke(make_app(words), words)
     if isinstance(done.exception, LabError):
-        return 1, f"{done.output}{done.exception}"
+        return 1, f"{done.output}{with_fixes(done.exception.diagnostic)}"
     assert done.exception is None or isinstance(done.exception, SystemExit), done.exception
     return done.exit_code, done.output
 

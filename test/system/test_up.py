@@ -219,7 +219,8 @@ def test_a_wrong_argument_is_one_sentence(
     done = start(*arguments)
     assert done.returncode == 1
     assert words in done.stderr
-    assert done.stderr.count("\n") == 1
+    said = [line for line in done.stderr.splitlines() if not line.startswith("  try: ")]
+    assert len(said) == 1
 
 
 def test_a_wrong_parameter_file_is_named_whole_and_nothing_starts(tmp_path: Path) -> None:
@@ -236,7 +237,7 @@ def test_a_wrong_parameter_file_is_named_whole_and_nothing_starts(tmp_path: Path
         "telemetry_rate is 0; expected a number above 0",
         "standing_rate is nan",
         "split_size is -5",
-        "did you mean lab",
+        "mean 'lab'",
     ):
         assert words in done.stderr
     assert "Traceback" not in done.stdout + done.stderr
@@ -255,7 +256,7 @@ def test_a_process_that_refuses_its_configuration_ends_the_start(
         done = mrlab("up", "--no-physics", "--no-web", "--config", str(config))
     assert done.returncode == 1
     assert "allow-list /nowhere.yaml" in done.stdout
-    assert "the lab does not start: bridge refused the configuration" in done.stderr
+    assert "bridge refused the configuration" in done.stderr
     assert "Traceback" not in done.stdout + done.stderr
 
 
