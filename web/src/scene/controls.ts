@@ -1,3 +1,4 @@
+import { fixed } from '../words/words'
 import './scene.css'
 import { BACKWARD_RATES, type Player, RATES } from '../playback/player'
 import type { SceneWords } from './words'
@@ -138,8 +139,8 @@ export class Controls {
     const tenth = this.player.playing ? Math.round(time * 10) : -2 - time
     if (tenth === this.shownTenth) return
     this.shownTenth = tenth
-    const text = time.toFixed(2)
-    this.clock.textContent = `${text} / ${this.player.duration.toFixed(2)} s`
+    const text = fixed(time, 2)
+    this.clock.textContent = `${text} / ${fixed(this.player.duration, 2)} s`
     this.slider.setAttribute('aria-valuetext', this.words.at(text, this.rowAt(time)))
   }
 

@@ -59,6 +59,23 @@ const locale = computed(
   () => navigator.languages.find((tag) => tag.startsWith(language.value)) ?? language.value,
 )
 
+const formats = new Map<string, Intl.NumberFormat>()
+
+/** Return a number with as many digits behind the decimal sign, without groups of thousands. */
+export function fixed(value: number, digits: number): string {
+  const key = `${locale.value} ${digits}`
+  let format = formats.get(key)
+  if (format === undefined) {
+    format = new Intl.NumberFormat(locale.value, {
+      minimumFractionDigits: digits,
+      maximumFractionDigits: digits,
+      useGrouping: false,
+    })
+    formats.set(key, format)
+  }
+  return format.format(Number(value.toFixed(digits)) === 0 ? 0 : value)
+}
+
 /** Return a number in the language's own way, with `least` to `digits` digits behind the comma. */
 export function number(value: number, digits = 2, least = 0): string {
   const rounded = Number(value.toFixed(Math.min(digits, 12)))

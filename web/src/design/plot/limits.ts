@@ -1,4 +1,5 @@
 import type uPlot from 'uplot'
+import { fixed } from '../../words/words'
 import type { Theme } from '../theme'
 
 export const FONT = '13px system-ui, -apple-system, "Segoe UI", Roboto, sans-serif'
@@ -86,7 +87,7 @@ export function drawForbidden(plot: uPlot, line: Limits, theme: Theme, words: Li
   if (top !== undefined && low !== undefined && low - top < 2 * TEXT * ratio) {
     // too near to each other for a label each
     const middle = (top + low - TEXT * ratio) / 2
-    label(words.limits((lower ?? 0).toFixed(0), (upper ?? 0).toFixed(0)), middle)
+    label(words.limits(fixed(lower ?? 0, 0), fixed(upper ?? 0, 0)), middle)
     ctx.restore()
     return
   }
@@ -96,7 +97,7 @@ export function drawForbidden(plot: uPlot, line: Limits, theme: Theme, words: Li
   ] as const) {
     if (limit === null) continue
     const y = plot.valToPos(limit, 'y', true)
-    const text = words.limit(limit.toFixed(0))
+    const text = words.limit(fixed(limit, 0))
     if (y > bbox.top && y < bottom) label(text, above ? y + 3 * ratio : y - 17 * ratio)
   }
   ctx.restore()
@@ -118,7 +119,7 @@ export function drawFarLimits(plot: uPlot, line: Limits, theme: Theme): void {
     if (limit === null) continue
     const y = plot.valToPos(limit, 'y', true)
     if (y > bbox.top && y < bottom) continue
-    const text = `${arrow} ${limit.toFixed(0)}${line.unit === '°' ? '°' : ''}`
+    const text = `${arrow} ${fixed(limit, 0)}${line.unit === '°' ? '°' : ''}`
     const width = ctx.measureText(text).width
     const right = bbox.left + bbox.width - 4 * ratio
     const middle = arrow === '↑' ? bbox.top + 8 * ratio : bottom - 8 * ratio

@@ -1,6 +1,6 @@
 import type { ReadonlySignal } from '@preact/signals'
 import { useEffect, useRef, useState } from 'preact/hooks'
-import { words } from '../../words/words'
+import { fixed, words } from '../../words/words'
 import { theme } from '../theme'
 import { createStrip, type Mark, type Strip, type StripPlot } from './strip'
 import './plot.css'
@@ -32,8 +32,8 @@ function summary(strip: Strip): string {
   const limits =
     strip.lower === null || strip.upper === null
       ? ''
-      : w.between(strip.lower.toFixed(0), strip.upper.toFixed(0))
-  return `${strip.label}: ${w.from(low.toFixed(1), high.toFixed(1), strip.unit)}${limits}`
+      : w.between(fixed(strip.lower, 0), fixed(strip.upper, 0))
+  return `${strip.label}: ${w.from(fixed(low, 1), fixed(high, 1), strip.unit)}${limits}`
 }
 
 let nextSync = 1
@@ -90,7 +90,7 @@ export function Strips({ times, strips, marks, rowOf, time, onSeek }: StripsProp
   return (
     <div class="strips" ref={list}>
       <p class="strips-cursor tiny second" aria-hidden="true">
-        {under === null ? w.hint : w.at((times[under] ?? 0).toFixed(2), String(rowOf(under)))}
+        {under === null ? w.hint : w.at(fixed(times[under] ?? 0, 2), String(rowOf(under)))}
       </p>
       {strips.map((strip, index) => (
         <figure class="strip" key={strip.label}>
@@ -98,7 +98,7 @@ export function Strips({ times, strips, marks, rowOf, time, onSeek }: StripsProp
             <span class={`strip-dot joint-${(strip.colour % 7) + 1}`} />
             <span class="strip-name">{strip.label}</span>
             <span class="strip-value">
-              {under === null ? '' : `${(strip.values[under] ?? 0).toFixed(1)} ${strip.unit}`}
+              {under === null ? '' : `${fixed(strip.values[under] ?? 0, 1)} ${strip.unit}`}
             </span>
           </figcaption>
           <div class="strip-plot" role="img" aria-label={summary(strip)} data-strip={index} />

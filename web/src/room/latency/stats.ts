@@ -2,6 +2,7 @@ import type { Object3D } from 'three'
 import type { Link } from '../../link/link'
 import { LatencyHop, latencyHopType, latencyType } from '../../protocol/mrlab_msgs'
 import { jointStateType } from '../../protocol/sensor_msgs'
+import { fixed } from '../../words/words'
 import type { RoomContext } from '../context'
 import { Panel } from '../panels/panel'
 import { type Pen, TEXT } from '../panels/pen'
@@ -86,8 +87,8 @@ export class Stats {
     const w = this.context.words.room
     const { p50, p95, count } = this.ages
     const trip = this.context.link.status.roundTrip
-    const ms = (seconds: number) => (seconds * 1000).toFixed(seconds < 0.01 ? 1 : 0)
-    const frame = w.statsFrame(this.slowestBefore.toFixed(1), this.rate.toFixed(0))
+    const ms = (seconds: number) => fixed(seconds * 1000, seconds < 0.01 ? 1 : 0)
+    const frame = w.statsFrame(fixed(this.slowestBefore, 1), fixed(this.rate, 0))
     pen.text(EDGE, 36, frame, TEXT.small, undefined, 'ink', 600)
     const age = count > 0 ? w.statsAge(ms(p50), ms(p95)) : w.statsNone
     pen.text(EDGE, 76, age, TEXT.small)

@@ -9,6 +9,7 @@ import {
   setEndEffectorType,
   triggerType,
 } from '../../protocol/mrlab_msgs'
+import { fixed } from '../../words/words'
 import { order, type RoomContext } from '../context'
 import { CHECK_WIDTH } from './check_view'
 import { type ControlActions, drawButtons, drawStatus } from './control_view'
@@ -243,7 +244,7 @@ export class ControlPanel {
     if (fit.length === 0) pen.lines(EDGE, 120, w.noneFits(robot.model), TEXT.body)
     this.drawList(
       pen,
-      fit.map(({ id, duration }) => ({ id, words: id, note: `${duration.toFixed(1)} s` })),
+      fit.map(({ id, duration }) => ({ id, words: id, note: `${fixed(duration, 1)} s` })),
       (id) => {
         const { link } = this.context
         order({ link, say: this.say }, `${this.name}/load`, loadTrajectoryType, { id })

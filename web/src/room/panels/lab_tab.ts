@@ -9,6 +9,7 @@ import {
   triggerType,
 } from '../../protocol/mrlab_msgs'
 import { sentence } from '../../words/diagnostic'
+import { fixed } from '../../words/words'
 import { order, type RoomContext } from '../context'
 import type { Stats } from '../latency/stats'
 import { BOARD_WIDTH, BOTTOM, EDGE, type Tab, TOP } from './board'
@@ -155,7 +156,7 @@ export function labTab(context: RoomContext, follower: LabFollower, stats: Stats
     const share = replay.duration > 0 ? replay.position() / replay.duration : 0
     pen.box(RIGHT, track - 4, COLUMN, 8, PANEL_THEME.colours.hairline)
     pen.box(RIGHT, track - 4, Math.max(share * COLUMN, 8), 8, PANEL_THEME.colours.accent)
-    const time = `${replay.position().toFixed(1)} / ${replay.duration.toFixed(1)} s`
+    const time = `${fixed(replay.position(), 1)} / ${fixed(replay.duration, 1)} s`
     pen.text(RIGHT, track + 36, time, TEXT.small, COLUMN, 'ink', 600)
     pen.zone({
       id: 'replay_timeline',

@@ -1,6 +1,7 @@
 import { Color } from 'three'
 import { fits } from '../../pages/lab/catalogue'
 import type { RobotView } from '../../pages/lab/followed_robot'
+import { fixed } from '../../words/words'
 import type { RoomContext } from '../context'
 import { speedColour } from '../drawings/tool_ribbon'
 import type { Choice } from './paged_list'
@@ -42,13 +43,13 @@ export function drawShow(
   const reference = drawings.reference(name)
   if (reference !== null) {
     const { tool, most } = reference
-    const mm = w.apart((tool * 1000).toFixed(1), (most * 1000).toFixed(1))
+    const mm = w.apart(fixed(tool * 1000, 1), fixed(most * 1000, 1))
     pen.text(edge, y + HIT + 30, mm, TEXT.body, undefined, 'ink', 600)
     reference.jointNames.forEach((joint, i) => {
       const x = edge + (i % 2) * (half + GAP)
       const row = y + HIT + 64 + Math.floor(i / 2) * 28
       const deg = Math.round((reference.joints[i] as number) * DEG * 100) / 100
-      const off = `${(deg === 0 ? 0 : deg).toFixed(2)}°`
+      const off = `${fixed(deg === 0 ? 0 : deg, 2)}°`
       const ink = i === reference.worst() ? 'ink' : 'second'
       pen.text(x, row, joint, TEXT.small, half - 110, ink)
       pen.text(x + half, row, off, TEXT.small, 100, ink, 600, 'right')
@@ -89,5 +90,5 @@ function drawLegend(
     pen.context.fillStyle = speedColour(i / (STRIPES - 1), colour).getStyle()
     pen.context.fillRect(x + (i * bar) / STRIPES, y - 7, bar / STRIPES + 0.5, 14)
   }
-  pen.text(x + bar + GAP, y, words(fastest.toFixed(2)), TEXT.small, 2 * width - bar, 'second')
+  pen.text(x + bar + GAP, y, words(fixed(fastest, 2)), TEXT.small, 2 * width - bar, 'second')
 }

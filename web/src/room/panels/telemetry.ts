@@ -1,4 +1,5 @@
 import type { Telemetry } from '../../protocol/mrlab_msgs'
+import { fixed } from '../../words/words'
 import type { RoomContext } from '../context'
 import { Panel } from './panel'
 import { PANEL_THEME, type Pen, TEXT } from './pen'
@@ -92,14 +93,14 @@ export class TelemetryPanel {
   private drawGrasp(pen: Pen, grasp: Telemetry, y: number): void {
     if (grasp.held_object === '') return
     const w = this.context.words.room
-    const payload = grasp.payload > 0 ? grasp.payload.toFixed(1) : ''
+    const payload = grasp.payload > 0 ? fixed(grasp.payload, 1) : ''
     const heavy = grasp.payload > 0 && grasp.held_mass > grasp.payload
-    const holds = w.holdsNow(grasp.held_object, grasp.held_mass.toFixed(2), payload)
+    const holds = w.holdsNow(grasp.held_object, fixed(grasp.held_mass, 2), payload)
     const warning = PANEL_THEME.states.PAUSED
     pen.text(EDGE, y, holds, TEXT.small, undefined, heavy ? warning : 'ink', 600)
-    const moment = grasp.wrist_moment.toFixed(1)
+    const moment = fixed(grasp.wrist_moment, 1)
     const slips = grasp.slip_margin < 0
-    const bears = slips ? w.slips(moment) : w.bears(grasp.slip_margin.toFixed(1), moment)
+    const bears = slips ? w.slips(moment) : w.bears(fixed(grasp.slip_margin, 1), moment)
     pen.text(EDGE, y + 28, bears, TEXT.small, undefined, slips ? warning : 'second')
   }
 
@@ -132,5 +133,5 @@ export class TelemetryPanel {
 
 /** Return a value with one decimal, and no sign where that is 0. */
 function tenths(value: number): string {
-  return (Math.round(value * 10) / 10 || 0).toFixed(1)
+  return fixed(Math.round(value * 10) / 10 || 0, 1)
 }

@@ -1,5 +1,6 @@
 import { CircleGeometry, type Group, Mesh, MeshBasicMaterial, PlaneGeometry } from 'three'
 import type { RemotePlayer } from '../../playback/player'
+import { fixed } from '../../words/words'
 import { PANEL_THEME, type Pen, TEXT } from './pen'
 import { Readout } from './readout'
 
@@ -122,7 +123,7 @@ export class Timeline {
   private read(player: RemotePlayer): void {
     this.readAt = this.now
     const position = this.position(player)
-    const time = `${position.toFixed(1)} / ${player.duration.toFixed(1)} s`
+    const time = `${fixed(position, 1)} / ${fixed(player.duration, 1)} s`
     if (this.readout.set(time, this.noteAt(position))) this.stir()
   }
 
