@@ -58,13 +58,18 @@ def why_not(path: Path) -> Diagnostic | None:
 
 
 def _why_not_within(folder: Path) -> Diagnostic | None:
-    """Return why others could exchange what this user makes in a folder; None: they cannot."""
+    """Return why others could exchange what this user makes in a folder; None: they cannot.
+
+    Whoever may rename any folder above it can put another one in its place.
+    """
     try:
-        found = folder.stat()
+        way = folder.resolve(strict=True)
+        for above in (way, *way.parents):
+            found = above.stat()
+            if found.st_uid not in (os.getuid(), 0):
+                return FOLDER_OF_ANOTHER(path=str(above))
+            if stat.S_IMODE(found.st_mode) & 0o022 and not found.st_mode & stat.S_ISVTX:
+                return OTHERS_EXCHANGE(path=str(above))
     except OSError as error:
         return FOLDER_UNUSABLE(path=str(folder), problem=error.strerror)
-    if found.st_uid not in (os.getuid(), 0):
-        return FOLDER_OF_ANOTHER(path=str(folder))
-    if stat.S_IMODE(found.st_mode) & 0o022 and not found.st_mode & stat.S_ISVTX:
-        return OTHERS_EXCHANGE(path=str(folder))
     return None

@@ -48,8 +48,11 @@ def for_html(text: str) -> str:
 
 
 def for_table(text: str) -> str:
-    """Return a text as a cell of CSV that no table program computes; a ' makes it a text."""
-    return FORMULA.sub(r"\1\2'", text)
+    """Return a text as a cell of CSV that no table program computes; a ' makes it a text.
+
+    Nothing in it acts on a terminal that shows the file.
+    """
+    return FORMULA.sub(r"\1\2'", visible_lines(text))
 
 
 def for_shell(words: list[str]) -> str:

@@ -94,3 +94,9 @@ def test_no_line_of_matlab_holds_what_is_no_name(name: str) -> None:
     for taken in ("q", "out.q", "c{2}.q(1, :)", "s(3).q_d"):
         (fix,) = NEVER_FILLED(variable=taken, size="2x2").fixes
         assert fix.matlab == f"any({taken}(:))"
+
+
+@given(ANY)
+def test_a_cell_acts_on_no_terminal(text: str) -> None:
+    shown = foreign_text.for_table(text)
+    assert not any(acts(sign) for sign in shown if sign not in "\n\t")
