@@ -32,7 +32,7 @@ from mrlab_ros.commands.up.surroundings import graph_range
 from mrlab_ros.commands.up.web import checked_web, prepare_keys
 from mrlab_ros.core.bridge.links import check_endpoints
 from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.naming import did_you_mean
+from mrlab_ros.core.naming import close_to
 from mrlab_ros.processes import physics_support
 from mrlab_ros.processes.child import WRONG_CONFIGURATION
 from mrlab_ros.processes.lab import (
@@ -229,9 +229,9 @@ def check_namespace(namespace):
 def unknown(given):
     """Return a warning for each name that resembles an argument, such as robot:=ur5e."""
     words = [
-        f"{name}:= is no argument of the lab (-s lists them){close}"
+        f"{name}:= is no argument of the lab (-s lists them); did you mean '{close}'?"
         for name in given
-        if name not in ARGUMENTS and (close := did_you_mean(name, ARGUMENTS))
+        if name not in ARGUMENTS and (close := close_to(name, ARGUMENTS))
     ]
     return [LogInfo(msg=text) for text in words]
 
