@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ast
+import importlib
+import importlib.util
 import re
 import sys
 from collections.abc import Callable, Iterable, Mapping
@@ -309,3 +311,22 @@ def test_one_door_makes_consoles() -> None:
     calls = re.compile(r"(?<!output\.)\b(Console|from_markup|render_markup)\(")
     others = [path for path in SOURCES if path != door]
     assert [str(path) for path in others if calls.search(path.read_text())] == []
+
+
+def test_what_launch_files_scripts_and_benchmarks_import_is_there() -> None:
+    """Most of them run rarely: a name that moved would be noticed by a user."""
+    root = PACKAGE.parent
+    gone = []
+    for folder in ("launch", "scripts", "bench", "examples"):
+        for path in sorted((root / folder).rglob("*.py")):
+            for node in ast.walk(ast.parse(path.read_text())):
+                if not isinstance(node, ast.ImportFrom) or not (node.module or "").startswith(
+                    PACKAGE.name
+                ):
+                    continue
+                module = importlib.import_module(node.module or "")
+                for alias in node.names:
+                    name = f"{node.module}.{alias.name}"
+                    if not hasattr(module, alias.name) and importlib.util.find_spec(name) is None:
+                        gone.append(f"{path.relative_to(root)}: {name}")
+    assert gone == []
