@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 DIST = Path(__file__).parents[2] / "web" / "dist"
-# gzip, bytes
-WITHOUT_3D, WITH_3D = 100_000, 340_000
+# gzip, bytes, with what the lab says in German: half of it is the table of codes
+WITHOUT_3D, WITH_3D = 110_000, 350_000
 PAGES = (
     "src/pages/upload/page.tsx",
     "src/pages/trajectories/page.tsx",

@@ -118,7 +118,7 @@ def test_a_wall_with_folders_lets_only_these_open(given, listener):
         "read": (given / "read" / "file").read_text,
         "write": lambda: (given / "write" / "made").write_text("x"),
         "replace": lambda: os.replace(given / "write" / "made", given / "write" / "file"),
-        "import": lambda: __import__("turtledemo"),
+        "import": lambda: __import__("tabnanny"),
         "run a thread": lambda: threading.Thread(target=int).start(),
     }
     told = outcomes(work, opens=True, **walls)
