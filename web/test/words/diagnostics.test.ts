@@ -5,7 +5,6 @@ import { parse, placeholders } from '../../src/words/phrase'
 import { type LanguageFile, languageName, languages, setLanguage } from '../../src/words/words'
 import codes from './codes.json'
 
-/** Whether every language has every code; true from the day on which German has them all. */
 interface Declared {
   readonly text: string
   readonly remedy: string
