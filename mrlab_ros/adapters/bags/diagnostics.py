@@ -66,7 +66,7 @@ BAD_MESSAGE = Code(
 # bags that cannot be read
 NO_BAG = Code(
     "no_bag",
-    "There is no bag {path}[; did you mean '{close}'?].",
+    "There is no bag {path}.[ Did you mean '{close}'?]",
     "Name the folder of a bag or an MCAP file.",
 )
 BAG_GONE = Code(

@@ -10,7 +10,7 @@ ENDED = "[ (exit code {exit:integer})][ (signal {signal:integer}[, {meaning}])][
 
 MISSING = Code(
     "missing",
-    "There is no file '{file}'[; did you mean '{close}'?].",
+    "There is no file '{file}'.[ Did you mean '{close}'?]",
     "Check the folder and the name; the file ends in .mat.",
     meaning="There is no such file.",
     fixes=(("", "", "dir('*.mat')"),),

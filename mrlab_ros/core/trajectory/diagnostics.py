@@ -84,7 +84,7 @@ NO_SUCH_FRAME = Code(
 )
 NO_EXPORT_FORMAT = Code(
     "no_export_format",
-    "'{format}' is no format that is written[; did you mean {close}?].",
+    "'{format}' is no format that is written.[ Did you mean {close}?]",
     "Choose one of {known:list}.",
 )
 # which robot plays it
@@ -107,7 +107,7 @@ OF_ANOTHER_END_EFFECTOR = Code(
 # the catalogue
 NO_TRAJECTORY_OF_NAME = Code(
     "no_trajectory_of_name",
-    "There is no trajectory '{id}'[; did you mean {close}?].",
+    "There is no trajectory '{id}'.[ Did you mean {close}?]",
     "Convert a file[ or take one of these: {known:list}].",
 )
 NO_SUCH_VERSION = Code(

@@ -23,6 +23,7 @@ export function dotted(parts: readonly ComponentChildren[]): ComponentChildren[]
 
 /** A report: its head, what it shows, its foot. */
 export function Page({ chip, title, facts, notes, foot, children }: PageProps) {
+  document.title = title
   return (
     <>
       <Hatch />

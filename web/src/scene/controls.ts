@@ -1,4 +1,4 @@
-import { fixed } from '../words/words'
+import { fixed, number } from '../words/words'
 import './scene.css'
 import { BACKWARD_RATES, type Player, RATES } from '../playback/player'
 import type { SceneWords } from './words'
@@ -84,7 +84,7 @@ export class Controls {
     for (const rate of player.kind === 'bag' ? RATES : [...RATES, ...BACKWARD_RATES]) {
       const option = document.createElement('option')
       option.value = String(rate)
-      option.textContent = `${String(rate).replace('-', '\u2212')}×`
+      option.textContent = `${number(rate).replace('-', '\u2212')}×`
       this.speed.append(option)
     }
     this.speed.addEventListener('change', () => player.setRate(Number(this.speed.value)))

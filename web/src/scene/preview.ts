@@ -1,7 +1,7 @@
 import { courseOf } from '../playback/course'
 import type { MotionDocument } from '../playback/motion'
 import { MotionPlayer } from '../playback/player'
-import type { Diagnostic } from '../words/diagnostic'
+import { type Diagnostic, say as worded } from '../words/diagnostic'
 import { Controls } from './controls'
 import { MeshLibrary, type MeshSource } from './meshes'
 import { PreviewScene } from './preview_scene'
@@ -126,9 +126,11 @@ export function createMotionPreview(
       motion.findings
         .filter(({ first_row }) => first_row > 0)
         .slice(0, MOST_MARKS)
-        .map(({ first_row, severity, message }) => {
-          return { time: course.timeOfRow(first_row), severity, words: message }
-        }),
+        .map((finding) => ({
+          time: course.timeOfRow(finding.first_row),
+          severity: finding.severity,
+          words: worded(finding).message,
+        })),
     )
     element.append(controls.element)
   }

@@ -3447,7 +3447,7 @@ export const diagnostics: Templates = {
   ],
   transpose_applied: ["Wie gewünscht wurde '{variable}' transponiert."],
   transposed: [
-    "'{variable}' ist {size}: Ihre Messpunkte sind Spalten, {robot} braucht eine Zeile je Messpunkt.[ Zeile {time_row:integer} ist Zeit.]",
+    "'{variable}' ist {size}: die Messpunkte sind Spalten, {robot} braucht eine Zeile je Messpunkt.[ Zeile {time_row:integer} ist Zeit.]",
     'Transponiere sie.',
   ],
   true_or_false: ['true oder false'],

@@ -1,7 +1,7 @@
 import { useEffect, useState } from 'preact/hooks'
 import { Button } from '../../design/button'
 import { showToast } from '../../design/toast'
-import { words } from '../../words/words'
+import { fixed, words } from '../../words/words'
 import type { LabFollower } from './follow'
 
 const EVERY_MS = 1000
@@ -74,9 +74,9 @@ export function KeyTable({ follower }: { follower: LabFollower }) {
               </td>
               <td class="second small">{type.replace('/msg/', '/')}</td>
               <td class="lab-number">
-                {Number.isNaN(rate) ? '' : rate.toFixed(rate < 10 ? 1 : 0)}
+                {Number.isNaN(rate) ? '' : fixed(rate, rate < 10 ? 1 : 0)}
               </td>
-              <td class="lab-number">{Number.isNaN(age) ? '' : `${age.toFixed(1)} s`}</td>
+              <td class="lab-number">{Number.isNaN(age) ? '' : `${fixed(age, 1)} s`}</td>
               <td>
                 <Button look="quiet" icon="copy" label={w.copyLine} onClick={() => copy(key)} />
               </td>

@@ -11,7 +11,7 @@ import type { StateName } from '../../design/tokens'
 import type { Link } from '../../link/link'
 import { courseOf } from '../../playback/course'
 import { trajectoryCatalogueType } from '../../protocol/mrlab_msgs'
-import { words } from '../../words/words'
+import { fixed, words } from '../../words/words'
 import { checkSignIn, session, useApi } from '../shell/session'
 import { AddRobot } from './add_robot'
 import { LabCatalogue } from './catalogue'
@@ -109,7 +109,7 @@ export function Lab({ link }: { link: Link }) {
       ? `${w.phases[phase]}${reason ? `: ${reason}` : ''}`
       : Number.isNaN(roundTrip)
         ? w.connected
-        : w.roundTrip((roundTrip * 1000).toFixed(roundTrip < 0.01 ? 1 : 0))
+        : w.roundTrip(fixed(roundTrip * 1000, roundTrip < 0.01 ? 1 : 0))
   return (
     <LabProvider value={lab}>
       <div class={`lab${projected.value ? ' lab-projected' : ''}`}>
