@@ -6,21 +6,24 @@ import sys
 import xml.etree.ElementTree as ElementTree
 
 import pytest
+from own_domain import own_domain
 
 from mrlab_ros.ros import fast_dds
 
-# Prints the addresses on which a participant of domain 118 listens; others only send.
+# Prints the addresses on which a participant listens: sockets in the ports of its domain.
+# Ports of the tests' domains are below those that the kernel draws for sockets that only send.
 LISTENS = """
 import os, rclpy, socket
 from mrlab_ros.ros import fast_dds
 fast_dds.prepare()
 rclpy.init()
 node = rclpy.create_node("listening")
+first = 7400 + 250 * int(os.environ["ROS_DOMAIN_ID"])
 for number in os.listdir("/proc/self/fd"):
     try:
         with socket.socket(fileno=os.dup(int(number))) as found:
             address, port = found.getsockname()[:2]
-            if 7400 + 118 * 250 <= port < 7400 + 119 * 250:
+            if first <= port < first + 250:
                 print(address)
     except (OSError, ValueError, TypeError):
         pass
@@ -88,15 +91,16 @@ def test_the_profiles_of_both_graphs_differ_in_their_interfaces_alone() -> None:
 
 def test_a_graph_that_stays_here_listens_on_the_loopback_interface_alone() -> None:
     """ROS's range alone leaves sockets on all interfaces, which answer a foreign static peer."""
-    environment = {**os.environ, fast_dds.RANGE: "LOCALHOST", "ROS_DOMAIN_ID": "118"}
-    environment.pop("ROS_STATIC_PEERS", None)
-    done = subprocess.run(
-        [sys.executable, "-c", LISTENS],
-        env=environment,
-        capture_output=True,
-        text=True,
-        check=True,
-    )
+    with own_domain() as domain:
+        environment = {**os.environ, fast_dds.RANGE: "LOCALHOST", "ROS_DOMAIN_ID": str(domain)}
+        environment.pop("ROS_STATIC_PEERS", None)
+        done = subprocess.run(
+            [sys.executable, "-c", LISTENS],
+            env=environment,
+            capture_output=True,
+            text=True,
+            check=True,
+        )
     assert set(done.stdout.split()) == {"127.0.0.1"}
 
 
