@@ -55,7 +55,7 @@ gallery:
 
 docs:
 	@python3 scripts/bootstrap.py --dev
-	@$(ENV) python scripts/generate_docs.py
+	@$(ENV) python scripts/docs/generate.py
 
 site:
 	@python3 scripts/bootstrap.py --dev

@@ -1,6 +1,6 @@
 """Colours of pictures and terminals, the same as on the pages.
 
-Generated from config/design.json by scripts/generate_docs.py.
+Generated from config/design.json by `make docs`.
 """
 
 STATES = {

@@ -13,7 +13,7 @@ from page_blocks import DATA, GENERATED, MARK, PAGES, ROOT, blocks
 
 def test_generated_blocks_are_up_to_date():
     done = subprocess.run(
-        [sys.executable, "scripts/generate_docs.py", "--check"],
+        [sys.executable, "scripts/docs/generate.py", "--check"],
         cwd=ROOT,
         capture_output=True,
         text=True,

@@ -1,4 +1,4 @@
-// Generated from config/design.json by scripts/generate_docs.py.
+// Generated from config/design.json by `make docs`.
 export type ThemeName = 'light' | 'dark'
 
 export const STATE_NAMES = [

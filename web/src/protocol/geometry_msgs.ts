@@ -1,4 +1,4 @@
-// Generated from the message definitions by scripts/generate_docs.py.
+// Generated from the message definitions by `make docs`.
 
 import type { MessageType } from '../link/link'
 import { type CdrReader, type CdrWriter, messageType } from './cdr'

@@ -15,7 +15,7 @@ interface Vectors {
   }[]
 }
 
-// scripts/playback_vectors.py writes them from the Python code.
+// scripts/protocol/playback_vectors.py writes them from the Python code.
 const vectors: Vectors = JSON.parse(
   readFileSync(new URL('vectors.json', import.meta.url), 'utf-8'),
 )

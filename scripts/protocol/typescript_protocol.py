@@ -13,7 +13,7 @@ from rosbags.interfaces import Nodetype
 
 from mrlab_ros.gateway.lab.definitions import EMPTY, Definitions, texts_of
 
-NOTE = "// Generated from the message definitions by scripts/generate_docs.py.\n"
+NOTE = "// Generated from the message definitions by `make docs`.\n"
 CONFIG = "config/bridge.yaml"
 FOLDER = "web/src/protocol"
 SCALARS = {

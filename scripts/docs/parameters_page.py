@@ -16,7 +16,7 @@ from mrlab_ros.ros.parameters import to_ros
 
 HEAD = """# Parameters
 
-<!-- made by scripts/generate_docs.py from the records in the code; `make docs` renews it -->
+<!-- made by `make docs` from the records in the code -->
 
 Every parameter of the lab's nodes and every figure of its configuration files: what it means,
 what it may be and what it is where nobody sets it.

@@ -10,6 +10,8 @@ from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
+sys.path.append(str(Path(__file__).resolve().parents[1] / "protocol"))
+
 import design_tokens
 import diagnostics_page
 import licences_page
@@ -27,7 +29,7 @@ from mrlab_ros.core.recording import states as recording
 from mrlab_ros.core.state_machine import Table
 from mrlab_ros.core.systems import states as systems
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 
 
 # The state machines of the lab: page, name of its blocks, table.

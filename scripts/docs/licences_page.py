@@ -94,7 +94,7 @@ def python_packages(root: Path, lock: str, before: dict[str, str]) -> Iterator[t
         if licence is None:
             raise SystemExit(
                 f"{name} of {lock} is not installed here, or says no licence; read its licence "
-                "file and add it to READ in scripts/licences_page.py"
+                "file and add it to READ in scripts/docs/licences_page.py"
             )
         yield name, licence
 
@@ -115,7 +115,7 @@ def table(packages: Iterable[tuple[str, str]]) -> str:
         if not allowed(licence):
             raise SystemExit(
                 f"{name} is under {licence}, which is not in ALLOWED of "
-                "scripts/licences_page.py; take another package, or add it with a reason"
+                "scripts/docs/licences_page.py; take another package, or add it with a reason"
             )
         by_licence[licence].add(name)
     rows = (f"| {each} | {', '.join(sorted(by_licence[each]))} |" for each in sorted(by_licence))
@@ -143,12 +143,12 @@ def current(root: Path) -> str:
     ros = [each for each in lab if each[0].startswith("ros-")]
     return f"""# Licences
 
-<!-- Written by scripts/generate_docs.py. -->
+<!-- Written by `make docs`. -->
 
 MR-Lab is under the [Apache License 2.0](../LICENSE). Below is the licence of every package that
 the lock files name, those that others bring along included, as its metadata states it (`AND`: all
 hold, `OR`: take one; `BSD`: it does not say which). A licence that is not in `ALLOWED` of
-`scripts/licences_page.py`, such as the GPL, fails the tests. Libraries that a wheel carries
+`scripts/docs/licences_page.py`, such as the GPL, fails the tests. Libraries that a wheel carries
 inside, such as GEOS (LGPL-2.1) in `shapely`, are named in the wheel alone.
 [dependencies.md](dependencies.md) says what each package is for.
 

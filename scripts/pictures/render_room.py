@@ -17,10 +17,10 @@ from pathlib import Path
 from PIL import Image
 from playwright.sync_api import sync_playwright
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "test"))
 
-from room_pictures.emulated_room import EmulatedRoom  # noqa: E402
+from emulated_room import EmulatedRoom  # noqa: E402
 from served_lab import ServedLab, served_lab  # noqa: E402
 
 MOTION = ROOT / "examples" / "pick_and_place_ur5e.mat"

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Take the pictures of docs/pages.md: every page of a lab, phone and desktop, both themes.
 
-python scripts/screenshots.py             all
-python scripts/screenshots.py upload lab  these pages
+python scripts/pictures/screenshots.py             all
+python scripts/pictures/screenshots.py upload lab  these pages
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from pathlib import Path
 from PIL import Image
 from playwright.sync_api import Browser, Page, expect, sync_playwright
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "test")]
 
 import student_files  # noqa: E402

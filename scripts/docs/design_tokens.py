@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 CONFIG = "config/design.json"
-NOTE = f"Generated from {CONFIG} by scripts/generate_docs.py."
+NOTE = f"Generated from {CONFIG} by `make docs`."
 THEMES = ("light", "dark")
 # The nearest of a terminal's own colours to a state's.
 STYLES = {

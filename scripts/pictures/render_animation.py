@@ -18,7 +18,7 @@ from typer.testing import CliRunner
 
 from mrlab_ros.cli import make_app
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 MOTION = ROOT / "examples" / "pick_and_place_ur5e.mat"
 TARGET = ROOT / "docs" / "images" / "motion.webp"
 SIZE = (760, 430)  # CSS pixels, and pixels of the file
