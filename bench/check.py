@@ -18,10 +18,10 @@ from mrlab_ros.adapters.checking.stage import Stage, first_link
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.rubrics import files
 from mrlab_ros.commands.convert import batch
+from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.checking import motion
 from mrlab_ros.core.checking.rehearsal import Actor
 from mrlab_ros.core.conversion.options import Options
-from mrlab_ros.core.geometry import Pose
 from mrlab_ros.core.scene.document import ObjectEntry, SceneDocument
 from mrlab_ros.ros import share
 

@@ -6,7 +6,7 @@ so a module that did not change has the same mutants. Survivors are printed as w
 and what would stand there: a boundary that means the same, or a test that is missing.
 
     python bench/mutants.py                                    the modules below
-    python bench/mutants.py --module mrlab_ros.core.clock --count 0      every mutant of one
+    python bench/mutants.py --module mrlab_ros.core.base.clock --count 0      every mutant of one
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ SEED = 7
 PATIENCE_S = 60
 # The tests that are asked, by module; those of its room.
 MODULES = {
-    "mrlab_ros.core.clock": ("core/test_clock.py",),
+    "mrlab_ros.core.base.clock": ("core/test_clock.py",),
     "mrlab_ros.core.playback.playback": ("core/playback",),
     "mrlab_ros.core.playback.stream": ("core/playback",),
     "mrlab_ros.core.playback.goal": ("core/playback",),

@@ -24,8 +24,8 @@ import report
 from mrlab_ros.adapters.bullet.engine import BulletEngine
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.yaml_files import read_yaml
-from mrlab_ros.core.clock import SECOND, PlaybackClock
-from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.base.clock import SECOND, PlaybackClock
+from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics.engine import BodyState
 from mrlab_ros.core.physics.grasp import Gripper

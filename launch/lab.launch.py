@@ -30,9 +30,9 @@ from mrlab_ros.adapters.launcher import LAUNCHER
 from mrlab_ros.commands.up.keys import free_endpoint
 from mrlab_ros.commands.up.surroundings import graph_range
 from mrlab_ros.commands.up.web import checked_web, prepare_keys
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.names import close_to
 from mrlab_ros.core.bridge.links import check_endpoints
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.naming import close_to
 from mrlab_ros.processes import physics_support
 from mrlab_ros.processes.child import WRONG_CONFIGURATION
 from mrlab_ros.processes.lab import (

@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from mrlab_ros.client.robot import JointSample as JointSample
     from mrlab_ros.client.robot import LabRobot as LabRobot
     from mrlab_ros.client.robot import Run as Run
+    from mrlab_ros.core.base.errors import LabError as LabError
     from mrlab_ros.core.conversion.options import Options as Options
-    from mrlab_ros.core.errors import LabError as LabError
 
     __version__: str
 else:

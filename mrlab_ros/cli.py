@@ -24,7 +24,7 @@ from mrlab_ros.adapters.python_process import keep_to_installed_modules
 from mrlab_ros.commands import completion
 from mrlab_ros.commands.output import say_error, say_problem
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.errors import LabError
+from mrlab_ros.core.base.errors import LabError
 
 EPILOG = """
 **First steps**

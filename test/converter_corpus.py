@@ -16,7 +16,7 @@ import numpy as np
 import scipy.io
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.core.geometry import pose_from_transform
+from mrlab_ros.core.base.geometry import pose_from_transform
 from mrlab_ros.core.robots.model import RobotModel
 
 ROOT = Path(__file__).parents[1]

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mrlab_ros.core.geometry import Pose, Vector
+from mrlab_ros.core.base.geometry import Pose, Vector
 from mrlab_ros.core.physics.engine import (
     Arm,
     Body,

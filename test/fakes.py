@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.base.geometry import Array
 from mrlab_ros.core.robots.model import Joint, RobotModel
 from mrlab_ros.core.trajectory.trajectory import Channels, Source, Trajectory
 

@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.checking.motion import CheckedRobot, figures_of
 from mrlab_ros.core.checking.recording import Course, GraspChange, Rehearsed
 from mrlab_ros.core.checking.report import CheckReport
-from mrlab_ros.core.geometry import Pose
 from mrlab_ros.core.physics.catalogue import ObjectType
 from mrlab_ros.core.physics.engine import Body
 from mrlab_ros.core.physics.grasp import Grasp

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
-from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.physics.engine import Body, Part, Shape
 from mrlab_ros.core.physics.grasp_load import PAD_FRICTION
 

@@ -9,9 +9,9 @@ from pathlib import Path
 from mrlab_ros.adapters.bullet.engine import BulletEngine
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.yaml_files import read_yaml
+from mrlab_ros.core.base.clock import SECOND, PlaybackClock
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.clock import SECOND, PlaybackClock
-from mrlab_ros.core.geometry import Pose, quaternion_from_rpy
+from mrlab_ros.core.base.geometry import Pose, quaternion_from_rpy
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics.events import CollisionChanged, GraspChanged, LoadChanged
 from mrlab_ros.core.physics.grasp import Grasp, Gripper

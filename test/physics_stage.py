@@ -11,7 +11,7 @@ from mrlab_ros.adapters.bullet.engine import BulletEngine
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.scenes.files import SceneFiles
 from mrlab_ros.adapters.yaml_files import read_yaml
-from mrlab_ros.core.clock import SECOND, PlaybackClock
+from mrlab_ros.core.base.clock import SECOND, PlaybackClock
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics.events import CollisionChanged, GraspChanged
 from mrlab_ros.core.physics.grasp import Grasp, Gripper

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from mrlab_ros.core.base.diagnostic import Code, Diagnostic, plain
-from mrlab_ros.core.errors import LabError
+from mrlab_ros.core.base.errors import LabError
 
 
 @contextmanager

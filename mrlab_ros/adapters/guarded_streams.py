@@ -7,7 +7,7 @@ import sys
 from collections.abc import Iterable
 from typing import Any, TextIO
 
-from mrlab_ros.core.foreign_text import visible_lines
+from mrlab_ros.core.base.foreign_text import visible_lines
 
 
 class GuardedStream:

@@ -15,7 +15,7 @@ from mrlab_ros.adapters.diagnostics import (
     COMPRESSED_DAMAGED,
     INFLATES_TOO_MUCH,
 )
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 
 GZIP, ZSTD = b"\x1f\x8b", b"\x28\xb5\x2f\xfd"
 # A KiB of Zstandard can hold 32 MiB; that much may come beyond a limit before it is noticed.

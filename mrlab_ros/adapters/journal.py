@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from mrlab_ros.adapters.set_aside import set_aside
-from mrlab_ros.core import journal
+from mrlab_ros.core.runtime import journal
 
 SUFFIX = ".journal"
 OPENED = os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_CLOEXEC | os.O_NOFOLLOW

@@ -6,8 +6,8 @@ import os
 from pathlib import Path
 
 from mrlab_ros.adapters.diagnostics import FILE_MISSING, NOT_A_FILE
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.naming import close_to
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.names import close_to
 
 
 def close_file(path: Path) -> str | None:

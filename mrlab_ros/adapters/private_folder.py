@@ -14,7 +14,7 @@ from mrlab_ros.adapters.diagnostics import (
     OTHERS_WRITE,
 )
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 
 MODE = 0o700
 

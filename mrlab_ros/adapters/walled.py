@@ -22,7 +22,7 @@ from typing import Any
 from mrlab_ros.adapters import python_process, wall
 from mrlab_ros.adapters.diagnostics import READER_FAILED, READER_MEMORY, READER_SLOW
 from mrlab_ros.core.base.diagnostic import from_plain, plain
-from mrlab_ros.core.errors import BadInput, LabError
+from mrlab_ros.core.base.errors import BadInput, LabError
 
 MiB = 1 << 20
 MOST_ANSWERED = 64 * MiB  # bytes

@@ -17,8 +17,8 @@ from mrlab_ros.adapters.diagnostics import (
     YAML_MAPPING,
 )
 from mrlab_ros.adapters.nearby import check_file
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.records import bad_value
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.records import bad_value
 
 _Safe: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 

@@ -10,7 +10,7 @@ import zenoh
 from mrlab_ros.adapters.zenoh.configuration import first_line
 from mrlab_ros.adapters.zenoh.diagnostics import NO_LAB_AT, NOTHING_ANSWERS
 from mrlab_ros.core.base.diagnostic import of_text
-from mrlab_ros.core.errors import LabError, Unavailable
+from mrlab_ros.core.base.errors import LabError, Unavailable
 
 # A bridge that stands still does not answer a handshake either, ms.
 OPEN_TIMEOUT_MS = 700

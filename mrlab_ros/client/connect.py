@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import time
 
+from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.bridge.links import local_endpoint
-from mrlab_ros.core.errors import LabError
 from mrlab_ros.processes.run_file import RunFile, domains, nobody
 from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.domain import domain_id

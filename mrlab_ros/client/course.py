@@ -9,7 +9,7 @@ from mrlab_msgs import msg
 
 from mrlab_ros.client import diagnostics as say
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, heard
-from mrlab_ros.core.errors import LabError, Misuse
+from mrlab_ros.core.base.errors import LabError, Misuse
 from mrlab_ros.core.playback.diagnostics import HALTED_BY_CONTACT
 
 

@@ -10,7 +10,7 @@ from typing import Any
 from mrlab_msgs import msg
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
-from mrlab_ros.core.clock import SECOND
+from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.states import unknown_state
 from mrlab_ros.messages.time import time_from_message

@@ -18,8 +18,8 @@ from mrlab_ros.client.diagnostics import BAD_BASE_PLACE, NO_SINGLE_BAG
 from mrlab_ros.client.motion import Motion, motion_of
 from mrlab_ros.client.robot import LabRobot, standing, surviving
 from mrlab_ros.core.base.diagnostic import heard
+from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.conversion.options import Options
-from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.ros.graph import GraphClient
 
 if TYPE_CHECKING:

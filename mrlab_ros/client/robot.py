@@ -18,7 +18,7 @@ from mrlab_ros.client.follow import Follower
 from mrlab_ros.client.motion import Motion
 from mrlab_ros.core.base.diagnostic import heard
 from mrlab_ros.core.base.diagnostics import ILLEGAL_EVENT
-from mrlab_ros.core.errors import LabError, Misuse
+from mrlab_ros.core.base.errors import LabError, Misuse
 from mrlab_ros.core.playback.diagnostics import OF_ROBOT
 from mrlab_ros.core.playback.states import State
 from mrlab_ros.messages import qos
@@ -279,7 +279,7 @@ def _id(motion: Motion | str) -> str:
 def standing(x: float, y: float, yaw: float, z: float = 0.0) -> Any:
     """Return the pose message of a base that stands upright; m, rad."""
     # They load numpy, which commands of a robot that place nothing do not need.
-    from mrlab_ros.core.geometry import Pose
+    from mrlab_ros.core.base.geometry import Pose
     from mrlab_ros.messages.poses import pose_to_message
 
     return pose_to_message(Pose((x, y, z), (0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2))))

@@ -18,7 +18,7 @@ from mrlab_ros.commands import output
 from mrlab_ros.commands.diagnostics import EXTRACTED
 from mrlab_ros.commands.output import AsJson, say
 from mrlab_ros.core.base.diagnostic import plain
-from mrlab_ros.core.foreign_text import visible
+from mrlab_ros.core.base.foreign_text import visible
 
 if TYPE_CHECKING:
     from mrlab_ros.adapters.bags.courses import Reference

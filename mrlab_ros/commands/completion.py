@@ -7,7 +7,7 @@ import os
 from pathlib import Path
 from typing import Any
 
-from mrlab_ros.core.errors import LabError
+from mrlab_ros.core.base.errors import LabError
 
 # Is set by the scripts of the shells; the name is Typer's.
 ASKED = "_MRLAB_COMPLETE"

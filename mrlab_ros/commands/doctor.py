@@ -22,7 +22,7 @@ import typer
 
 from mrlab_ros import __version__
 from mrlab_ros.core.base.diagnostic import plain
-from mrlab_ros.core.doctor import (
+from mrlab_ros.core.runtime.doctor import (
     GROUP,
     NEEDED,
     OPTIONAL,
@@ -163,7 +163,7 @@ def _expiry(certificate: Path) -> Certificate:
 
     from mrlab_ros.commands.diagnostics import NO_PEM
     from mrlab_ros.core.base.diagnostic import of_text
-    from mrlab_ros.core.errors import BadInput
+    from mrlab_ros.core.base.errors import BadInput
 
     try:
         read = x509.load_pem_x509_certificate(certificate.read_bytes())

@@ -15,7 +15,7 @@ from mrlab_ros.adapters.nearby import close_file
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.commands import behind_wall
 from mrlab_ros.core.base.diagnostic import from_plain, plain
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.messages.definitions import definition
 from mrlab_ros.ros import share
 

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, plain
-from mrlab_ros.core.foreign_text import visible, visible_lines
+from mrlab_ros.core.base.foreign_text import visible, visible_lines
 
 if TYPE_CHECKING:
     from rich.console import Console

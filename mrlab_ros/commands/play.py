@@ -13,8 +13,8 @@ from mrlab_ros.commands import completion, output
 from mrlab_ros.commands.convert.options import FIELDS, with_options, words_of
 from mrlab_ros.commands.diagnostics import ONLY_FOR_A_FILE
 from mrlab_ros.commands.output import say
+from mrlab_ros.core.base.errors import Misuse
 from mrlab_ros.core.conversion.options import Options
-from mrlab_ros.core.errors import Misuse
 
 if TYPE_CHECKING:
     from rich.console import Console

@@ -28,8 +28,8 @@ from mrlab_ros.commands.diagnostics import (
 )
 from mrlab_ros.commands.output import say
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, heard
-from mrlab_ros.core.errors import LabError, Misuse
-from mrlab_ros.core.foreign_text import for_shell
+from mrlab_ros.core.base.errors import LabError, Misuse
+from mrlab_ros.core.base.foreign_text import for_shell
 from mrlab_ros.core.recording.diagnostics import ENDING, NO_RECORDING
 from mrlab_ros.core.recording.states import RecorderState
 

@@ -9,9 +9,9 @@ from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.commands.convert.batch import convert_file
 from mrlab_ros.commands.diagnostics import REFERENCE_REFUSED
 from mrlab_ros.core.base.diagnostic import Fix
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.foreign_text import for_shell
 from mrlab_ros.core.conversion.options import Options
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.foreign_text import for_shell
 from mrlab_ros.core.recording.report import ReferenceTrajectory
 from mrlab_ros.ros import share
 

@@ -12,8 +12,8 @@ from mrlab_ros.commands import completion, output
 from mrlab_ros.commands.convert.options import with_options
 from mrlab_ros.commands.diagnostics import BAD_AT, YAW_WITHOUT_PLACE
 from mrlab_ros.commands.output import AsJson, say
+from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.conversion.options import Options
-from mrlab_ros.core.errors import BadInput, Misuse
 
 if TYPE_CHECKING:
     from mrlab_ros.client.lab import Lab

@@ -26,8 +26,8 @@ from mrlab_ros.commands.diagnostics import (
 )
 from mrlab_ros.commands.output import AsJson, say
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, Severity, plain
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.foreign_text import for_shell
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.foreign_text import for_shell
 from mrlab_ros.ros import share
 
 if TYPE_CHECKING:

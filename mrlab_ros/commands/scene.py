@@ -13,7 +13,7 @@ from mrlab_ros.commands import output
 from mrlab_ros.commands.diagnostics import BAD_PLACE, NO_PHYSICS_HERE
 from mrlab_ros.commands.output import AsJson, say
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
-from mrlab_ros.core.errors import BadInput, Misuse
+from mrlab_ros.core.base.errors import BadInput, Misuse
 
 if TYPE_CHECKING:
     from mrlab_ros.ros.graph import GraphClient
@@ -131,7 +131,7 @@ def spawn(
     from mrlab_msgs import srv
 
     from mrlab_ros.core.base.diagnostic import heard
-    from mrlab_ros.core.geometry import Pose
+    from mrlab_ros.core.base.geometry import Pose
     from mrlab_ros.messages.poses import pose_to_message
 
     position = _place(at) if at else (0.0, 0.0, 0.0)

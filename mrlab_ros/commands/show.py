@@ -15,8 +15,8 @@ from mrlab_ros.commands import completion
 from mrlab_ros.commands.convert.options import with_options
 from mrlab_ros.commands.diagnostics import BAG_OF_REPORT_GONE, PAGE_NAME, REPORT_WITHOUT_BAG
 from mrlab_ros.commands.output import AsJson
+from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.conversion.options import Options
-from mrlab_ros.core.errors import BadInput, Misuse
 
 if TYPE_CHECKING:
     from mrlab_ros.core.conversion.convert import ConversionResult

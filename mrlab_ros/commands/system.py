@@ -13,8 +13,8 @@ from mrlab_ros.commands import completion, output
 from mrlab_ros.commands.diagnostics import DISSOLVED_IN_PLAY, NO_MODE, SYSTEM_STANDS
 from mrlab_ros.commands.output import AsJson, say
 from mrlab_ros.core.base.diagnostic import Fix, heard
-from mrlab_ros.core.errors import BadInput, Misuse
-from mrlab_ros.core.naming import checked_name, close_to
+from mrlab_ros.core.base.errors import BadInput, Misuse
+from mrlab_ros.core.base.names import checked_name, close_to
 from mrlab_ros.core.playback.diagnostics import MEMBER_OF_SYSTEM, PLAYED_TO_END
 from mrlab_ros.core.systems.diagnostics import NO_SYSTEM
 

@@ -18,8 +18,8 @@ from mrlab_ros.commands.diagnostics import NO_USERS_HERE
 from mrlab_ros.commands.output import say
 from mrlab_ros.commands.up.web import qr_lines
 from mrlab_ros.core.base.diagnostic import Fix
+from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.bridge.rules import Role
-from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.gateway.people.diagnostics import ONE_LOCAL_USER, WITH_KEYS
 
 if TYPE_CHECKING:

@@ -18,7 +18,7 @@ from mrlab_ros.adapters.guarded_streams import guard
 from mrlab_ros.adapters.launcher import end_with_launcher
 from mrlab_ros.adapters.python_process import keep_to_installed_modules
 from mrlab_ros.core.base.diagnostic import Fix
-from mrlab_ros.core.errors import BadInput, LabError, Unavailable
+from mrlab_ros.core.base.errors import BadInput, LabError, Unavailable
 from mrlab_ros.gateway.diagnostics import HTTPS_UNUSABLE, PORT_TAKEN
 from mrlab_ros.gateway.settings import PORT, Settings, parsed_address
 

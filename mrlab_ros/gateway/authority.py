@@ -8,7 +8,7 @@ from cryptography.hazmat.primitives.serialization import Encoding
 from fastapi import APIRouter, Request, Response
 
 from mrlab_ros.adapters.keys import certificates
-from mrlab_ros.core.foreign_text import for_html
+from mrlab_ros.core.base.foreign_text import for_html
 from mrlab_ros.gateway.diagnostics import NO_AUTHORITY
 from mrlab_ros.gateway.errors import NotFound
 from mrlab_ros.gateway.settings import Settings

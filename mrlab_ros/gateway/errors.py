@@ -16,7 +16,7 @@ from starlette.exceptions import HTTPException
 from mrlab_ros.adapters.store.port import Missing, StoreFailure
 from mrlab_ros.adapters.trajectories.catalogue import NoTrajectory
 from mrlab_ros.core.base.diagnostic import Diagnostic, plain
-from mrlab_ros.core.errors import BadInput, LabError, Misuse, Unavailable
+from mrlab_ros.core.base.errors import BadInput, LabError, Misuse, Unavailable
 from mrlab_ros.gateway.diagnostics import (
     BAD_REQUEST,
     GATEWAY_FAULT,

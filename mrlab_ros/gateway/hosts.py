@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from urllib.parse import urlsplit
 
 from mrlab_ros.adapters.keys import certificates
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.gateway.diagnostics import BAD_PUBLIC_URL
 from mrlab_ros.gateway.settings import Settings, is_loopback
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from mrlab_ros.adapters.keys import private_files
 from mrlab_ros.core.base.diagnostic import Fix
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.gateway.diagnostics import (
     BAD_ADDRESS,
     CERTIFICATE_WITHOUT_KEY,

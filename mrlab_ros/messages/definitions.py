@@ -11,7 +11,7 @@ from ament_index_python.packages import PackageNotFoundError, get_package_share_
 from rosidl_parser.definition import AbstractNestedType, NamespacedType
 
 from mrlab_ros.core.base.diagnostics import TYPE_WITHOUT_TEXT
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.messages.qos import message_class
 
 SEPARATOR = "=" * 80

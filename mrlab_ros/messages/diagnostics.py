@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, Severity, to_texts
-from mrlab_ros.core.watch import Sign, silence
+from mrlab_ros.core.runtime.watch import Sign, silence
 from mrlab_ros.messages.time import make_header
 
 # What the names of the lab's processes begin with on /diagnostics.

@@ -17,8 +17,8 @@ import numpy as np
 from geometry_msgs.msg import Quaternion, Transform, TransformStamped, Vector3
 from tf2_msgs.msg import TFMessage
 
-from mrlab_ros.core.clock import SECOND
-from mrlab_ros.core.geometry import Array, Pose
+from mrlab_ros.core.base.clock import SECOND
+from mrlab_ros.core.base.geometry import Array, Pose
 from mrlab_ros.messages import cdr
 from mrlab_ros.messages.cdr import BODY, COUNT, ENCAPSULATION
 from mrlab_ros.messages.time import make_header

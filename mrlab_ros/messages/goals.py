@@ -9,8 +9,8 @@ from builtin_interfaces.msg import Duration
 from control_msgs.action import FollowJointTrajectory
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
-from mrlab_ros.core.clock import SECOND
-from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.base.clock import SECOND
+from mrlab_ros.core.base.geometry import Array
 from mrlab_ros.core.playback.goal import Goal, Point
 from mrlab_ros.core.playback.pursuit import Bounds, Instant, Outcome
 from mrlab_ros.messages.time import make_header, time_from_message

@@ -22,6 +22,7 @@ import struct
 from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import JointState
 
+from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.base.diagnostic import of_text
 from mrlab_ros.core.base.diagnostics import (
     JOINT_STATE_CUT,
@@ -29,9 +30,8 @@ from mrlab_ros.core.base.diagnostics import (
     JOINT_STATE_WITHOUT,
     NO_JOINT_STATE,
 )
-from mrlab_ros.core.clock import SECOND
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.geometry import Array
 from mrlab_ros.messages import cdr
 from mrlab_ros.messages.cdr import BODY, COUNT, DOUBLE_SIZE, ENCAPSULATION, STAMP
 

@@ -12,9 +12,9 @@ from sensor_msgs.msg import JointState
 from shape_msgs.msg import SolidPrimitive
 from std_msgs.msg import ColorRGBA
 
-from mrlab_ros.core.clock import PlaybackClock
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.geometry import Pose, Vector, checked_vector
+from mrlab_ros.core.base.clock import PlaybackClock
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.geometry import Pose, Vector, checked_vector
 from mrlab_ros.core.physics.catalogue import ObjectType
 from mrlab_ros.core.physics.diagnostics import SURFACE_HALF_TRIANGLE, SURFACE_WITHOUT_NAME
 from mrlab_ros.core.physics.engine import BodyState, Kind, Shape

@@ -6,8 +6,8 @@ from collections.abc import Callable
 
 from mrlab_msgs import msg
 
-from mrlab_ros.core.clock import PlaybackClock
-from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.base.clock import PlaybackClock
+from mrlab_ros.core.base.geometry import Array
 from mrlab_ros.core.playback.playback import PlaybackStatus
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.messages.poses import transform_to_pose_message

@@ -5,7 +5,7 @@ from __future__ import annotations
 from geometry_msgs.msg import Point, Quaternion
 from geometry_msgs.msg import Pose as PoseMessage
 
-from mrlab_ros.core.geometry import Array, Pose, pose_from_transform
+from mrlab_ros.core.base.geometry import Array, Pose, pose_from_transform
 
 
 def pose_from_message(message: PoseMessage) -> Pose:

@@ -7,7 +7,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from mrlab_ros.core.base.diagnostics import TYPE_NOT_INSTALLED
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.recording.metadata import QosProfile, Topic
 
 # State: the newest value, also for who comes late (a latched topic).

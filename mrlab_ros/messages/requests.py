@@ -6,7 +6,7 @@ from numbers import Integral, Real
 from typing import Any
 
 from mrlab_ros.core.base.diagnostics import BAD_REQUEST_FIELD
-from mrlab_ros.core.errors import Misuse
+from mrlab_ros.core.base.errors import Misuse
 
 REALS = {"double", "float"}
 INTEGERS = {f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)}

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 
 from mrlab_msgs import msg, srv
 
-from mrlab_ros.core.clock import PlaybackClock
+from mrlab_ros.core.base.clock import PlaybackClock
 from mrlab_ros.core.playback.states import State
 from mrlab_ros.core.scene.document import MemberEntry, ObjectEntry, RobotEntry, SystemEntry
 from mrlab_ros.core.scene.robots import PlacedRobot

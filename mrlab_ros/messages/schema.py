@@ -9,7 +9,7 @@ from typing import Any
 
 from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
 
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.messages.definitions import text_of, types_in
 from mrlab_ros.messages.qos import message_class
 

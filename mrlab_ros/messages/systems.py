@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from mrlab_msgs import msg
 
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.playback.playback import Playback
 from mrlab_ros.core.playback.states import State
 from mrlab_ros.core.systems.diagnostics import BAD_COMMAND

@@ -17,8 +17,8 @@ from functools import lru_cache
 
 from mrlab_msgs import msg
 
-from mrlab_ros.core.clock import SECOND
-from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.base.clock import SECOND
+from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.playback.stream import Sample
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.messages import cdr

@@ -5,7 +5,7 @@ from __future__ import annotations
 from builtin_interfaces.msg import Time
 from std_msgs.msg import Header
 
-from mrlab_ros.core.clock import SECOND
+from mrlab_ros.core.base.clock import SECOND
 
 
 def time_to_message(ns: int) -> Time:

@@ -12,7 +12,7 @@ from rclpy.node import Node
 
 from mrlab_ros.adapters.trajectories import npz_file
 from mrlab_ros.core.base.diagnostic import heard
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.trajectory.diagnostics import REPLACED_MEANWHILE
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.messages import qos, trajectories

@@ -36,9 +36,9 @@ from mrlab_ros.adapters.workspaces.reader import (
     opened,
 )
 from mrlab_ros.adapters.workspaces.results import Converted, Task, refused
-from mrlab_ros.core.errors import BadInput, LabError
-from mrlab_ros.core.foreign_text import visible
-from mrlab_ros.core.naming import close_to
+from mrlab_ros.core.base.errors import BadInput, LabError
+from mrlab_ros.core.base.foreign_text import visible
+from mrlab_ros.core.base.names import close_to
 from mrlab_ros.core.trajectory.diagnostics import UPLOAD_OF_ANOTHER
 from mrlab_ros.core.trajectory.names import checked_id
 from mrlab_ros.core.trajectory.record import head_of

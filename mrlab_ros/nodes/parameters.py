@@ -6,11 +6,8 @@ import re
 from dataclasses import dataclass
 from typing import Any
 
-from mrlab_ros.core.bridge.rules import FULL_NAME, PREFIX
-from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE, MOST_ROWS
-from mrlab_ros.core.naming import NAME
-from mrlab_ros.core.recording.topics import LAB_TOPICS
-from mrlab_ros.core.records import (
+from mrlab_ros.core.base.names import NAME
+from mrlab_ros.core.base.records import (
     FLAG,
     TEXT,
     Choice,
@@ -22,6 +19,9 @@ from mrlab_ros.core.records import (
     between,
     field,
 )
+from mrlab_ros.core.bridge.rules import FULL_NAME, PREFIX
+from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE, MOST_ROWS
+from mrlab_ros.core.recording.topics import LAB_TOPICS
 
 RATE = Number(above(0, 100), "Hz")
 SIZE = Integer(between(1, 1_048_576), "MiB")

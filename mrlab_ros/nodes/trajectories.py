@@ -19,7 +19,7 @@ from mrlab_ros.adapters.trajectories.catalogue_writer import DAY_S, CatalogueWri
 from mrlab_ros.adapters.trajectories.files import TrajectoryFiles
 from mrlab_ros.adapters.trajectories.npz_file import Damaged
 from mrlab_ros.adapters.trajectories.plain_folder import import_folder
-from mrlab_ros.core.errors import BadInput, LabError
+from mrlab_ros.core.base.errors import BadInput, LabError
 from mrlab_ros.core.trajectory.diagnostics import (
     DAMAGED_VERSION,
     DRAFT_OF_ANOTHER,

@@ -19,7 +19,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 from typing import IO
 
-from mrlab_ros.core.repeated_lines import RepeatedLines
+from mrlab_ros.core.runtime.bucket import RepeatedLines
 
 FIRST_DELAY_S = 0.1
 LONGEST_DELAY_S = 10.0

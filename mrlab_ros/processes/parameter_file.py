@@ -6,10 +6,10 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from mrlab_ros.adapters.yaml_files import RosLoader, read_yaml
-from mrlab_ros.core import records
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.naming import PARAMETERS_OF_RCLPY, close_to
-from mrlab_ros.core.records import Field, Record
+from mrlab_ros.core.base import records
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.names import PARAMETERS_OF_RCLPY, close_to
+from mrlab_ros.core.base.records import Field, Record
 from mrlab_ros.nodes.parameters import NODES
 from mrlab_ros.processes.diagnostics import NO_NODE
 

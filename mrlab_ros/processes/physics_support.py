@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from mrlab_ros.adapters.bullet.support import missing
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.processes.diagnostics import NO_PHYSICS, RUNS_WITHOUT_PHYSICS
 
 

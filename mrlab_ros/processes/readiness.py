@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.identity import Identity, Neighbours
+from mrlab_ros.core.runtime.identity import Identity, Neighbours
 from mrlab_ros.processes.lab import NodeEntry
 
 if TYPE_CHECKING:

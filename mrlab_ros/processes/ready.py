@@ -25,7 +25,7 @@ def main() -> None:
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     began = time.monotonic()
     lab, robots, names, services = sys.argv[1], int(sys.argv[2]), sys.argv[3], sys.argv[4:]
-    from mrlab_ros.core.identity import Identity
+    from mrlab_ros.core.runtime.identity import Identity
     from mrlab_ros.processes.lab import NODES
     from mrlab_ros.processes.readiness import Readiness
     from mrlab_ros.ros.graph_node import Graph

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 
-from mrlab_ros.core import records
+from mrlab_ros.core.base import records
 from mrlab_ros.nodes.parameters import NODES as PARAMETERS
 from mrlab_ros.processes.lab import NODES
 

@@ -12,7 +12,7 @@ from rclpy.context import Context
 from rclpy.node import Node
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.watch import PERIOD_S, Sign, Watch
+from mrlab_ros.core.runtime.watch import PERIOD_S, Sign, Watch
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.diagnostics import living_in, signs_to_message
 from mrlab_ros.processes.child import LAST_EXIT, RESTARTS

@@ -13,7 +13,7 @@ from rclpy.node import Node
 from rclpy.service import Service
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.errors import LabError
+from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.texts import tell
 from mrlab_ros.ros import freezes

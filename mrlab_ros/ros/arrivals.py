@@ -16,7 +16,7 @@ from typing import Any
 
 from rclpy.subscription import Subscription
 
-from mrlab_ros.core.errors import Unavailable
+from mrlab_ros.core.base.errors import Unavailable
 from mrlab_ros.ros.diagnostics import NO_ARRIVALS
 
 # Gets a message's CDR and when it was published, ns since 1970.

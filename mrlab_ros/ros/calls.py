@@ -7,7 +7,7 @@ import time
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from mrlab_ros.core.errors import Unreached
+from mrlab_ros.core.base.errors import Unreached
 from mrlab_ros.ros.diagnostics import NO_ANSWER_IN_TIME, NOT_OFFERED, SERVICE_ENDED
 
 if TYPE_CHECKING:

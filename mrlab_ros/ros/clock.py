@@ -10,7 +10,7 @@ from typing import cast
 from rclpy.clock import ROSClock
 from rclpy.node import Node
 
-from mrlab_ros.core.lab_time import LabTime
+from mrlab_ros.core.base.clock import LabTime
 
 # Two clocks are read at one instant where that takes no longer, ns: otherwise the thread was
 # interrupted in between.

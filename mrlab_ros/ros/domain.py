@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 
-from mrlab_ros.core.errors import Misuse
+from mrlab_ros.core.base.errors import Misuse
 from mrlab_ros.ros.diagnostics import BAD_DOMAIN
 
 

@@ -8,9 +8,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
+from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.clock import SECOND
-from mrlab_ros.core.freezes import Freezes
+from mrlab_ros.core.runtime.freezes import Freezes
 
 # Every thread that spins a node says that the process runs.
 PROCESS = Freezes("lab", time.process_time)

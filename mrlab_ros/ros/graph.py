@@ -14,8 +14,8 @@ from rclpy.qos import QoSProfile
 
 from mrlab_ros.core.base.diagnostic import Fix, heard
 from mrlab_ros.core.base.diagnostics import NO_ROBOT_IN_SCENE
-from mrlab_ros.core.errors import Misuse
-from mrlab_ros.core.naming import close_to
+from mrlab_ros.core.base.errors import Misuse
+from mrlab_ros.core.base.names import close_to
 from mrlab_ros.messages import qos
 from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.diagnostics import NO_LAB_ANSWERS, NOT_AS_AWAITED, NOTHING_CAME

@@ -22,10 +22,10 @@ from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from mrlab_ros.core import records
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.naming import PARAMETERS_OF_RCLPY
-from mrlab_ros.core.records import Field, Range
+from mrlab_ros.core.base import records
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.names import PARAMETERS_OF_RCLPY
+from mrlab_ros.core.base.records import Field, Range
 from mrlab_ros.ros.diagnostics import PARAMETER_FIXED, PARAMETERS_REFUSED
 
 P = TypeVar("P")

@@ -23,7 +23,7 @@ from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.task import Future
 
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.ros import fast_dds, freezes
 from mrlab_ros.ros.diagnostics import BAD_ROS_ARGUMENTS
 from mrlab_ros.ros.type_supports import skip_generator

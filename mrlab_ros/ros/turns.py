@@ -12,7 +12,7 @@ from rclpy.node import Node
 from rclpy.service import Service
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.errors import Misuse
+from mrlab_ros.core.base.errors import Misuse
 from mrlab_ros.ros.answers import answered, create_deferred_service, end_service
 from mrlab_ros.ros.diagnostics import WAITED_TOO_LONG
 from mrlab_ros.ros.moves import moves

@@ -23,10 +23,10 @@ import roles_page
 import rubrics_page
 import typescript_protocol
 
+from mrlab_ros.core.base.state_machine import Table
 from mrlab_ros.core.physics import grasp
 from mrlab_ros.core.playback import states as playback
 from mrlab_ros.core.recording import states as recording
-from mrlab_ros.core.state_machine import Table
 from mrlab_ros.core.systems import states as systems
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -54,7 +54,7 @@ FILES: dict[str, Callable[[], str]] = {
     licences_page.PAGE: lambda: licences_page.current(ROOT),
     "docs/parameters.md": parameters_page.current,
     "docs/protocol.md": lambda: protocol_page.current(ROOT),
-    "mrlab_ros/core/design.py": lambda: design_tokens.python(ROOT),
+    "mrlab_ros/core/runtime/colours.py": lambda: design_tokens.python(ROOT),
     "web/src/design/tokens.css": lambda: design_tokens.css(ROOT),
     "web/src/design/tokens.ts": lambda: design_tokens.typescript(ROOT),
     "web/test/playback/vectors.json": playback_vectors.current,

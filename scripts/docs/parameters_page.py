@@ -6,7 +6,7 @@ from dataclasses import MISSING
 from enum import Enum
 from typing import Any
 
-from mrlab_ros.core import records
+from mrlab_ros.core.base import records
 from mrlab_ros.core.bridge.rules import ServiceRule, TopicRule
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.trajectory.channels import ProxyCoefficients

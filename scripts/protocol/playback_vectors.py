@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from mrlab_ros.core.clock import SECOND, PlaybackClock
+from mrlab_ros.core.base.clock import SECOND, PlaybackClock
 from mrlab_ros.core.trajectory.channels import Channels
 from mrlab_ros.core.trajectory.trajectory import Source, Trajectory
 

@@ -32,7 +32,7 @@ from solids import Array, Solid
 from urdf_writer import LinkFiles, urdf
 
 from mrlab_ros.adapters.robots.hulls import samples
-from mrlab_ros.core.geometry import inverse_transform, transform_from_xyz_rpy
+from mrlab_ros.core.base.geometry import inverse_transform, transform_from_xyz_rpy
 
 ROBOTS = Path(__file__).resolve().parents[2] / "robots"
 TRIANGLES = 14_700  # a model

@@ -17,7 +17,7 @@ import trimesh
 import yaml
 from urdf_writer import LinkFiles, urdf
 
-from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.base.geometry import Array
 
 ROBOTS = Path(__file__).resolve().parents[2] / "robots"
 ARM = ("base_link", *(f"link_{n}" for n in range(1, 7)))

@@ -33,7 +33,7 @@ from relief import clamped, grooved, lined, screwed
 from scipy.spatial.transform import Rotation
 from solids import Array
 
-from mrlab_ros.core.geometry import inverse_transform, transform_from_xyz_rpy
+from mrlab_ros.core.base.geometry import inverse_transform, transform_from_xyz_rpy
 
 ROBOTS = Path(__file__).resolve().parents[2] / "robots"
 LARGE = 1.4  # m of reach, from which a robot is a large one

@@ -21,7 +21,7 @@ from pieces import Piece, piece_of, rows_of
 from scipy.spatial.transform import Rotation
 from solids import Array
 
-from mrlab_ros.core.geometry import transform_from_xyz_rpy
+from mrlab_ros.core.base.geometry import transform_from_xyz_rpy
 
 GRID = 7  # rays across a marking, each way, that find its plane
 TURNED = 0.35  # cosine; faces turned further away carry no marking

@@ -20,7 +20,7 @@ from PIL import Image, ImageDraw
 from scipy.spatial import cKDTree
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.base.geometry import Array
 
 ROOT = Path(__file__).resolve().parents[2]
 VIEWS = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1], [0.75, -1, 0.4]])

@@ -21,7 +21,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 from solids import Array, Solid
 
-from mrlab_ros.core.geometry import transform_from_xyz_rpy
+from mrlab_ros.core.base.geometry import transform_from_xyz_rpy
 
 TABLES = Path(__file__).parent / "sections"
 SAMPLES = 2e6  # of the box of a casting

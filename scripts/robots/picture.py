@@ -10,7 +10,7 @@ from ray_tracer import Camera, Surface, draw
 
 from mrlab_ros.adapters.robots import drawing
 from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.base.geometry import Array
 
 # Seen from the front right, a little from above.
 VIEW = np.array([0.85, -1.0, 0.34])

@@ -12,7 +12,7 @@ from picture import surfaces
 from ray_tracer import Camera, Surface, draw
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.core.geometry import Array, transform_from_xyz_rpy
+from mrlab_ros.core.base.geometry import Array, transform_from_xyz_rpy
 
 ROOT = Path(__file__).resolve().parents[2]
 FRAME = 430

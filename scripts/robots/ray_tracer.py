@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from PIL import Image
 from scipy.ndimage import gaussian_filter
 
-from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.base.geometry import Array
 
 FLOOR_COLOUR = (0.80, 0.81, 0.82)
 SKY_COLOUR = (0.93, 0.945, 0.96)

@@ -21,7 +21,7 @@ from mrlab_ros.adapters.robots.assembly import Assembly
 from mrlab_ros.adapters.robots.library import END_EFFECTORS, RobotLibrary
 from mrlab_ros.adapters.scenes.object_meshes import ObjectMeshes
 from mrlab_ros.adapters.yaml_files import read_yaml
-from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.base.geometry import Array
 from mrlab_ros.core.physics import catalogue, drawing
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -14,8 +14,8 @@ from playwright.sync_api import Browser, expect
 from mrlab_ros.adapters.pages import ingredients
 from mrlab_ros.adapters.pages.motion import motion_page
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.core.base.clock import PlaybackClock
 from mrlab_ros.core.base.diagnostic import Diagnostic, Severity
-from mrlab_ros.core.clock import PlaybackClock
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome
 from mrlab_ros.core.conversion.preview import Preview
 from mrlab_ros.core.recording.report import Contact, ReportedState, SessionReport

@@ -23,8 +23,8 @@ from schemathesis.specs.openapi.checks import (
     status_code_conformance,
 )
 
+from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.bridge.rules import Role
-from mrlab_ros.core.errors import LabError
 from mrlab_ros.gateway.app import ROUTERS
 from mrlab_ros.gateway.errors import RESPONSES
 

@@ -28,8 +28,8 @@ from mrlab_ros.cli import make_app
 from mrlab_ros.commands import output
 from mrlab_ros.commands.convert import report
 from mrlab_ros.commands.convert.batch import Wanted, convert_files
+from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.conversion.options import Options
-from mrlab_ros.core.errors import LabError
 from mrlab_ros.ros import share
 
 FILES = 240

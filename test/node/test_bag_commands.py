@@ -37,11 +37,11 @@ from mrlab_ros.commands.foreign import import_of
 from mrlab_ros.commands.replay import Keyboard, next_rate
 from mrlab_ros.commands.status.facts import recorder_facts
 from mrlab_ros.commands.status.table import recorder_line
-from mrlab_ros.core.design import STATES
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.physics.diagnostics import SLIPS
 from mrlab_ros.core.recording.diagnostics import NO_SUCH_JOINTS
 from mrlab_ros.core.recording.metadata import QosProfile, Topic
+from mrlab_ros.core.runtime.colours import STATES
 from mrlab_ros.messages.definitions import definition
 from mrlab_ros.messages.texts import told
 from mrlab_ros.messages.time import make_header

@@ -31,9 +31,9 @@ from zenoh_side import (
 
 from mrlab_ros.adapters.zenoh.diagnostics import BAD_ZENOH_FILE, ENDPOINT_TAKEN
 from mrlab_ros.core.base.diagnostics import BAD_VALUE
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.diagnostics import ALLOW_LIST_NOT_READ, OPEN_ENDPOINT
 from mrlab_ros.core.bridge.rules import Congestion
-from mrlab_ros.core.errors import BadInput
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes.bridge.node import BridgeNode
 

@@ -26,7 +26,7 @@ from sensor_msgs.msg import JointState
 from small_lab import LIBRARY, labels, listen_state, spawn
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
-from mrlab_ros.core.freezes import Freezes
+from mrlab_ros.core.runtime.freezes import Freezes
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes.playback import commanders
 from mrlab_ros.ros import freezes

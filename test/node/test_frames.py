@@ -18,7 +18,7 @@ from std_msgs.msg import Header, String
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker, MarkerArray
 
-from mrlab_ros.core.clock import SECOND
+from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.time import time_from_message
 from mrlab_ros.nodes.frames.node import FramesNode

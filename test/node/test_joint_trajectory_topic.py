@@ -19,7 +19,7 @@ from mrlab_ros.commands.convert.diagnostics import (
     OTHER_TYPE,
 )
 from mrlab_ros.commands.convert.topic import receive
-from mrlab_ros.core.errors import BadInput, LabError, Misuse
+from mrlab_ros.core.base.errors import BadInput, LabError, Misuse
 from mrlab_ros.messages import qos
 
 BEST_EFFORT = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)

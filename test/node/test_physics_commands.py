@@ -11,7 +11,7 @@ from graph import Graph, wait_for
 from typer.testing import CliRunner
 
 from mrlab_ros import cli
-from mrlab_ros.core.errors import LabError
+from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.nodes.lab.node import LabNode
 from mrlab_ros.nodes.physics.node import PhysicsNode
 from mrlab_ros.ros import graph_node

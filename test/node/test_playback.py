@@ -19,8 +19,8 @@ from small_lab import LIBRARY, TRAJECTORIES, labels, listen_state, load, spawn
 
 from mrlab_ros.adapters.robots.diagnostics import NO_END_EFFECTOR, NO_ROBOT_MODEL
 from mrlab_ros.core.base.diagnostics import BAD_NAME, ILLEGAL_EVENT, RESERVED_NAME
-from mrlab_ros.core.errors import LabError
-from mrlab_ros.core.freezes import Freezes
+from mrlab_ros.core.base.errors import LabError
+from mrlab_ros.core.runtime.freezes import Freezes
 from mrlab_ros.core.scene.diagnostics import NO_LEVEL_SURFACE
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.joint_states import JointStateEncoder

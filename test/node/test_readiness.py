@@ -9,8 +9,8 @@ from graph import Graph, wait_for
 from mrlab_msgs import msg
 from small_lab import Catalogue, spawn
 
-from mrlab_ros.core.identity import Identity
 from mrlab_ros.core.runtime.diagnostics import OTHER_LAB, SHARED_SERVICE
+from mrlab_ros.core.runtime.identity import Identity
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes.coordinator.node import CoordinatorNode
 from mrlab_ros.nodes.lab.node import LabNode

@@ -25,10 +25,10 @@ from sensor_msgs.msg import JointState
 from zenoh import ext
 
 from mrlab_ros.adapters.keys.folder import Keys, now
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge import access
 from mrlab_ros.core.bridge.access import Login
 from mrlab_ros.core.bridge.rules import Role
-from mrlab_ros.core.errors import BadInput
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes.bridge.node import BridgeNode
 

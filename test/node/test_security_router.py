@@ -19,9 +19,9 @@ from zenoh_side import JOINTS, tokens
 
 from mrlab_ros.adapters.keys.folder import Keys, now
 from mrlab_ros.adapters.zenoh.configuration import limits
+from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.bridge.access import Login
 from mrlab_ros.core.bridge.rules import Role, parse
-from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes.bridge.node import BridgeNode
 from mrlab_ros.ros import share

@@ -22,7 +22,7 @@ from mrlab_ros.adapters.store.diagnostics import (
 from mrlab_ros.adapters.store.memory import MemoryStore
 from mrlab_ros.adapters.store.objects import open_store
 from mrlab_ros.adapters.store.port import Missing, StoreFailure
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 
 NAMES = ["users/=C3=A4/x.mat", "trajectories/records/=lab/wave.json", "a"]
 

@@ -13,7 +13,7 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 from small_lab import listen_state, make_system, spawn
 
-from mrlab_ros.core.clock import SECOND
+from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.time import time_from_message, time_to_message
 

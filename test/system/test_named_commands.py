@@ -26,7 +26,7 @@ from typer.testing import CliRunner
 
 from mrlab_ros import Lab
 from mrlab_ros.cli import make_app
-from mrlab_ros.core.errors import LabError
+from mrlab_ros.core.base.errors import LabError
 
 RATE = 100.0
 JOINTS = ("shoulder_pan", "shoulder_lift", "elbow", "wrist_1", "wrist_2", "wrist_3")

@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 
 from mrlab_ros.adapters.diagnostics import NOTHING_TO_SHOW
 from mrlab_ros.cli import make_app
-from mrlab_ros.core.errors import BadInput, Misuse
+from mrlab_ros.core.base.errors import BadInput, Misuse
 
 ROOT = Path(__file__).parents[2]
 QUINTIC = ROOT / "examples" / "quintic_ur5e.mat"

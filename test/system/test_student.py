@@ -22,7 +22,7 @@ from mrlab_ros.cli import make_app
 from mrlab_ros.client.lab import FileRefused
 from mrlab_ros.client.link import LinkGraph
 from mrlab_ros.commands.output import with_fixes
-from mrlab_ros.core.errors import LabError, Misuse
+from mrlab_ros.core.base.errors import LabError, Misuse
 
 RATE = 100.0
 

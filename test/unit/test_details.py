@@ -28,7 +28,7 @@ from pieces import Piece  # noqa: E402
 from relief import grooved, lined, outline, places, screwed  # noqa: E402
 
 from mrlab_ros.adapters.robots.hulls import samples  # noqa: E402
-from mrlab_ros.core.geometry import transform_from_xyz_rpy  # noqa: E402
+from mrlab_ros.core.base.geometry import transform_from_xyz_rpy  # noqa: E402
 
 TABLES = sorted((ROOT / "scripts/robots/details").glob("*.yaml"))
 FOLDERS = sorted(path.parent for path in (ROOT / "robots").glob("*/robot.yaml"))

@@ -9,8 +9,8 @@ from mrlab_ros.adapters.assets.diagnostics import MODEL_LEFT_OUT
 from mrlab_ros.adapters.assets.files import PACKAGE, THUMBNAIL, AssetFiles
 from mrlab_ros.adapters.robots import urdf
 from mrlab_ros.adapters.robots.library import END_EFFECTORS, TIP, RobotLibrary
+from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.bridge.assets import asset_key, key_of_uri
-from mrlab_ros.core.errors import LabError
 from mrlab_ros.core.physics.catalogue import Catalogue, ObjectType
 from mrlab_ros.core.robots.model import Joint
 

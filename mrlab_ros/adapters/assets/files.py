@@ -11,8 +11,8 @@ from typing import BinaryIO
 
 from mrlab_ros.adapters.diagnostics import FILE_UNREADABLE
 from mrlab_ros.adapters.robots.library import END_EFFECTORS, RobotLibrary
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.assets import Described, Span, media_type
-from mrlab_ros.core.errors import BadInput
 
 PACKAGE = "mrlab_ros"
 THUMBNAIL = "thumbnail.webp"

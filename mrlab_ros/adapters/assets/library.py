@@ -15,6 +15,7 @@ from mrlab_ros.adapters.assets.files import PACKAGE, AssetFiles, Piece
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.scenes.object_meshes import ObjectMeshes
 from mrlab_ros.adapters.yaml_files import read_yaml
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.assets import (
     JSON,
     OBJECTS_DOCUMENT,
@@ -24,7 +25,6 @@ from mrlab_ros.core.bridge.assets import (
     Span,
     asset_key,
 )
-from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.physics import catalogue, drawing
 from mrlab_ros.core.physics.catalogue import Catalogue
 from mrlab_ros.core.physics.settings import Settings

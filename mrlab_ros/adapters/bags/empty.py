@@ -7,7 +7,7 @@ from pathlib import Path
 from mrlab_ros.adapters.bags.mcap_file import open_file
 from mrlab_ros.adapters.bags.reader import METADATA, mcap_files_in
 from mrlab_ros.adapters.bags.writer import RESERVE, TAIL, is_being_written
-from mrlab_ros.core.errors import LabError
+from mrlab_ros.core.base.errors import LabError
 
 
 def remove_empty(folder: Path) -> bool:

@@ -6,7 +6,7 @@ from pathlib import Path, PurePosixPath
 
 from mrlab_ros.adapters.bags.diagnostics import BAD_ATTACHMENT_NAME, NOT_A_NEW_FOLDER
 from mrlab_ros.adapters.bags.reader import Bag
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 
 LONGEST_PART = 255  # bytes of a name in a folder
 

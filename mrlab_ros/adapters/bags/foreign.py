@@ -36,9 +36,9 @@ from mrlab_ros.adapters.bags.other import (
 from mrlab_ros.adapters.bags.writer import BagWriter
 from mrlab_ros.adapters.robots import urdf
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
-from mrlab_ros.core.clock import SECOND
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.recording.diagnostics import LEFT_OUT, NOTHING_TO_REPLAY
 from mrlab_ros.core.recording.joint_mapping import chosen_models, columns_of
 from mrlab_ros.core.recording.metadata import QosProfile, Topic

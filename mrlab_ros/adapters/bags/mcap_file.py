@@ -33,7 +33,7 @@ from mrlab_ros.adapters.bags.diagnostics import (
 )
 from mrlab_ros.adapters.inflate import is_compressed
 from mrlab_ros.core.base.diagnostic import ERROR, Diagnostic
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.recording.diagnostics import importing, repairing
 
 RECORD = struct.Struct("<BQ")

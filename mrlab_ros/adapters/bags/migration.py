@@ -15,7 +15,7 @@ from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from rosbags.typesys.store import Typestore
 
 from mrlab_ros.adapters.bags.diagnostics import FIELD_CHANGED
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 
 # Types of ROS that numpy calls otherwise.
 DTYPES = {"octet": "uint8", "byte": "uint8", "char": "uint8"}

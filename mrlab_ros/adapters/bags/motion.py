@@ -12,8 +12,8 @@ from typing import Any
 from mrlab_ros.adapters.bags.diagnostics import BAD_MESH_ADDRESS
 from mrlab_ros.adapters.bags.reader import Bag
 from mrlab_ros.adapters.bags.session import Decoder
-from mrlab_ros.core.clock import SECOND
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.clock import SECOND
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.recording.stamps import time_of
 from mrlab_ros.core.robots.frames import without_frames
 from mrlab_ros.core.show.session import RecordedMotion, RecordedObject, RecordedRobot

@@ -29,10 +29,10 @@ from mrlab_ros.adapters.bags.mcap_file import Message
 from mrlab_ros.adapters.bags.reader import METADATA, Bag, mcap_files_in, number_of
 from mrlab_ros.adapters.inflate import ZSTD, Incomplete, inflate_file, inflate_zstd, is_compressed
 from mrlab_ros.adapters.yaml_files import Loader
+from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
-from mrlab_ros.core.clock import SECOND
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.foreign_text import for_shell
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.foreign_text import for_shell
 from mrlab_ros.core.recording.metadata import (
     ROOT,
     BagFacts,

@@ -6,10 +6,10 @@ from pathlib import Path
 from typing import Any
 
 from mrlab_ros.adapters.plotting import Figure, FigureCanvasAgg, Line2D, Patch
-from mrlab_ros.core.design import COLOURS, JOINTS, STATES
-from mrlab_ros.core.foreign_text import visible
+from mrlab_ros.core.base.foreign_text import visible
 from mrlab_ros.core.recording.report import HOLDING, RobotReport, Series, SessionReport, Span
 from mrlab_ros.core.recording.report_text import hop_text
+from mrlab_ros.core.runtime.colours import COLOURS, JOINTS, STATES
 
 HELD = JOINTS[6]
 WIDTH, ROW_HEIGHT, PANEL_HEIGHT, MARGIN = 11.0, 0.42, 1.7, 1.3

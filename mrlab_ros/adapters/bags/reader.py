@@ -28,7 +28,7 @@ from mrlab_ros.adapters.bags.writer import is_being_written
 from mrlab_ros.adapters.nearby import close_file
 from mrlab_ros.adapters.yaml_files import Loader
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.recording.diagnostics import importing, repairing
 from mrlab_ros.core.recording.metadata import (
     GAP,

@@ -27,10 +27,10 @@ from mrlab_ros.adapters.bags.diagnostics import (
 )
 from mrlab_ros.adapters.bags.mcap_file import Message
 from mrlab_ros.adapters.bags.reader import Bag
+from mrlab_ros.core.base.clock import SECOND, PlaybackClock
 from mrlab_ros.core.base.diagnostic import INFO, WARNING, Diagnostic, Severity
-from mrlab_ros.core.clock import SECOND, PlaybackClock
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.recording.diagnostics import ENDING, importing
 from mrlab_ros.core.recording.moves import ObjectTrack, Placed, Target, Targets
 from mrlab_ros.core.recording.report import (

@@ -26,7 +26,7 @@ from mrlab_ros.adapters.bags.diagnostics import (
     BAG_MOVED,
     BAG_NOT_WRITTEN,
 )
-from mrlab_ros.core.errors import BadInput, LabError
+from mrlab_ros.core.base.errors import BadInput, LabError
 from mrlab_ros.core.recording.metadata import (
     ROOT,
     BagFacts,

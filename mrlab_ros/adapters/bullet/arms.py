@@ -22,8 +22,8 @@ from mrlab_ros.adapters.bullet.diagnostics import NO_LINK, NOT_IN_WORLD
 from mrlab_ros.adapters.bullet.fingers import Fingers
 from mrlab_ros.adapters.bullet.loaded_arm import LoadedArm
 from mrlab_ros.adapters.bullet.shapes import NEUTRAL, STATIC_GROUP
-from mrlab_ros.core.errors import BadInput, Misuse
-from mrlab_ros.core.geometry import Pose, Vector, add, cross, subtract
+from mrlab_ros.core.base.errors import BadInput, Misuse
+from mrlab_ros.core.base.geometry import Pose, Vector, add, cross, subtract
 from mrlab_ros.core.physics.diagnostics import (
     ALREADY_IN_WORLD,
     JOINT_STATE_BEYOND,

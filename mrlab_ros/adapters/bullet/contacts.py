@@ -10,7 +10,7 @@ from mrlab_ros.adapters.bullet.arms import Arms
 from mrlab_ros.adapters.bullet.fingers import Fingers
 from mrlab_ros.adapters.bullet.holding import Holding
 from mrlab_ros.adapters.bullet.objects import Objects
-from mrlab_ros.core.geometry import Vector, add, cross, dot, scale, subtract
+from mrlab_ros.core.base.geometry import Vector, add, cross, dot, scale, subtract
 from mrlab_ros.core.physics.engine import Kind, Near, Touch
 
 # Cosine between two contacts of an object from which on it is squeezed between them: 60 degrees.

@@ -12,8 +12,8 @@ from pathlib import Path
 from mrlab_ros.adapters.bullet.diagnostics import NO_COLLISION_MESH, NO_MOVING_JOINT
 from mrlab_ros.adapters.robots import urdf
 from mrlab_ros.adapters.robots.diagnostics import ROOT_LINKS
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.geometry import Vector
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.geometry import Vector
 from mrlab_ros.core.physics.engine import Arm, Finger
 
 PRESCRIBED_MASS = 1e6  # kg, and kg*m^2, of every link that joint states prescribe

@@ -19,8 +19,8 @@ from mrlab_ros.adapters.bullet.fingers import Fingers
 from mrlab_ros.adapters.bullet.holding import Holding
 from mrlab_ros.adapters.bullet.objects import Objects
 from mrlab_ros.adapters.bullet.shapes import STATIC_GROUP, make_body, make_shape
-from mrlab_ros.core.errors import BadInput, Misuse
-from mrlab_ros.core.geometry import Pose, Vector, compose
+from mrlab_ros.core.base.errors import BadInput, Misuse
+from mrlab_ros.core.base.geometry import Pose, Vector, compose
 from mrlab_ros.core.physics.diagnostics import ALREADY_IN_WORLD
 from mrlab_ros.core.physics.engine import (
     IDENTITY,

@@ -12,8 +12,17 @@ import pybullet
 from mrlab_ros.adapters.bullet.description import Description
 from mrlab_ros.adapters.bullet.diagnostics import BAD_FINGERS, FINGER_BEYOND
 from mrlab_ros.adapters.bullet.loaded_arm import LoadedArm, Way
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.geometry import Quaternion, Vector, add, cross, dot, rotate, scale, subtract
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.geometry import (
+    Quaternion,
+    Vector,
+    add,
+    cross,
+    dot,
+    rotate,
+    scale,
+    subtract,
+)
 from mrlab_ros.core.physics.engine import FingerState
 
 FAR = 1.0  # m, over which fingers are looked for

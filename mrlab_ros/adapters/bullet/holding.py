@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from mrlab_ros.adapters.bullet.arms import Arms
 from mrlab_ros.adapters.bullet.objects import Objects
-from mrlab_ros.core.geometry import Pose, Vector, add, compose, cross, relative, subtract
+from mrlab_ros.core.base.geometry import Pose, Vector, add, compose, cross, relative, subtract
 from mrlab_ros.core.physics.engine import BodyState
 
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from mrlab_ros.adapters.bullet.description import Coupling
-from mrlab_ros.core.geometry import Vector
+from mrlab_ros.core.base.geometry import Vector
 from mrlab_ros.core.physics.engine import Arm, LinkPairs
 
 

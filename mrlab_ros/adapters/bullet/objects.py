@@ -13,8 +13,8 @@ import pybullet
 
 from mrlab_ros.adapters.bullet.diagnostics import NO_SPEED, NOT_IN_WORLD
 from mrlab_ros.adapters.bullet.shapes import STATIC_GROUP, least, make_body, make_shape
-from mrlab_ros.core.errors import BadInput, Misuse
-from mrlab_ros.core.geometry import Pose, Vector, dot, scale, subtract
+from mrlab_ros.core.base.errors import BadInput, Misuse
+from mrlab_ros.core.base.geometry import Pose, Vector, dot, scale, subtract
 from mrlab_ros.core.physics.diagnostics import ALREADY_IN_WORLD
 from mrlab_ros.core.physics.engine import Body, BodyState
 

@@ -16,8 +16,8 @@ from mrlab_ros.adapters.bullet.diagnostics import (
     MESH_NO_VERTEX,
     NO_SHAPE,
 )
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.geometry import Array, Pose
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.geometry import Array, Pose
 from mrlab_ros.core.physics.engine import Body, Part, Shape
 
 # Bullet multiplies the coefficients of both bodies, so 1 leaves it to the object.

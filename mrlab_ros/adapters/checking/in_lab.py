@@ -32,11 +32,11 @@ from mrlab_ros.adapters.guarded_streams import guard
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.trajectories import npz_file
 from mrlab_ros.core.base.diagnostic import plain
+from mrlab_ros.core.base.errors import BadInput, LabError
 from mrlab_ros.core.checking import motion
 from mrlab_ros.core.checking.lab_scene import LabScene
 from mrlab_ros.core.checking.rehearsal import Actor
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome
-from mrlab_ros.core.errors import BadInput, LabError
 
 GiB = 1 << 30
 MEMORY = 4 * GiB  # of the address space, bytes

@@ -16,13 +16,13 @@ from mrlab_ros.adapters.bullet import support
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.scenes.object_meshes import ObjectMeshes
 from mrlab_ros.adapters.yaml_files import read_yaml
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.geometry import Pose, compose
 from mrlab_ros.core.checking.joints import StatedLimits
 from mrlab_ros.core.checking.motion import CheckedRobot
 from mrlab_ros.core.checking.recording import Rehearsed
 from mrlab_ros.core.checking.rehearsal import DISTANCE_PERIOD, FARTHEST, Actor, Rehearsal
 from mrlab_ros.core.checking.report import digest
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.geometry import Pose, compose
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics.catalogue import Catalogue, ObjectType
 from mrlab_ros.core.physics.engine import Engine

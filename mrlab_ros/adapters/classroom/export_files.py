@@ -33,9 +33,9 @@ from mrlab_ros.adapters.classroom.diagnostics import (
     TWICE_IN_ARCHIVE,
 )
 from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.foreign_text import file_name
 from mrlab_ros.core.classroom.exports import ARCHIVE, METADATA, Entry
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.foreign_text import file_name
 
 MiB = 1 << 20
 MOST_FILES = 200_000

@@ -15,7 +15,7 @@ from mrlab_ros.adapters.classroom.diagnostics import (
     SCHEDULER_NOT_REACHED,
     UNKNOWN_BACKEND,
 )
-from mrlab_ros.core.errors import BadInput, Misuse
+from mrlab_ros.core.base.errors import BadInput, Misuse
 
 Task = TypeVar("Task")
 Answer = TypeVar("Answer")

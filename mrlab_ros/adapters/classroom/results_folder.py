@@ -12,7 +12,7 @@ import orjson
 
 from mrlab_ros.adapters.classroom.diagnostics import NO_CLASS_FOLDER, NOT_WRITABLE
 from mrlab_ros.adapters.whole_file import replaced
-from mrlab_ros.core.errors import BadInput, Misuse
+from mrlab_ros.core.base.errors import BadInput, Misuse
 
 CLASS, INDEX, TABLE = "class.json", "index.html", "grades.csv"
 KEPT, PAGES, FEEDBACK, RESULTS, TRAJECTORIES = (

@@ -30,7 +30,7 @@ from mrlab_ros.adapters.keys.diagnostics import (
     OTHER_AUTHORITY,
     OTHER_KEY,
 )
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 
 # A client whose clock is late by less accepts a new certificate.
 SLACK = timedelta(hours=1)

@@ -44,10 +44,10 @@ from mrlab_ros.adapters.keys.people import (
 )
 from mrlab_ros.adapters.keys.zenoh_settings import LOCAL
 from mrlab_ros.core.base.diagnostic import Fix
+from mrlab_ros.core.base.errors import BadInput, Misuse
+from mrlab_ros.core.base.foreign_text import for_shell
 from mrlab_ros.core.bridge.access import Login, Person
 from mrlab_ros.core.bridge.rules import Role, Rules
-from mrlab_ros.core.errors import BadInput, Misuse
-from mrlab_ros.core.foreign_text import for_shell
 
 AUTHORITY_LIFETIME = timedelta(days=5 * 365)
 # Two school years; Apple's systems accept no certificate of a server for more than 825 days.

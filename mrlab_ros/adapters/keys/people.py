@@ -23,10 +23,10 @@ from mrlab_ros.adapters.keys.diagnostics import (
     NO_KEYS,
 )
 from mrlab_ros.core.base.diagnostic import Fix
+from mrlab_ros.core.base.errors import BadInput, Misuse
+from mrlab_ros.core.base.foreign_text import for_shell
 from mrlab_ros.core.bridge.access import Login, Person
 from mrlab_ros.core.bridge.rules import Role
-from mrlab_ros.core.errors import BadInput, Misuse
-from mrlab_ros.core.foreign_text import for_shell
 
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,40}")
 # A user whose password nobody knows: zenoh demands passwords only where its file has a user.

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from mrlab_ros.adapters.keys.diagnostics import KEY_FILE_OPEN, KEY_FILE_UNREADABLE, NO_KEY_FILE
 from mrlab_ros.core.base.diagnostic import Fix
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 
 
 def write(path: Path, data: bytes) -> None:

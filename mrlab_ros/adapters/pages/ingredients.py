@@ -7,7 +7,7 @@ from pathlib import Path
 
 from mrlab_ros.adapters.diagnostics import REPORT_NOT_BUILT
 from mrlab_ros.adapters.robots import quantised, urdf
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.show.page import Code
 
 

@@ -11,8 +11,8 @@ from mrlab_ros.adapters.pages import ingredients
 from mrlab_ros.adapters.pages.poster import poster
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.robots.shown import from_library
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.conversion.convert import ConversionResult
-from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.show import document, static
 from mrlab_ros.core.show.packed import unpacked
 from mrlab_ros.core.show.page import page

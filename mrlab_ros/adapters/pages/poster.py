@@ -13,7 +13,7 @@ from PIL import Image
 
 from mrlab_ros.adapters.robots import drawing
 from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.base.geometry import Array
 from mrlab_ros.core.show.document import ShownRobot
 
 SIZE = 440  # pixels, width and height

@@ -19,7 +19,7 @@ from mrlab_ros.adapters.robots.diagnostics import (
     TIP_UNMOVED,
 )
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 
 # Names of joints and links that belong to a hand.
 HAND_NAME = re.compile(r"finger|grip|jaw|knuckle|claw|thumb", re.IGNORECASE)

@@ -13,8 +13,8 @@ import trimesh
 import yourdfpy
 
 from mrlab_ros.adapters.robots import diagnostics, urdf
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.geometry import Array
 
 Resolve = Callable[[str], Path]
 

@@ -14,8 +14,8 @@ from mrlab_ros.adapters.robots import urdf
 from mrlab_ros.adapters.robots.assembly import Assembly
 from mrlab_ros.adapters.robots.diagnostics import SHEET_FORMAT
 from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.geometry import Array
 
 FORMATS = (".png", ".html", ".glb")
 # Unit vectors: the picture is taken from the front right, a little from above; the light comes

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from mrlab_ros.adapters.robots.diagnostics import XACRO_REFUSED
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 
 
 def expand(path: str, arguments: dict[str, str]) -> str:

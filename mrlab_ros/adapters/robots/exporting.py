@@ -13,7 +13,7 @@ from mrlab_ros.adapters.robots import mesh_files, urdf
 from mrlab_ros.adapters.robots.diagnostics import FOLDER_IN_USE
 from mrlab_ros.adapters.robots.drawing import colour
 from mrlab_ros.adapters.robots.library import RobotLibrary, state_masses
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 
 
 def export(library: RobotLibrary, robot_id: str, end_effector: str | None, folder: Path) -> Path:

@@ -10,8 +10,8 @@ import numpy as np
 
 from mrlab_ros.adapters.robots import urdf
 from mrlab_ros.adapters.robots.diagnostics import HAND_LIMITS, HAND_MIMICS
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.geometry import Array
 from mrlab_ros.core.robots.kinematics import KinematicChain
 
 # A hand whose fingers come apart by less over their range, m, tells nothing of open and closed.

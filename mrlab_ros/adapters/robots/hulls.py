@@ -14,7 +14,7 @@ from mrlab_ros.adapters.robots import urdf
 from mrlab_ros.adapters.robots.assembly import Assembly, Resolve
 from mrlab_ros.adapters.robots.diagnostics import ROBOT_HULL
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.base.geometry import Array
 
 # Tolerances, m: how far the body may stick out of the hulls, and the hulls out of the body.
 MOST_SMALLER = 0.005

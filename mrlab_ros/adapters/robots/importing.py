@@ -30,8 +30,8 @@ from mrlab_ros.adapters.robots.hand import Finger, fingers
 from mrlab_ros.adapters.robots.library import MESH_PREFIX, RobotLibrary
 from mrlab_ros.adapters.robots.source import MeshFinder, description_text, packages_around
 from mrlab_ros.core.base.diagnostic import Diagnostic, Severity
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.geometry import Array
 from mrlab_ros.core.robots.model import Joint, RobotModel
 from mrlab_ros.core.robots.reach import reach
 

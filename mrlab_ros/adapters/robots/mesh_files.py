@@ -22,8 +22,8 @@ import trimesh
 from mrlab_ros.adapters import walled
 from mrlab_ros.adapters.robots.diagnostics import MESH_VERTEX_NOWHERE, MESH_WITHOUT_TRIANGLES
 from mrlab_ros.core.base.diagnostic import of_text, plain
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.geometry import Array
 
 COLLISION = "collision"
 FORMATS = (".stl", ".dae", ".obj", ".glb", ".gltf")

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrlab_ros.adapters.robots.diagnostics import ROBOT_MESH_UNREADABLE
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 
 MAGIC, JSON_CHUNK, BIN_CHUNK = 0x46546C67, 0x4E4F534A, 0x004E4942
 FLOAT, SHORT, BYTE = 5126, 5122, 5120

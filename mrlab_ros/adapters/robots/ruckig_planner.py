@@ -8,8 +8,8 @@ import numpy as np
 from ruckig import InputParameter, Result, Ruckig, Synchronization, Trajectory
 
 from mrlab_ros.adapters.robots.diagnostics import MOTION_SIZE, NO_MOTION_LEADS
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.geometry import Array
 from mrlab_ros.core.robots.model import RobotModel
 
 

@@ -13,9 +13,9 @@ from typing import Any
 from mrlab_ros.adapters.robots import drawing, urdf
 from mrlab_ros.adapters.robots.diagnostics import SHEET_FORMAT
 from mrlab_ros.adapters.robots.library import TIP, RobotLibrary
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.foreign_text import for_html, visible
-from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.foreign_text import for_html, visible
+from mrlab_ros.core.base.geometry import Array
 from mrlab_ros.core.robots.kinematics import KinematicChain
 from mrlab_ros.core.robots.reach import reach
 

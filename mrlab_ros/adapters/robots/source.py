@@ -26,7 +26,7 @@ from mrlab_ros.adapters.robots.diagnostics import (
     XACRO_NO_WALL,
 )
 from mrlab_ros.adapters.robots.expansion import expand
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 
 SUFFIXES = (".urdf", ".xacro")
 MOST_BYTES = 64 << 20  # of a URDF

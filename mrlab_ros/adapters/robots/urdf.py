@@ -30,9 +30,9 @@ from mrlab_ros.adapters.robots.diagnostics import (
     URDF_JOINT,
 )
 from mrlab_ros.core.base.diagnostics import FIELD
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.geometry import Pose, quaternion_from_rpy, transform_from_xyz_rpy
-from mrlab_ros.core.records import Words, bad_value
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.geometry import Pose, quaternion_from_rpy, transform_from_xyz_rpy
+from mrlab_ros.core.base.records import Words, bad_value
 from mrlab_ros.core.robots.frames import FixedFrame, LinkFrames, MovingFrame
 from mrlab_ros.core.robots.kinematics import KinematicChain, Segment
 from mrlab_ros.core.robots.model import Joint

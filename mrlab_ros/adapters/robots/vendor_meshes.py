@@ -20,8 +20,8 @@ from mrlab_ros.adapters.robots.diagnostics import (
 from mrlab_ros.adapters.robots.library import MESH_PREFIX, RobotLibrary
 from mrlab_ros.adapters.robots.source import MeshFinder, description_text, packages_around
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.geometry import Array
 
 LARGEST_SHIFT = 1e-4  # m, between the same link's frames in both descriptions
 LARGEST_TURN = 1e-4  # rad

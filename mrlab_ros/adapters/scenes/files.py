@@ -16,8 +16,8 @@ from mrlab_ros.adapters.nearby import check_file
 from mrlab_ros.adapters.scenes.diagnostics import BAD_SCENE_NAME, NO_SCENE
 from mrlab_ros.adapters.whole_file import replaced
 from mrlab_ros.adapters.yaml_files import Loader, not_yaml
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.naming import NAME, close_to
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.names import NAME, close_to
 from mrlab_ros.core.scene import document as scene_document
 from mrlab_ros.core.scene.document import SceneDocument
 

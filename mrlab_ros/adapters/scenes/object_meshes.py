@@ -15,7 +15,7 @@ from mrlab_ros.adapters.scenes.diagnostics import (
     OBJECT_MESH_UNREADABLE,
     OBJECT_MESH_URI,
 )
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.physics.catalogue import Mesh
 
 PREFIX = "package://mrlab_ros/"

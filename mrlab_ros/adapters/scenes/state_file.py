@@ -11,7 +11,7 @@ from pathlib import Path
 from mrlab_ros.adapters.diagnostics import NO_ROOM_ON_DISK
 from mrlab_ros.adapters.scenes import files
 from mrlab_ros.adapters.set_aside import set_aside
-from mrlab_ros.core.errors import BadInput, LabError
+from mrlab_ros.core.base.errors import BadInput, LabError
 from mrlab_ros.core.scene import document
 from mrlab_ros.core.scene.document import SceneDocument
 

@@ -18,7 +18,7 @@ import re
 import secrets
 
 from mrlab_ros.adapters.store.diagnostics import BAD_UPLOAD_NUMBER, EMPTY_STORE_NAME, NO_UPLOAD_KEY
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 
 RECORDS = "trajectories/records"
 VERSIONS = "trajectories/versions"

@@ -27,7 +27,7 @@ from mrlab_ros.adapters.store.diagnostics import (
     STORE_UNUSABLE,
 )
 from mrlab_ros.adapters.store.port import Entry, Missing, ObjectStore, StoreFailure
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 
 MiB = 1 << 20
 # A larger object is written in parts; a smaller one in a single request, which leaves nothing

@@ -14,8 +14,8 @@ import orjson
 
 from mrlab_ros.adapters.store import keys
 from mrlab_ros.adapters.store.port import Missing, ObjectStore
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.naming import close_to
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.names import close_to
 from mrlab_ros.core.trajectory import record as records
 from mrlab_ros.core.trajectory.diagnostics import NO_TRAJECTORY_OF_NAME, RECORD_OF_ANOTHER
 from mrlab_ros.core.trajectory.names import TrajectoryName, parse

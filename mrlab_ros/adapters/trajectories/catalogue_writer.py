@@ -21,7 +21,7 @@ from mrlab_ros.adapters.store import keys
 from mrlab_ros.adapters.store.port import Missing, ObjectStore, StoreFailure
 from mrlab_ros.adapters.trajectories import npz_file
 from mrlab_ros.adapters.trajectories.catalogue import Catalogue, changes_document
-from mrlab_ros.core.errors import BadInput, LabError
+from mrlab_ros.core.base.errors import BadInput, LabError
 from mrlab_ros.core.trajectory import document
 from mrlab_ros.core.trajectory import record as records
 from mrlab_ros.core.trajectory.diagnostics import OVER_QUOTA, REMOVED_MEANWHILE

@@ -13,12 +13,12 @@ import scipy.io
 from mrlab_ros.adapters.trajectories import json_file
 from mrlab_ros.adapters.workspaces import joint_trajectories
 from mrlab_ros.core.base.diagnostic import Diagnostic, Severity
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.foreign_text import visible
+from mrlab_ros.core.base.names import close_to
 from mrlab_ros.core.conversion.preview import Preview
-from mrlab_ros.core.design import JOINTS, SEVERITIES
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.foreign_text import visible
-from mrlab_ros.core.naming import close_to
 from mrlab_ros.core.robots.model import RobotModel
+from mrlab_ros.core.runtime.colours import JOINTS, SEVERITIES
 from mrlab_ros.core.trajectory.diagnostics import NO_EXPORT_FORMAT
 from mrlab_ros.core.trajectory.trajectory import Array, Trajectory
 

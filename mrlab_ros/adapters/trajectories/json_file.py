@@ -12,7 +12,7 @@ import orjson
 from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
 
 from mrlab_ros.adapters.whole_file import replaced
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.trajectory import document as trajectory_document
 from mrlab_ros.core.trajectory.diagnostics import NOT_AS_SCHEMA, NOT_JSON
 from mrlab_ros.core.trajectory.trajectory import Trajectory

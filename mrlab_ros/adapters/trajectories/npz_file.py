@@ -20,7 +20,7 @@ import numpy as np
 import orjson
 from numpy.typing import NDArray
 
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.trajectory import document
 from mrlab_ros.core.trajectory.diagnostics import DAMAGED_TRAJECTORY, NEWER_FORMAT, NO_SUCH_FRAME
 from mrlab_ros.core.trajectory.document import Frames

@@ -10,7 +10,7 @@ from typing import Any
 from mrlab_ros.adapters.trajectories import json_file, npz_file
 from mrlab_ros.adapters.trajectories.catalogue_writer import CatalogueWriter
 from mrlab_ros.adapters.trajectories.npz_file import Damaged
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.trajectory import document
 from mrlab_ros.core.trajectory.diagnostics import NAMED_OTHERWISE, NOT_A_TRAJECTORY_FILE
 from mrlab_ros.core.trajectory.names import ID

@@ -23,8 +23,8 @@ from mrlab_ros.adapters.workspaces.diagnostics import (
 )
 from mrlab_ros.adapters.workspaces.mat5 import INTEGERS
 from mrlab_ros.core.base.diagnostic import Diagnostic, from_plain
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
-from mrlab_ros.core.errors import BadInput
 
 BLOCK = 1 << 20
 # A matrix in the memory file of the first reading: path, shape, offset and numpy type.

@@ -15,7 +15,7 @@ from typing import Any
 
 from mrlab_ros.adapters.workspaces.diagnostics import WAITING_FILES
 from mrlab_ros.adapters.workspaces.reader import Limits, MiB, TooSlow, WorkspaceReader
-from mrlab_ros.core.errors import Misuse
+from mrlab_ros.core.base.errors import Misuse
 
 # A file that is not done after this long, s, goes on among the slow ones.
 QUICK_TIME_S = 2.0

@@ -26,9 +26,9 @@ from mrlab_ros.adapters.workspaces.diagnostics import (
     UNREADABLE,
     UNSUPPORTED_FORMAT,
 )
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.conversion.options import MOST_ROWS
 from mrlab_ros.core.conversion.workspace import Workspace
-from mrlab_ros.core.errors import BadInput
 
 Result = TypeVar("Result")
 MiB = 1 << 20

@@ -70,10 +70,10 @@ from mrlab_ros.adapters.workspaces.object_sinks import ObjectSink
 from mrlab_ros.adapters.workspaces.sink import Found, Sink
 from mrlab_ros.adapters.workspaces.view import View
 from mrlab_ros.core.base.diagnostic import Diagnostic, plain
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.conversion.dimensions import is_motion
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.conversion.workspace import Workspace
-from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.robots.kinematics import KinematicChain, Segment
 from mrlab_ros.core.robots.model import Joint, RobotModel
 from mrlab_ros.core.trajectory.channels import ProxyCoefficients

@@ -10,8 +10,8 @@ import zenoh
 
 from mrlab_ros.adapters.zenoh.diagnostics import BAD_ZENOH_FILE, BAD_ZENOH_SETTINGS
 from mrlab_ros.core.base.diagnostic import of_text
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.links import LEASE_BEYOND, LEASE_WITHIN, healing, is_local
-from mrlab_ros.core.errors import BadInput
 
 LOOPBACK = ("tcp/127.0.0.1:7447",)
 # How long a put waits for a full link, us, before its message is dropped, and before the client of

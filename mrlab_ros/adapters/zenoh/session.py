@@ -17,9 +17,9 @@ from mrlab_ros.adapters.zenoh.configuration import first_line
 from mrlab_ros.adapters.zenoh.diagnostics import ENDPOINT_TAKEN, ZENOH_NOT_OPEN
 from mrlab_ros.adapters.zenoh.port import Declared, Publisher, Query
 from mrlab_ros.core.base.diagnostic import Diagnostic, of_text, plain
+from mrlab_ros.core.base.errors import Unavailable
 from mrlab_ros.core.bridge.guests import Link
 from mrlab_ros.core.bridge.rules import Congestion, Reliability, TopicRule
-from mrlab_ros.core.errors import Unavailable
 
 # Threads that answer queries for latched topics, and how many queries may wait for them.
 # Bytes of an encoding's schema; with a longer one zenoh's pipeline panics.

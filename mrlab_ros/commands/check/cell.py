@@ -24,6 +24,8 @@ from mrlab_ros.commands.check.diagnostics import (
 from mrlab_ros.commands.convert import batch
 from mrlab_ros.commands.convert.one_file import converted, of_trajectory_file
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, of_text, plain
+from mrlab_ros.core.base.errors import BadInput, Misuse
+from mrlab_ros.core.base.foreign_text import for_shell
 from mrlab_ros.core.checking import motion
 from mrlab_ros.core.checking.diagnostics import (
     IN_CELL,
@@ -40,8 +42,6 @@ from mrlab_ros.core.checking.rehearsal import Actor
 from mrlab_ros.core.checking.report import CheckReport, RobotReport, in_order
 from mrlab_ros.core.conversion.convert import ConversionResult
 from mrlab_ros.core.conversion.options import Options
-from mrlab_ros.core.errors import BadInput, Misuse
-from mrlab_ros.core.foreign_text import for_shell
 from mrlab_ros.core.scene import document as scene_document
 from mrlab_ros.core.scene.document import SceneDocument
 from mrlab_ros.core.systems.cell_file import MemberEntry, SystemEntry

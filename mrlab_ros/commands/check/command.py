@@ -13,8 +13,8 @@ from mrlab_ros.commands.check.diagnostics import LENGTH_WITHOUT_UNIT, NO_LENGTH
 from mrlab_ros.commands.convert.options import with_options
 from mrlab_ros.commands.diagnostics import PAGE_NAME
 from mrlab_ros.commands.output import say_problem
+from mrlab_ros.core.base.errors import LabError, Misuse
 from mrlab_ros.core.conversion.options import Options
-from mrlab_ros.core.errors import LabError, Misuse
 
 COULD_NOT = 2
 LENGTH = re.compile(r"\s*([0-9.]+)\s*(mm|cm|m)?\s*")

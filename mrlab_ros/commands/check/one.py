@@ -13,6 +13,9 @@ from mrlab_ros.commands.check import cell
 from mrlab_ros.commands.check.diagnostics import MODEL_NOT_IN_SCENE, MOTION_OF_ANOTHER_ROBOT
 from mrlab_ros.commands.convert.one_file import converted
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
+from mrlab_ros.core.base.errors import BadInput, Misuse
+from mrlab_ros.core.base.foreign_text import file_name
+from mrlab_ros.core.base.geometry import Pose, Vector
 from mrlab_ros.core.checking import motion
 from mrlab_ros.core.checking.diagnostics import IN_EMPTY_ROOM, IN_SCENE
 from mrlab_ros.core.checking.evidence import CLOSE
@@ -22,9 +25,6 @@ from mrlab_ros.core.checking.rehearsal import Actor
 from mrlab_ros.core.checking.report import digest
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome
 from mrlab_ros.core.conversion.options import Options
-from mrlab_ros.core.errors import BadInput, Misuse
-from mrlab_ros.core.foreign_text import file_name
-from mrlab_ros.core.geometry import Pose, Vector
 from mrlab_ros.core.rubrics.checked import Checked, Motion
 from mrlab_ros.core.scene.document import RobotEntry, SceneDocument
 from mrlab_ros.core.systems.cell_file import plain_system

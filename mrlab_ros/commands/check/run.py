@@ -20,13 +20,13 @@ from mrlab_ros.commands.check.diagnostics import (
 )
 from mrlab_ros.commands.check.one import CELLS, CheckedFile, Setting, check_file, scene_of
 from mrlab_ros.commands.convert import report as conversion_report
+from mrlab_ros.core.base.errors import BadInput, Misuse
+from mrlab_ros.core.base.geometry import Vector
 from mrlab_ros.core.checking.evidence import CLOSE
 from mrlab_ros.core.checking.rehearsal import FARTHEST
 from mrlab_ros.core.checking.waypoints import points_from_rows
 from mrlab_ros.core.conversion.convert import ConversionResult
 from mrlab_ros.core.conversion.options import Options
-from mrlab_ros.core.errors import BadInput, Misuse
-from mrlab_ros.core.geometry import Vector
 from mrlab_ros.core.rubrics.marking import Marks
 from mrlab_ros.ros import share
 

@@ -17,7 +17,7 @@ from mrlab_ros.core.checking.diagnostics import CLAIM
 from mrlab_ros.core.checking.hardware import State
 from mrlab_ros.core.checking.report import CheckReport, RobotReport
 from mrlab_ros.core.conversion.options import Options
-from mrlab_ros.core.design import OUTCOME_STYLES, SEVERITY_STYLES
+from mrlab_ros.core.runtime.colours import OUTCOME_STYLES, SEVERITY_STYLES
 
 MARKS = {State.OK: "ok", State.NOT: "NOT", State.UNKNOWN: "unknown"}
 STYLES = {

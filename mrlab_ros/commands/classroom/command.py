@@ -10,8 +10,8 @@ import typer
 from mrlab_ros.commands.classroom.diagnostics import OPTION_OUT_OF_RANGE
 from mrlab_ros.commands.convert.options import with_options
 from mrlab_ros.commands.output import say_problem
+from mrlab_ros.core.base.errors import LabError, Misuse
 from mrlab_ros.core.conversion.options import Options
-from mrlab_ros.core.errors import LabError, Misuse
 
 COULD_NOT = 2
 LEAST_MEMORY, LEAST_TIME, MOST_LIMIT = 512, 1.0, 1_000_000  # MiB, s, either

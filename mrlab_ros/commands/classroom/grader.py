@@ -22,13 +22,13 @@ from mrlab_ros.commands.classroom import worker
 from mrlab_ros.commands.classroom.diagnostics import GRADER_NOT_STARTED
 from mrlab_ros.commands.classroom.setup import Setup, Task
 from mrlab_ros.core.base.diagnostic import Diagnostic, from_plain
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.classroom.diagnostics import (
     SUBMISSION_CRASHED,
     SUBMISSION_ENDED,
     SUBMISSION_GIVEN_UP,
 )
 from mrlab_ros.core.classroom.result import FAILED, without_marks
-from mrlab_ros.core.errors import BadInput
 
 START_LIMIT = 120.0  # s for the process to import and to check the reference, on a busy machine
 PARENT_PERIOD = 2.0  # s between two looks whether the class still runs

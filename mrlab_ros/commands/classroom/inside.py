@@ -12,10 +12,10 @@ from mrlab_ros.adapters.workspaces.reader import Limits, opened
 from mrlab_ros.adapters.workspaces.results import Task, converted, refused
 from mrlab_ros.commands.classroom.diagnostics import NO_ROBOT_IN_RUBRIC
 from mrlab_ros.commands.convert.one_file import of_trajectory_file_here
+from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.conversion.convert import ConversionResult, id_from
 from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE, Options
 from mrlab_ros.core.conversion.workspace import Workspace
-from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.ros import share
 
 

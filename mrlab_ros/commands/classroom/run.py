@@ -45,6 +45,7 @@ from mrlab_ros.commands.classroom.diagnostics import (
 from mrlab_ros.commands.classroom.setup import Bounds, Setup, Task
 from mrlab_ros.commands.convert.batch import SUFFIXES
 from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.classroom import gradebook
 from mrlab_ros.core.classroom.diagnostics import NO_FILE_HANDED_IN
 from mrlab_ros.core.classroom.exports import Roster, Submission, recognise
@@ -52,7 +53,6 @@ from mrlab_ros.core.classroom.graded import REFERENCE, GradedClass, Student
 from mrlab_ros.core.classroom.pseudonyms import pseudonymous
 from mrlab_ros.core.classroom.result import FAILED, NO_FILE, Result, without_marks
 from mrlab_ros.core.conversion.options import Options
-from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.rubrics.rubric import Rubric
 from mrlab_ros.core.scene.document import SceneDocument
 from mrlab_ros.ros import share

@@ -12,7 +12,7 @@ from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.classroom.gradebook import number, text
 from mrlab_ros.core.classroom.graded import GradedClass
 from mrlab_ros.core.classroom.result import FAILED, MARKED
-from mrlab_ros.core.design import OUTCOME_STYLES
+from mrlab_ros.core.runtime.colours import OUTCOME_STYLES
 
 MOST_ROWS, MOST_LEFT_OUT, MOST_MISTAKES = 20, 10, 5
 

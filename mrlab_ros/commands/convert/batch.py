@@ -44,14 +44,14 @@ from mrlab_ros.commands.convert.diagnostics import (
 from mrlab_ros.commands.convert.options import convert_words
 from mrlab_ros.commands.convert.outcomes import EXIT_CODES
 from mrlab_ros.commands.convert.targets import PICTURES, Targets, check_free
+from mrlab_ros.core.base.errors import BadInput, LabError, Misuse
+from mrlab_ros.core.base.foreign_text import file_name
 from mrlab_ros.core.conversion.convert import (
     ConversionResult,
     Outcome,
     id_from,
 )
 from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE, Options
-from mrlab_ros.core.errors import BadInput, LabError, Misuse
-from mrlab_ros.core.foreign_text import file_name
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.ros import share
 

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 from mrlab_ros.adapters.diagnostics import FILE_UNREADABLE
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.commands.convert.diagnostics import ROBOT_NOT_NAMED
+from mrlab_ros.core.base.errors import BadInput, Misuse
+from mrlab_ros.core.base.foreign_text import file_name
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome
 from mrlab_ros.core.conversion.options import Options
-from mrlab_ros.core.errors import BadInput, Misuse
-from mrlab_ros.core.foreign_text import file_name
 
 if TYPE_CHECKING:
     from mrlab_ros.core.trajectory.trajectory import Trajectory

@@ -10,8 +10,8 @@ from typing import Annotated, Any
 
 import typer
 
+from mrlab_ros.core.base.foreign_text import for_shell
 from mrlab_ros.core.conversion.options import Options
-from mrlab_ros.core.foreign_text import for_shell
 
 # Options of the command line whose field of Options is called otherwise.
 FIELDS = {"rate": "frame_rate"}

@@ -13,11 +13,11 @@ from rich.table import Table
 from mrlab_ros.commands import output
 from mrlab_ros.commands.convert.options import command_with
 from mrlab_ros.core.base.diagnostic import Diagnostic, plain
+from mrlab_ros.core.base.foreign_text import visible
 from mrlab_ros.core.conversion.candidates import SPARK_WIDTH
 from mrlab_ros.core.conversion.convert import ConversionResult
 from mrlab_ros.core.conversion.options import Options
-from mrlab_ros.core.design import OUTCOME_STYLES, SEVERITY_STYLES
-from mrlab_ros.core.foreign_text import visible
+from mrlab_ros.core.runtime.colours import OUTCOME_STYLES, SEVERITY_STYLES
 
 
 def record(given: str, result: ConversionResult, written: Path | None) -> dict[str, Any]:

@@ -17,7 +17,7 @@ from mrlab_ros.commands.convert.diagnostics import (
     TARGET_THERE,
     WOULD_REPLACE_INPUT,
 )
-from mrlab_ros.core.errors import BadInput, Misuse
+from mrlab_ros.core.base.errors import BadInput, Misuse
 
 PICTURES = (".png", ".svg", ".html")
 

@@ -17,8 +17,8 @@ from mrlab_ros.commands.convert.diagnostics import (
     NOT_A_TOPIC,
     OTHER_TYPE,
 )
+from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.conversion.workspace import JOINT_TRAJECTORY
-from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.graph_node import Graph
 

@@ -14,7 +14,7 @@ import typer
 from mrlab_ros.commands import output
 from mrlab_ros.commands.diagnostics import NO_DEMO_FILE
 from mrlab_ros.commands.up.surroundings import stop_signals
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 
 
 def demo(

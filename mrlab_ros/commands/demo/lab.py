@@ -17,7 +17,7 @@ from mrlab_ros.commands.diagnostics import NO_DOMAIN_LEFT, NO_PORT_LEFT
 from mrlab_ros.commands.up.speaker import Speaker
 from mrlab_ros.commands.up.surroundings import folder_for_state, stay_on_this_machine
 from mrlab_ros.commands.up.web import open_in_browser, opening_url, run_facts
-from mrlab_ros.core.errors import LabError, Misuse
+from mrlab_ros.core.base.errors import LabError, Misuse
 from mrlab_ros.processes.lab import lab_processes, parameter_file
 from mrlab_ros.processes.options import LabOptions, WebOptions, new_lab_id
 from mrlab_ros.processes.run_file import RunFile

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from mrlab_ros.commands.diagnostics import DEMO_FAULT
 from mrlab_ros.commands.up.speaker import COLOURS
 from mrlab_ros.commands.up.web import opening_url
-from mrlab_ros.core.errors import LabError
+from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.processes.child import SELF
 
 if TYPE_CHECKING:

@@ -16,9 +16,9 @@ from mrlab_ros.commands import diagnostics as say
 from mrlab_ros.commands.demo.arrivals import Arrivals, frames_in_order
 from mrlab_ros.commands.demo.report import Display, RobotSummary
 from mrlab_ros.core.base.diagnostic import heard, of_text
-from mrlab_ros.core.errors import LabError
-from mrlab_ros.core.identity import Identity
+from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.playback.diagnostics import PLAYED_TO_END
+from mrlab_ros.core.runtime.identity import Identity
 from mrlab_ros.processes.lab import lab_nodes
 from mrlab_ros.processes.readiness import Readiness
 from mrlab_ros.processes.web import gateway_answers

@@ -12,8 +12,8 @@ import typer
 from mrlab_ros.commands.convert.options import with_options
 from mrlab_ros.commands.diagnostics import PAGE_NAME
 from mrlab_ros.commands.output import say_problem
+from mrlab_ros.core.base.errors import LabError, Misuse
 from mrlab_ros.core.conversion.options import Options
-from mrlab_ros.core.errors import LabError, Misuse
 
 COULD_NOT = 2
 app = typer.Typer(

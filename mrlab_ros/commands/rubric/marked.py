@@ -21,8 +21,8 @@ from mrlab_ros.commands.rubric.diagnostics import (
     REFERENCE_NOT_MARKED,
     ROBOT_NOT_SAID,
 )
+from mrlab_ros.core.base.errors import BadInput, LabError, Misuse
 from mrlab_ros.core.conversion.options import Options
-from mrlab_ros.core.errors import BadInput, LabError, Misuse
 from mrlab_ros.core.rubrics.comparison import NearReference
 from mrlab_ros.core.rubrics.ground import Ground
 from mrlab_ros.core.rubrics.marking import Marks, mark

@@ -19,8 +19,8 @@ from mrlab_ros.commands.rubric.marked import (
     reference_of,
     setting_of,
 )
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.conversion.options import Options
-from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.rubrics import document
 from mrlab_ros.core.rubrics.forms import FAMILIES
 from mrlab_ros.core.rubrics.lint import Flaw, flaws_of, flaws_of_reference

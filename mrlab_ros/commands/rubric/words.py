@@ -10,13 +10,13 @@ from rich.text import Text
 
 from mrlab_ros.commands import output
 from mrlab_ros.core.base.phrase import phrase
-from mrlab_ros.core.design import OUTCOME_STYLES, SEVERITY_STYLES
 from mrlab_ros.core.rubrics.checked import Checked
 from mrlab_ros.core.rubrics.document import at
 from mrlab_ros.core.rubrics.forms import FAMILIES
 from mrlab_ros.core.rubrics.lint import Flaw
 from mrlab_ros.core.rubrics.marking import Mark, Marks
 from mrlab_ros.core.rubrics.rubric import Rubric
+from mrlab_ros.core.runtime.colours import OUTCOME_STYLES, SEVERITY_STYLES
 
 OK, NOT = OUTCOME_STYLES["accepted"], OUTCOME_STYLES["rejected"]
 PARTLY = OUTCOME_STYLES["ambiguous"]

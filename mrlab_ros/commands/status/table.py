@@ -14,7 +14,7 @@ from rich.table import Table
 from rich.text import Text
 
 from mrlab_ros.client.follow import milliseconds
-from mrlab_ros.core.design import OUTCOME_STYLES, SEVERITY_STYLES, STATE_STYLES
+from mrlab_ros.core.runtime.colours import OUTCOME_STYLES, SEVERITY_STYLES, STATE_STYLES
 
 if TYPE_CHECKING:
     from rich.console import RenderableType

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from mrlab_ros.commands.status.facts import latency_facts, recorder_facts, robot_facts, said_of
 from mrlab_ros.core.base.diagnostic import Diagnostic, plain
-from mrlab_ros.core.watch import SILENT_AFTER_S
+from mrlab_ros.core.runtime.watch import SILENT_AFTER_S
 from mrlab_ros.processes.lab import NODES, PROCESSES
 from mrlab_ros.processes.run_file import RunFile
 from mrlab_ros.processes.web import gateway_answers

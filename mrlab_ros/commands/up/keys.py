@@ -13,7 +13,7 @@ from mrlab_ros.commands.diagnostics import (
     KEYS_OR_INSECURE,
     ROUTER_WITHOUT_KEYS,
 )
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.processes.child import SELF
 
 LISTEN = "tcp/127.0.0.1:7447"

@@ -6,7 +6,7 @@ import threading
 from collections.abc import Iterable
 
 from mrlab_ros.commands.diagnostics import PROCESSES_REFUSE
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.processes.child import Phase, ProcessState
 
 

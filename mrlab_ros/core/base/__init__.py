@@ -1,1 +1,1 @@
-"""What every room of the core uses; it imports no other room."""
+"""Errors, clocks, geometry, records and diagnostics, used by every room of the core."""

@@ -21,8 +21,8 @@ from enum import IntEnum
 from math import isfinite
 from typing import Any
 
+from mrlab_ros.core.base.foreign_text import visible
 from mrlab_ros.core.base.phrase import Phrase, Value, phrase
-from mrlab_ros.core.foreign_text import visible
 
 # What MATLAB takes for a variable, or a part of one, and for nothing else; what is pasted there
 # may hold no other name of a file, such as `q; system('...')`.

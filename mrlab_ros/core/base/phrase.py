@@ -39,7 +39,7 @@ from dataclasses import dataclass
 from math import degrees, isfinite
 from typing import Any, TypeAlias
 
-from mrlab_ros.core.foreign_text import visible, visible_lines
+from mrlab_ros.core.base.foreign_text import visible, visible_lines
 
 # What a value may be: a text, a number in the unit of its quantity, several of these, or a
 # diagnostic with values of its own.

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from pathlib import PurePosixPath
 from urllib.parse import quote, unquote
 
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge import diagnostics as say
-from mrlab_ros.core.errors import BadInput
 
 ASSETS = "assets"
 SCHEMA = "schema"

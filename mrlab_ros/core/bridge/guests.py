@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 from mrlab_ros.core.bridge.access import Person
 from mrlab_ros.core.bridge.rules import Role
-from mrlab_ros.core.bucket import Bucket
+from mrlab_ros.core.runtime.bucket import Bucket
 
 # s for which somebody stays out who has sent too much.
 OUT_S = 30.0

@@ -7,8 +7,8 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge import diagnostics as say
-from mrlab_ros.core.errors import BadInput
 
 # A link that is silent for so long, s, counts as broken. Beyond this machine that is short, so a
 # broken link heals within 2 s. On loopback a link only breaks when its process dies, which TCP

@@ -13,9 +13,8 @@ from enum import Enum
 from functools import cached_property
 from typing import Generic, TypeVar
 
-from mrlab_ros.core.bridge.diagnostics import RULE_GOES_OUT, RULE_WITHOUT_NAME
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.records import (
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.records import (
     FLAG,
     TEXT,
     Integer,
@@ -30,6 +29,7 @@ from mrlab_ros.core.records import (
     read,
     shown,
 )
+from mrlab_ros.core.bridge.diagnostics import RULE_GOES_OUT, RULE_WITHOUT_NAME
 
 SECOND = 1_000_000_000
 # Bytes of the largest message that a rule can allow; zenoh refuses larger ones of any client

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.base.geometry import Array
 from mrlab_ros.core.checking.diagnostics import NEAR_SINGULARITY
-from mrlab_ros.core.geometry import Array
 from mrlab_ros.core.robots.kinematics import KinematicChain
 
 # 1/condition below this counts as nearly singular: a straight way of the tool there needs a joint

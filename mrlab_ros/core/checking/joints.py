@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.base.geometry import Array
 from mrlab_ros.core.checking.diagnostics import (
     ACCELERATION_LIMIT,
     JERK_LIMIT,
@@ -24,7 +25,6 @@ from mrlab_ros.core.checking.diagnostics import (
     SPEED_STEP,
 )
 from mrlab_ros.core.conversion.limits import LIMIT_TOLERANCE
-from mrlab_ros.core.geometry import Array
 from mrlab_ros.core.robots.model import Joint
 
 # An arm is at rest where no joint moves faster than this share of its limit.

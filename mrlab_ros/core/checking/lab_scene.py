@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.checking.diagnostics import (
     APPEARED,
     DISAPPEARED,
@@ -18,7 +19,6 @@ from mrlab_ros.core.checking.diagnostics import (
     SURFACES_CHANGED,
     WAS_LET_GO,
 )
-from mrlab_ros.core.geometry import Pose
 from mrlab_ros.core.scene.document import SceneDocument
 
 # What moved less is where it was: m, and rad of an orientation or a joint.

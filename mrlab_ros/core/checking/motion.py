@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, Severity
+from mrlab_ros.core.base.geometry import Array, Pose, Vector, rotate
 from mrlab_ros.core.checking import dexterity, evidence, joints, waypoints
 from mrlab_ros.core.checking.dexterity import Dexterity
 from mrlab_ros.core.checking.evidence import CLOSE, NO_ADVICE, Advice
@@ -18,7 +19,6 @@ from mrlab_ros.core.checking.recording import Rehearsed
 from mrlab_ros.core.checking.report import CheckReport, RobotReport, in_order
 from mrlab_ros.core.checking.smoothness import spectral_arc_length
 from mrlab_ros.core.conversion.convert import ConversionResult
-from mrlab_ros.core.geometry import Array, Pose, Vector, rotate
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 

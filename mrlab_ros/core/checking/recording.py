@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.geometry import Vector
+from mrlab_ros.core.base.geometry import Vector
 from mrlab_ros.core.physics.engine import Kind, Near
 from mrlab_ros.core.physics.grasp import Grasp
 from mrlab_ros.core.physics.grasp_load import Load

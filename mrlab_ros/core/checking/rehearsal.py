@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
+from mrlab_ros.core.base.clock import SECOND, PlaybackClock
+from mrlab_ros.core.base.geometry import Array
 from mrlab_ros.core.checking.recording import (
     Collision,
     Course,
@@ -16,8 +18,6 @@ from mrlab_ros.core.checking.recording import (
     GraspChange,
     Rehearsed,
 )
-from mrlab_ros.core.clock import SECOND, PlaybackClock
-from mrlab_ros.core.geometry import Array
 from mrlab_ros.core.physics.engine import Engine, Kind, Touch
 from mrlab_ros.core.physics.events import (
     CollisionChanged,

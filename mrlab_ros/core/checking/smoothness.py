@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.base.geometry import Array
 
 # As Balasubramanian et al. recommend.
 PADDING = 4

@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.geometry import Array, Vector
 from mrlab_ros.core.checking.diagnostics import (
     MISSES_POINT,
     POINT_COUNT,
@@ -16,8 +18,6 @@ from mrlab_ros.core.checking.diagnostics import (
     POINT_OUT_OF_ORDER,
     POINT_TOO_FAR,
 )
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.geometry import Array, Vector
 
 HEADINGS = ("x", "y", "z")
 MOST_POINTS = 1000

@@ -9,6 +9,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, from_plain
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.foreign_text import for_table
 from mrlab_ros.core.classroom.diagnostics import (
     MAXIMUM_DIFFERS,
     NO_WORKSHEET,
@@ -16,8 +18,6 @@ from mrlab_ros.core.classroom.diagnostics import (
 )
 from mrlab_ros.core.classroom.graded import Student
 from mrlab_ros.core.classroom.result import Result
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.foreign_text import for_table
 from mrlab_ros.core.rubrics.rubric import Rubric
 
 BOM = "\ufeff"  # by which Excel takes a table for UTF-8

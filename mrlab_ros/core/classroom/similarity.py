@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.base.geometry import Array
 
 SAMPLES = 48
 STEP = 0.5  # deg that some joint must have gone for the way to go on: noise is less

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrlab_ros.core.base.diagnostic import MATLAB_PATH, Diagnostic, Fix, Severity
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.conversion import (
     datevec,
     dimensions,
@@ -49,7 +50,6 @@ from mrlab_ros.core.conversion.preview import Preview, preview
 from mrlab_ros.core.conversion.stated import with_headings, with_statements
 from mrlab_ros.core.conversion.survey import Survey, survey
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
-from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory import channels
 from mrlab_ros.core.trajectory.channels import ProxyCoefficients

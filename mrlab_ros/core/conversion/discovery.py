@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.conversion import joining
 from mrlab_ros.core.conversion.assessment import Assessment
 from mrlab_ros.core.conversion.diagnostics import (
@@ -29,7 +30,6 @@ from mrlab_ros.core.conversion.scoring import FEW_ROWS
 from mrlab_ros.core.conversion.survey import Survey
 from mrlab_ros.core.conversion.variable_names import Hint
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
-from mrlab_ros.core.errors import BadInput
 
 # A score from which a matrix is taken or offered, and below which it is not even offered.
 PLAUSIBLE, CONCEIVABLE = 0.55, 0.25

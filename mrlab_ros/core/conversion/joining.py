@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.conversion.diagnostics import (
     BAD_OPTION,
     BAD_PART,
@@ -24,7 +25,6 @@ from mrlab_ros.core.conversion.diagnostics import (
 from mrlab_ros.core.conversion.options import indices
 from mrlab_ros.core.conversion.variable_names import Hint, hint
 from mrlab_ros.core.conversion.workspace import Variable, Workspace, shortened
-from mrlab_ros.core.errors import BadInput
 
 NUMBER = re.compile(r"\d+(?=\D*$)")
 MOST_PIECES = 50_000

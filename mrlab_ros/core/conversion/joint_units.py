@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.conversion import units
 from mrlab_ros.core.conversion.assessment import Assessment
 from mrlab_ros.core.conversion.diagnostics import (
@@ -29,7 +30,6 @@ from mrlab_ros.core.conversion.diagnostics import (
 from mrlab_ros.core.conversion.explain import matlab_name
 from mrlab_ros.core.conversion.options import Options, columns_text
 from mrlab_ros.core.conversion.unit_names import said_by_units
-from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.trajectory import Array
 

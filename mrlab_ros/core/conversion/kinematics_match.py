@@ -16,9 +16,9 @@ from typing import Any
 import numpy as np
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.base.geometry import Array, inverse_transform
 from mrlab_ros.core.conversion.diagnostics import KINEMATICS_AGREE, KINEMATICS_DIFFER
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
-from mrlab_ros.core.geometry import Array, inverse_transform
 from mrlab_ros.core.robots.kinematics import KinematicChain, Segment
 from mrlab_ros.core.robots.model import RobotModel
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.conversion.diagnostics import JOINT_NAMES, JOINTS_MATCHED
 from mrlab_ros.core.conversion.workspace import Variable, shortened
-from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.robots.model import RobotModel
 
 GRIPPER = "gripper"

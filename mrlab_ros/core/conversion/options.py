@@ -7,6 +7,7 @@ import math
 import re
 from dataclasses import dataclass
 
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.conversion.diagnostics import (
     BAD_COLUMNS,
     BAD_OPTION,
@@ -19,7 +20,6 @@ from mrlab_ros.core.conversion.diagnostics import (
     UNITS_CONTRADICT,
     UNKNOWN_UNIT,
 )
-from mrlab_ros.core.errors import BadInput
 
 TERM = re.compile(r"(\d+|end)(?:\s*:\s*(?:(\d+)\s*:\s*)?(\d+|end))?$")
 DEFAULT_FRAME_RATE = 100.0  # Hz

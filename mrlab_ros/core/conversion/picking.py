@@ -7,6 +7,7 @@ from typing import Any
 
 from numpy.typing import NDArray
 
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.conversion.diagnostics import (
     BAD_OPTION,
     NO_SUCH_COLUMN,
@@ -17,7 +18,6 @@ from mrlab_ros.core.conversion.diagnostics import (
 )
 from mrlab_ros.core.conversion.options import NO_GRIPPER, Options, parse_columns
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
-from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.robots.model import RobotModel
 
 

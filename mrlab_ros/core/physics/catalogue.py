@@ -10,8 +10,8 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.geometry import (
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.geometry import (
     Array,
     Pose,
     Vector,
@@ -20,18 +20,8 @@ from mrlab_ros.core.geometry import (
     rotate,
     subtract,
 )
-from mrlab_ros.core.naming import close_to
-from mrlab_ros.core.physics.diagnostics import (
-    CATALOGUE,
-    FIXED_WITH_MASS,
-    MASS_OR_FIXED,
-    NO_OBJECT_TYPE,
-    OBJECT_ENTRY,
-    OBJECT_ID,
-    SHAPE_AND_PARTS,
-)
-from mrlab_ros.core.physics.engine import IDENTITY, Body, Part, Shape
-from mrlab_ros.core.records import (
+from mrlab_ros.core.base.names import close_to
+from mrlab_ros.core.base.records import (
     FLAG,
     NAME,
     TEXT,
@@ -44,6 +34,16 @@ from mrlab_ros.core.records import (
     checked,
     every,
 )
+from mrlab_ros.core.physics.diagnostics import (
+    CATALOGUE,
+    FIXED_WITH_MASS,
+    MASS_OR_FIXED,
+    NO_OBJECT_TYPE,
+    OBJECT_ENTRY,
+    OBJECT_ID,
+    SHAPE_AND_PARTS,
+)
+from mrlab_ros.core.physics.engine import IDENTITY, Body, Part, Shape
 
 SOLID = Choice({shape.value: shape for shape in (Shape.BOX, Shape.CYLINDER, Shape.SPHERE)})
 PART_FIELDS = ("shape", "size", "at", "rpy_deg")

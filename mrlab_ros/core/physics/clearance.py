@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from enum import Enum
 
-from mrlab_ros.core.state_machine import Machine, Table
+from mrlab_ros.core.base.state_machine import Machine, Table
 
 
 class Halt(Enum):

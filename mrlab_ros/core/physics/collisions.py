@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from mrlab_ros.core.geometry import Pose, add
+from mrlab_ros.core.base.geometry import Pose, add
 from mrlab_ros.core.physics import contact_rules
 from mrlab_ros.core.physics import surfaces as rooms
 from mrlab_ros.core.physics.clearance import Halt

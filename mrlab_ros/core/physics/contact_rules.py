@@ -7,7 +7,7 @@ tolerance. Everything else that a moving link touches halts the arm.
 
 from __future__ import annotations
 
-from mrlab_ros.core.geometry import dot, rotate
+from mrlab_ros.core.base.geometry import dot, rotate
 from mrlab_ros.core.physics.engine import Kind, Touch
 from mrlab_ros.core.physics.grasp import INWARDS, Gripper
 from mrlab_ros.core.physics.simulated_robot import Pressed, Robot

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.base.geometry import Array
 from mrlab_ros.core.physics.engine import Part, Shape
 
 Faces = NDArray[np.int64]

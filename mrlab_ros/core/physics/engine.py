@@ -14,7 +14,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from mrlab_ros.core.geometry import Array, Pose, Vector
+from mrlab_ros.core.base.geometry import Array, Pose, Vector
 
 IDENTITY = Pose()
 LinkPairs = frozenset[frozenset[str]]

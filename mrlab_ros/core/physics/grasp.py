@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from enum import Enum
 
-from mrlab_ros.core.clock import SECOND
-from mrlab_ros.core.geometry import dot
+from mrlab_ros.core.base.clock import SECOND
+from mrlab_ros.core.base.geometry import dot
+from mrlab_ros.core.base.state_machine import Table
 from mrlab_ros.core.physics.engine import Finger, FingerState, Kind, Touch
-from mrlab_ros.core.state_machine import Table
 
 # Two fingers oppose each other when the cosine between their contact normals is below this;
 # three fingers 120 degrees apart have -0.5.

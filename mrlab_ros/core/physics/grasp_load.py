@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.geometry import Vector, add, cross, dot, rotate, scale, subtract
+from mrlab_ros.core.base.geometry import Vector, add, cross, dot, rotate, scale, subtract
 from mrlab_ros.core.physics.diagnostics import OVER_PAYLOAD, SLIPS
 from mrlab_ros.core.physics.engine import BodyState
 

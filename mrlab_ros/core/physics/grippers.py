@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.clock import SECOND
-from mrlab_ros.core.errors import Misuse
-from mrlab_ros.core.geometry import (
+from mrlab_ros.core.base.errors import Misuse
+from mrlab_ros.core.base.geometry import (
     Pose,
     Vector,
     compose,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from mrlab_ros.core.base.diagnostic import Code, Diagnostic
-from mrlab_ros.core.geometry import (
+from mrlab_ros.core.base.geometry import (
     Pose,
     Vector,
     add,

@@ -9,8 +9,8 @@ from math import isfinite
 from operator import sub
 from typing import NamedTuple
 
-from mrlab_ros.core.clock import SECOND
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.clock import SECOND
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.physics.diagnostics import JOINT_STATE_BEYOND, JOINT_STATE_SIZE
 
 # rad, or rad/s, in order of the joints. Tuples: numpy takes longer for so few numbers.

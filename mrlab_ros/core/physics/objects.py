@@ -7,9 +7,9 @@ import math
 from collections.abc import Mapping
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.errors import Misuse
-from mrlab_ros.core.geometry import WORLD_SIZE, Pose, Vector, add, checked_vector, scale
-from mrlab_ros.core.naming import checked_name
+from mrlab_ros.core.base.errors import Misuse
+from mrlab_ros.core.base.geometry import WORLD_SIZE, Pose, Vector, add, checked_vector, scale
+from mrlab_ros.core.base.names import checked_name
 from mrlab_ros.core.physics.catalogue import Catalogue, ObjectType
 from mrlab_ros.core.physics.diagnostics import (
     ALL_HELD,

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
-from mrlab_ros.core.clock import SECOND
-from mrlab_ros.core.geometry import Pose, compose
+from mrlab_ros.core.base.clock import SECOND
+from mrlab_ros.core.base.geometry import Pose, compose
 from mrlab_ros.core.physics.engine import BodyState
 from mrlab_ros.core.physics.world import World
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Mapping
 
-from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.physics.engine import BodyState
 from mrlab_ros.core.physics.grasp import Grasp
 from mrlab_ros.core.physics.simulated_robot import Robot

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from mrlab_ros.core.clock import SECOND
-from mrlab_ros.core.geometry import Pose, pose_between
+from mrlab_ros.core.base.clock import SECOND
+from mrlab_ros.core.base.geometry import Pose, pose_between
 from mrlab_ros.core.physics.engine import BodyState
 from mrlab_ros.core.physics.grasp import Grasp, GraspEvent
 from mrlab_ros.core.physics.grippers import Grippers

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.geometry import Pose, Vector, add, cross, dot, rotate, scale, subtract
+from mrlab_ros.core.base.geometry import Pose, Vector, add, cross, dot, rotate, scale, subtract
 from mrlab_ros.core.physics.diagnostics import NO_SEAL_AT_EDGE, NO_SEAL_CURVED, NO_SEAL_TILTED
 from mrlab_ros.core.physics.engine import Hit
 

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from mrlab_ros.core import records
-from mrlab_ros.core.records import Choice, Integer, Number, above, between, field
+from mrlab_ros.core.base import records
+from mrlab_ros.core.base.records import Choice, Integer, Number, above, between, field
 
 PLACE = "config/physics.yaml"
 

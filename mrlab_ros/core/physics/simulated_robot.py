@@ -8,9 +8,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from operator import mul, sub
 
+from mrlab_ros.core.base.clock import SECOND, PlaybackClock
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.clock import SECOND, PlaybackClock
-from mrlab_ros.core.geometry import Pose, Vector
+from mrlab_ros.core.base.geometry import Pose, Vector
+from mrlab_ros.core.base.state_machine import Machine
 from mrlab_ros.core.physics.clearance import Clearance
 from mrlab_ros.core.physics.engine import Arm, Kind, Touch
 from mrlab_ros.core.physics.grasp import TABLE, Grasp, GraspEvent, Gripper, StallWatch
@@ -19,7 +20,6 @@ from mrlab_ros.core.physics.joint_stream import Joints, JointStream
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.snapshots import Snapshot, Snapshots
 from mrlab_ros.core.playback.states import MOVING, State
-from mrlab_ros.core.state_machine import Machine
 
 # In these states the trajectory commands the gripper; in the others the gripper keeps its state.
 COMMANDING = (State.PLAYING, State.PAUSED, State.COLLISION_HALT)

@@ -6,7 +6,7 @@ import bisect
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.physics.engine import BodyState
 from mrlab_ros.core.physics.grasp import Grasp
 from mrlab_ros.core.physics.grasp_load import Grip

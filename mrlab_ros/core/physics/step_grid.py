@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mrlab_ros.core.clock import SECOND
+from mrlab_ros.core.base.clock import SECOND
 
 # Clearance and snapshots run every SLOW_STEPS steps; every ROOM_STEPS, a multiple of it, what has
 # left the room is looked for.

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.geometry import Array, Pose
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.geometry import Array, Pose
 from mrlab_ros.core.physics.diagnostics import (
     BAD_SOURCE,
     SURFACE_BEYOND,

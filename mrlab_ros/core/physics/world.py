@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.clock import SECOND
-from mrlab_ros.core.errors import Misuse
-from mrlab_ros.core.geometry import Pose, Vector, compose, relative
+from mrlab_ros.core.base.errors import Misuse
+from mrlab_ros.core.base.geometry import Pose, Vector, compose, relative
 from mrlab_ros.core.physics.arm_motion import ArmMotion
 from mrlab_ros.core.physics.catalogue import Catalogue
 from mrlab_ros.core.physics.collisions import Collisions

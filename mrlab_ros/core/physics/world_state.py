@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from mrlab_ros.core.base.diagnostics import NO_ROBOT_IN_SCENE
-from mrlab_ros.core.errors import Misuse
-from mrlab_ros.core.naming import close_to
+from mrlab_ros.core.base.errors import Misuse
+from mrlab_ros.core.base.names import close_to
 from mrlab_ros.core.physics.catalogue import ObjectType
 from mrlab_ros.core.physics.diagnostics import NO_OBJECT_IN_SCENE
 from mrlab_ros.core.physics.engine import BodyState, Engine

@@ -15,10 +15,10 @@ from itertools import pairwise
 
 import numpy as np
 
+from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.clock import SECOND
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.geometry import Array
 from mrlab_ros.core.playback import diagnostics as say
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.trajectory import Channels, Source, Trajectory

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.base.geometry import Array
 from mrlab_ros.core.robots.model import RobotModel
 
 

@@ -10,10 +10,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from mrlab_ros.core.base.clock import SECOND, PlaybackClock, checked_position, checked_rate
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.clock import SECOND, PlaybackClock, checked_position, checked_rate
-from mrlab_ros.core.errors import LabError, Misuse
-from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.base.errors import LabError, Misuse
+from mrlab_ros.core.base.geometry import Array
+from mrlab_ros.core.base.state_machine import Machine
 from mrlab_ros.core.playback import diagnostics as say
 from mrlab_ros.core.playback import goal as goals
 from mrlab_ros.core.playback import live
@@ -21,7 +22,6 @@ from mrlab_ros.core.playback.planner import MotionPlanner
 from mrlab_ros.core.playback.states import MOVING, TABLE, Event, State
 from mrlab_ros.core.playback.stream import Sample, Stream
 from mrlab_ros.core.robots.model import RobotModel
-from mrlab_ros.core.state_machine import Machine
 from mrlab_ros.core.trajectory.fit import check_fits
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from enum import Enum
 
-from mrlab_ros.core.state_machine import Table
+from mrlab_ros.core.base.state_machine import Table
 
 
 class State(Enum):

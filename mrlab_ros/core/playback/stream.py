@@ -13,8 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mrlab_ros.core.clock import SECOND, PlaybackClock
-from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.base.clock import SECOND, PlaybackClock
+from mrlab_ros.core.base.geometry import Array
 from mrlab_ros.core.playback.planner import Motion
 from mrlab_ros.core.trajectory.trajectory import ON_FRAME, Trajectory
 

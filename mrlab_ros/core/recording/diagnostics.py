@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mrlab_ros.core.base.diagnostic import INFO, WARNING, Code, Fix
-from mrlab_ros.core.foreign_text import for_shell
+from mrlab_ros.core.base.foreign_text import for_shell
 
 # the runs of a session
 SESSION_SUMMARY = Code(

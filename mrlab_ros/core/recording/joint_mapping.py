@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from mrlab_ros.core.base.diagnostic import Fix
-from mrlab_ros.core.errors import BadInput, Misuse
+from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.recording.diagnostics import JOINTS_OF_TOPIC, NO_SUCH_JOINTS, SEVERAL_MODELS
 
 

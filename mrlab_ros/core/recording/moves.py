@@ -8,7 +8,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from dataclasses import dataclass, field
 
-from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.base.geometry import Pose
 
 # s: a hand-over shows in the objects at most so long after it shows in the grasp.
 LATE = 0.3

@@ -12,9 +12,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from mrlab_ros.core.base.clock import SECOND, PlaybackClock
 from mrlab_ros.core.base.diagnostic import Diagnostic, plain
-from mrlab_ros.core.clock import SECOND, PlaybackClock
-from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.recording.diagnostics import RUN_BEGAN, RUN_ENDED, SESSION_SUMMARY
 from mrlab_ros.core.recording.run_figures import figures_of
 from mrlab_ros.core.recording.runs import Deed, Result, Run

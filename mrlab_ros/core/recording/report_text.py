@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.base.foreign_text import visible
 from mrlab_ros.core.base.phrase import QUANTITIES
-from mrlab_ros.core.foreign_text import visible
 from mrlab_ros.core.recording.report import Hop, Series, SessionReport
 from mrlab_ros.core.recording.runs import Run
 

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from dataclasses import fields
 from itertools import zip_longest
 
-from mrlab_ros.core.clock import SECOND
-from mrlab_ros.core.geometry import compose
+from mrlab_ros.core.base.clock import SECOND
+from mrlab_ros.core.base.geometry import compose
 from mrlab_ros.core.recording.diagnostics import (
     RUN_GRASPED,
     RUN_HANDED_OVER,

@@ -9,6 +9,7 @@ from __future__ import annotations
 from enum import Enum
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.base.state_machine import Table
 from mrlab_ros.core.recording.diagnostics import (
     ENDING,
     NO_RECORDING,
@@ -17,7 +18,6 @@ from mrlab_ros.core.recording.diagnostics import (
     RECORDING_RUNS,
     REPLAY_RUNS,
 )
-from mrlab_ros.core.state_machine import Table
 
 
 class RecorderState(Enum):

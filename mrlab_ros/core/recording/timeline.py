@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from mrlab_ros.core.clock import PlaybackClock, checked_position
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.clock import PlaybackClock, checked_position
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.recording.diagnostics import BAD_REPLAY_RATE
 from mrlab_ros.core.recording.metadata import Topic
 

@@ -7,8 +7,8 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from mrlab_ros.core.clock import SECOND
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.clock import SECOND
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.recording.diagnostics import (
     BAD_SPLIT_DURATION,
     BAD_SPLIT_SIZE,

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mrlab_ros.core.geometry import Array, Pose
+from mrlab_ros.core.base.geometry import Array, Pose
 
 WORLD = "world"
 

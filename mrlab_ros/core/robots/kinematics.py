@@ -9,8 +9,8 @@ from functools import cached_property
 
 import numpy as np
 
-from mrlab_ros.core.errors import Misuse
-from mrlab_ros.core.geometry import Array, Pose, Quaternion, Vector, pose_from_transform
+from mrlab_ros.core.base.errors import Misuse
+from mrlab_ros.core.base.geometry import Array, Pose, Quaternion, Vector, pose_from_transform
 from mrlab_ros.core.robots.diagnostics import POSITION_COUNT
 
 

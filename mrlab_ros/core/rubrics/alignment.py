@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mrlab_ros.core.geometry import Array
+from mrlab_ros.core.base.geometry import Array
 
 SAMPLES = 200  # of each motion
 

@@ -8,11 +8,9 @@ from typing import Any
 
 from mrlab_ros.core.base.diagnostic import Fix
 from mrlab_ros.core.base.diagnostics import IN_PLACE
-from mrlab_ros.core.checking.evidence import CLOSE
-from mrlab_ros.core.checking.rehearsal import FARTHEST
-from mrlab_ros.core.errors import BadInput, LabError
-from mrlab_ros.core.geometry import Pose, Vector, normalized, quaternion_from_rpy
-from mrlab_ros.core.records import (
+from mrlab_ros.core.base.errors import BadInput, LabError
+from mrlab_ros.core.base.geometry import Pose, Vector, normalized, quaternion_from_rpy
+from mrlab_ros.core.base.records import (
     FILLED_TEXT,
     FLAG,
     TEXT,
@@ -26,6 +24,8 @@ from mrlab_ros.core.records import (
     every,
     shown,
 )
+from mrlab_ros.core.checking.evidence import CLOSE
+from mrlab_ros.core.checking.rehearsal import FARTHEST
 from mrlab_ros.core.rubrics.diagnostics import (
     BAD_CLOSEST,
     BAD_POSE,

@@ -8,8 +8,8 @@ from functools import cached_property
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.diagnostics import NO_ROBOT_IN_SCENE
+from mrlab_ros.core.base.names import close_to
 from mrlab_ros.core.checking.motion import CheckedRobot
-from mrlab_ros.core.naming import close_to
 from mrlab_ros.core.physics.catalogue import ObjectType
 from mrlab_ros.core.physics.surfaces import FLOOR
 from mrlab_ros.core.rubrics.diagnostics import (

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.geometry import Array, Pose, add, inverse, rotate
+from mrlab_ros.core.base.geometry import Array, Pose, add, inverse, rotate
 from mrlab_ros.core.physics.catalogue import ObjectType
 from mrlab_ros.core.physics.surfaces import FLOOR
 from mrlab_ros.core.rubrics.checked import Checked

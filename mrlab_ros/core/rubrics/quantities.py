@@ -7,7 +7,7 @@ import re
 from dataclasses import dataclass
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.rubrics.diagnostics import (
     BEYOND_MOST,
     NO_UNIT,

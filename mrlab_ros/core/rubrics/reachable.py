@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from mrlab_ros.core.base.geometry import Array, Pose, Vector, inverse, rotate
 from mrlab_ros.core.checking.motion import CheckedRobot
-from mrlab_ros.core.geometry import Array, Pose, Vector, inverse, rotate
 
 SAMPLES, STARTS, STEPS = 4000, 24, 40
 DAMPING = 1e-3

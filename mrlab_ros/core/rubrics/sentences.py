@@ -14,8 +14,8 @@ from functools import cached_property
 from typing import Any
 
 from mrlab_ros.core.base.diagnostic import Fix
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.geometry import Pose, Vector
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.geometry import Pose, Vector
 from mrlab_ros.core.rubrics.diagnostics import (
     NEGATIVE,
     NOT_A_PLACE,

@@ -1,1 +1,1 @@
-"""How the processes of a lab live side by side."""
+"""Identity, journal and health of the processes that make a lab."""

@@ -14,11 +14,10 @@ from typing import Any, TypeVar
 import numpy as np
 
 from mrlab_ros.core.base.diagnostics import A_MAPPING
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.geometry import WORLD_SIZE, Pose
-from mrlab_ros.core.naming import checked_name
-from mrlab_ros.core.physics.surfaces import Surface
-from mrlab_ros.core.records import (
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.geometry import WORLD_SIZE, Pose
+from mrlab_ros.core.base.names import checked_name
+from mrlab_ros.core.base.records import (
     FILLED_TEXT,
     FLAG,
     NAME,
@@ -33,6 +32,7 @@ from mrlab_ros.core.records import (
     raise_all,
     unknown_field,
 )
+from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.scene.diagnostics import (
     CELL_NOT_SCENE,
     HELD_IN_PART,

@@ -11,9 +11,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from mrlab_ros.core.errors import BadInput, Misuse
-from mrlab_ros.core.geometry import Array, Pose, rotate
-from mrlab_ros.core.naming import close_to
+from mrlab_ros.core.base.errors import BadInput, Misuse
+from mrlab_ros.core.base.geometry import Array, Pose, rotate
+from mrlab_ros.core.base.names import close_to
 from mrlab_ros.core.scene.diagnostics import (
     NO_LEVEL_SURFACE,
     NO_PLACE_BEFORE_VIEWER,

@@ -9,9 +9,9 @@ from dataclasses import dataclass, replace
 from functools import cache
 
 from mrlab_ros.core.base.diagnostics import NO_ROBOT_IN_SCENE
-from mrlab_ros.core.errors import Misuse
-from mrlab_ros.core.geometry import WORLD_SIZE, Pose, checked_vector
-from mrlab_ros.core.naming import checked_name, close_to
+from mrlab_ros.core.base.errors import Misuse
+from mrlab_ros.core.base.geometry import WORLD_SIZE, Pose, checked_vector
+from mrlab_ros.core.base.names import checked_name, close_to
 from mrlab_ros.core.scene.diagnostics import NO_PLACE_ON_FLOOR
 from mrlab_ros.core.scene.placement import (
     FLOOR,

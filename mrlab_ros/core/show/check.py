@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 
 from mrlab_ros.core.base.diagnostic import plain
+from mrlab_ros.core.base.geometry import Array
 from mrlab_ros.core.checking.diagnostics import CLAIM
 from mrlab_ros.core.checking.motion import MotionFigures
 from mrlab_ros.core.checking.recording import Course, Distances, Rehearsed
 from mrlab_ros.core.checking.report import CheckReport
-from mrlab_ros.core.geometry import Array
 from mrlab_ros.core.physics.catalogue import ObjectType
 from mrlab_ros.core.physics.engine import Kind, Shape
 from mrlab_ros.core.physics.surfaces import Surface

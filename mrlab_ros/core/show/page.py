@@ -16,8 +16,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-from mrlab_ros.core.foreign_text import for_html as escape
-from mrlab_ros.core.foreign_text import visible_lines
+from mrlab_ros.core.base.foreign_text import for_html as escape
+from mrlab_ros.core.base.foreign_text import visible_lines
 
 LEVEL = 9  # of compression
 # Texts of a document that nobody reads: arrays, descriptions of robots.

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from mrlab_ros.core.foreign_text import for_html as escape
+from mrlab_ros.core.base.foreign_text import for_html as escape
 from mrlab_ros.core.recording.report_text import lasting
 from mrlab_ros.core.show.packed import unpacked
 

@@ -26,10 +26,10 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Any
 
+from mrlab_ros.core.base.clock import RATE_RANGE
 from mrlab_ros.core.base.diagnostics import ONE_OF
-from mrlab_ros.core.clock import RATE_RANGE
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.records import (
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.records import (
     FILLED_TEXT,
     FLAG,
     TEXT,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 
-from mrlab_ros.core.errors import LabError, Misuse
+from mrlab_ros.core.base.errors import LabError, Misuse
 from mrlab_ros.core.playback.states import State
 from mrlab_ros.core.systems.diagnostics import NO_TRAJECTORY_LOADED, NOT_TAKEN_BACK
 from mrlab_ros.core.systems.members import Command, Fleet, Loaded, Order

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any
 
-from mrlab_ros.core.errors import LabError
+from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.systems.members import Fleet
 from mrlab_ros.core.systems.robot_system import Policy, RobotSystem
 from mrlab_ros.core.systems.states import SystemState

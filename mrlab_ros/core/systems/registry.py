@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from mrlab_ros.core.base.diagnostics import NO_ROBOT_IN_SCENE
-from mrlab_ros.core.errors import BadInput, Misuse
-from mrlab_ros.core.naming import checked_name, close_to
+from mrlab_ros.core.base.errors import BadInput, Misuse
+from mrlab_ros.core.base.names import checked_name, close_to
 from mrlab_ros.core.playback.diagnostics import MEMBER_OF_SYSTEM
 from mrlab_ros.core.systems import diagnostics as say
 from mrlab_ros.core.systems.robot_system import RobotSystem

@@ -12,12 +12,12 @@ from contextlib import contextmanager
 from dataclasses import replace
 from enum import Enum
 
+from mrlab_ros.core.base.clock import SECOND, PlaybackClock, checked_position, checked_rate
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.clock import SECOND, PlaybackClock, checked_position, checked_rate
-from mrlab_ros.core.errors import LabError, Misuse, Unreached
+from mrlab_ros.core.base.errors import LabError, Misuse, Unreached
+from mrlab_ros.core.base.state_machine import Machine
 from mrlab_ros.core.playback import diagnostics as playback
 from mrlab_ros.core.playback.states import MOVING, State
-from mrlab_ros.core.state_machine import Machine
 from mrlab_ros.core.systems import diagnostics as say
 from mrlab_ros.core.systems.claims import Claims
 from mrlab_ros.core.systems.members import Command, Fleet, Order, Reply

@@ -9,7 +9,7 @@ from __future__ import annotations
 from enum import Enum
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.state_machine import Table
+from mrlab_ros.core.base.state_machine import Table
 from mrlab_ros.core.systems import diagnostics as say
 
 

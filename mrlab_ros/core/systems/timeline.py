@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from enum import Enum
 
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.playback.states import State
 from mrlab_ros.core.systems import diagnostics as say
 from mrlab_ros.core.systems.circles import waiting_circle

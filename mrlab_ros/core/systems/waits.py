@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.systems.diagnostics import BAD_WAIT
 
 GRAMMAR = re.compile(

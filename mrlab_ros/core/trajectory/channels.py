@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mrlab_ros.core import records
-from mrlab_ros.core.records import Number, Numbers, above, at_least, field
+from mrlab_ros.core.base import records
+from mrlab_ros.core.base.records import Number, Numbers, above, at_least, field
 from mrlab_ros.core.trajectory.trajectory import Channels
 
 Array = NDArray[np.float64]

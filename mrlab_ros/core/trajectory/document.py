@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, from_plain, plain
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.trajectory.diagnostics import COLUMN_NOT_FINITE, COLUMN_OF_TIME, COLUMN_SHAPE
 from mrlab_ros.core.trajectory.trajectory import Array, Channels, Source, Trajectory, size_of
 

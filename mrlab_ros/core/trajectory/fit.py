@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.trajectory.diagnostics import (
     OF_ANOTHER_END_EFFECTOR,
     OF_ANOTHER_MODEL,

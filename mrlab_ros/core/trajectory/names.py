@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.trajectory.diagnostics import BAD_TRAJECTORY_ID, BAD_TRAJECTORY_NAME
 
 LONGEST_NAME = 128

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.trajectory.diagnostics import (
     CHANNEL_SHAPE,
     FRAME_RATE_NOT_POSITIVE,

@@ -10,6 +10,7 @@ from collections import OrderedDict
 from collections.abc import AsyncIterator, Callable
 from dataclasses import dataclass
 
+from mrlab_ros.core.base.errors import BadInput, LabError, Unavailable
 from mrlab_ros.core.bridge.assets import (
     LARGEST_PIECE,
     Described,
@@ -17,7 +18,6 @@ from mrlab_ros.core.bridge.assets import (
     path_of_key,
     read_attachment,
 )
-from mrlab_ros.core.errors import BadInput, LabError, Unavailable
 from mrlab_ros.gateway.diagnostics import ASSET_CHANGED, ASSET_UNANSWERED, ASSET_UNSTEADY
 from mrlab_ros.gateway.errors import NotFound
 from mrlab_ros.gateway.lab.connection import LabConnection, NoAnswer, Refused, Sample

@@ -7,8 +7,8 @@ from anyio import from_thread
 
 from mrlab_ros.adapters.robots.library import TIP, RobotLibrary
 from mrlab_ros.adapters.robots.shown import from_library, shown_robot
+from mrlab_ros.core.base.errors import BadInput, LabError
 from mrlab_ros.core.bridge.assets import ROBOTS_DOCUMENT
-from mrlab_ros.core.errors import BadInput, LabError
 from mrlab_ros.core.show.document import ShownRobot
 from mrlab_ros.gateway.assets.cache import AssetCache
 from mrlab_ros.gateway.diagnostics import ASSET_TOO_LARGE, ROBOT_NOWHERE

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fastapi import APIRouter, Request, Response
 from fastapi.responses import StreamingResponse
 
-from mrlab_ros.core.errors import Unavailable
+from mrlab_ros.core.base.errors import Unavailable
 from mrlab_ros.gateway.assets.cache import AssetCache
 from mrlab_ros.gateway.diagnostics import GATEWAY_WITHOUT_LAB
 from mrlab_ros.gateway.pages import Page, is_known, respond

@@ -11,8 +11,8 @@ from typing import Any, Protocol
 
 from mrlab_ros.adapters.checking.in_lab import Task
 from mrlab_ros.core.base.diagnostic import Diagnostic, plain
+from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.checking.lab_scene import LabScene, changed
-from mrlab_ros.core.errors import LabError
 from mrlab_ros.gateway.checks.answers import Check
 from mrlab_ros.gateway.checks.diagnostics import CHECK_FAILED, TOO_MANY_CHECKS
 from mrlab_ros.gateway.errors import TooMany

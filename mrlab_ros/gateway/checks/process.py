@@ -14,7 +14,7 @@ from typing import Any
 from mrlab_ros.adapters import python_process
 from mrlab_ros.adapters.checking.in_lab import Task
 from mrlab_ros.core.base.diagnostic import from_plain
-from mrlab_ros.core.errors import BadInput, Unavailable
+from mrlab_ros.core.base.errors import BadInput, Unavailable
 from mrlab_ros.gateway.checks.diagnostics import CHECK_ENDED_EARLY, CHECK_TOO_SLOW
 
 # It gives way to others, so a busy machine takes long.

@@ -10,7 +10,7 @@ from fastapi import APIRouter, Depends, Query, Request
 from fastapi.concurrency import run_in_threadpool
 
 from mrlab_ros.adapters.checking.in_lab import Task
-from mrlab_ros.core.errors import LabError, Unavailable
+from mrlab_ros.core.base.errors import LabError, Unavailable
 from mrlab_ros.core.trajectory.record import Record, Version
 from mrlab_ros.gateway.checks import answers
 from mrlab_ros.gateway.checks.desk import CheckDesk, Key, answer

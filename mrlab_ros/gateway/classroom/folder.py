@@ -11,7 +11,7 @@ import orjson
 
 from mrlab_ros.adapters.trajectories import json_file
 from mrlab_ros.core.base.diagnostic import PLACE, Diagnostic, from_plain
-from mrlab_ros.core.errors import BadInput, Unavailable
+from mrlab_ros.core.base.errors import BadInput, Unavailable
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.gateway.classroom.diagnostics import (
     CLASS_FILE_TOO_LARGE,

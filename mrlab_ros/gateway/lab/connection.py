@@ -8,7 +8,7 @@ from enum import Enum
 from types import MappingProxyType
 from typing import Any, Protocol
 
-from mrlab_ros.core.errors import LabError
+from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.gateway.lab.definitions import Definitions
 
 # s to wait for a response. The bridge ends a call itself, after 60 s at most, and says why.

@@ -14,7 +14,7 @@ from ament_index_python.packages import PackageNotFoundError, get_package_share_
 from rosbags.interfaces import Nodetype
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
-from mrlab_ros.core.errors import BadInput, Unavailable
+from mrlab_ros.core.base.errors import BadInput, Unavailable
 from mrlab_ros.gateway.lab.diagnostics import (
     BYTES_NOT_OF_TYPE,
     NO_SUCH_FIELD,

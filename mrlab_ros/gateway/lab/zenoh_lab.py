@@ -16,8 +16,8 @@ import zenoh
 
 from mrlab_ros.adapters.zenoh.configuration import LOOPBACK, configuration, first_line
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, Severity, of_text
+from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.bridge.latency import stamps
-from mrlab_ros.core.errors import LabError
 from mrlab_ros.gateway.lab.connection import (
     CALL_TIMEOUT_S,
     GET_TIMEOUT_S,

@@ -13,8 +13,8 @@ from math import nan
 from operator import attrgetter
 from typing import Protocol
 
+from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.bridge.rules import Congestion, Direction, Rules, TopicRule
-from mrlab_ros.core.errors import LabError
 from mrlab_ros.gateway.lab.connection import LabConnection, Phase, Sample, Unsubscribe
 from mrlab_ros.gateway.lab.key_expressions import matches
 from mrlab_ros.gateway.link import frames, presence

@@ -7,7 +7,7 @@ import struct
 import time
 from contextlib import suppress
 
-from mrlab_ros.core.errors import LabError
+from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.gateway.lab.connection import LabConnection, Phase
 from mrlab_ros.gateway.link.clock_offset import ClockOffset, exchange
 

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mrlab_ros.adapters.yaml_files import read_yaml
-from mrlab_ros.core.bucket import Bucket
-from mrlab_ros.core.records import Integer, Number, between, field, read
+from mrlab_ros.core.base.records import Integer, Number, between, field, read
+from mrlab_ros.core.runtime.bucket import Bucket
 
 KIB = 1024
 LARGEST_BURST = 1024 * 1024 * KIB

@@ -7,8 +7,8 @@ import struct
 from collections.abc import Iterator
 from typing import Any
 
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.rules import Role
-from mrlab_ros.core.errors import BadInput
 from mrlab_ros.gateway.errors import NotAllowed
 from mrlab_ros.gateway.lab.definitions import Definitions
 from mrlab_ros.gateway.link.diagnostics import BAD_DISPLAY_ID, DISPLAY_TAKEN, DISPLAY_TOO_FAR

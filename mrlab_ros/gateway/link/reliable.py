@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 
-from mrlab_ros.core.errors import LabError
+from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.gateway.link.credit import ahead
 from mrlab_ros.gateway.link.diagnostics import TOO_MUCH_WAITS
 from mrlab_ros.gateway.link.frames import fragment

@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 
 import orjson
 
+from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.bridge.rules import Role, Rules
-from mrlab_ros.core.errors import LabError
 from mrlab_ros.gateway.errors import TooMany
 from mrlab_ros.gateway.lab.connection import LabConnection, Phase
 from mrlab_ros.gateway.link import hands, presence

@@ -14,9 +14,9 @@ from fastapi import APIRouter, WebSocket
 from starlette.websockets import WebSocketDisconnect
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.base.errors import BadInput, LabError
 from mrlab_ros.core.bridge.policy import Policy, Verb
-from mrlab_ros.core.errors import BadInput, LabError
-from mrlab_ros.core.freezes import LOOK_PERIOD_S, Freezes
+from mrlab_ros.core.runtime.freezes import LOOK_PERIOD_S, Freezes
 from mrlab_ros.gateway.diagnostics import GATEWAY_WITHOUT_LAB
 from mrlab_ros.gateway.errors import SOCKET_REFUSED, NotAllowed, TooMany, close
 from mrlab_ros.gateway.lab.connection import CALL_TIMEOUT_S, LabConnection, NoAnswer, TimedOut

@@ -7,8 +7,8 @@ import sqlite3
 from dataclasses import dataclass
 
 from mrlab_ros.core.base.diagnostic import Fix
+from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.bridge.rules import Role
-from mrlab_ros.core.errors import BadInput, Misuse
 from mrlab_ros.gateway.errors import NotFound
 from mrlab_ros.gateway.people.database import Database, digest, new_secret
 from mrlab_ros.gateway.people.diagnostics import (

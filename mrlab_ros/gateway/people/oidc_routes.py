@@ -14,7 +14,7 @@ from anyio import to_thread
 from fastapi import APIRouter, Depends, Request, Response
 from fastapi.responses import RedirectResponse
 
-from mrlab_ros.core.errors import LabError
+from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.gateway.errors import GatewayError, NotFound
 from mrlab_ros.gateway.people.diagnostics import NO_PROVIDER, SIGN_IN_NOT_BEGUN
 from mrlab_ros.gateway.people.oidc import PENDING_LIFETIME_S, NotBegun, Oidc

@@ -9,8 +9,8 @@ from __future__ import annotations
 import secrets
 from dataclasses import dataclass
 
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.rules import Role
-from mrlab_ros.core.errors import BadInput
 from mrlab_ros.gateway.errors import NotFound, TooMany
 from mrlab_ros.gateway.people.database import new_secret
 from mrlab_ros.gateway.people.diagnostics import (

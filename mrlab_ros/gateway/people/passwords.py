@@ -7,7 +7,7 @@ import threading
 from argon2 import PasswordHasher, profiles
 from argon2.exceptions import Argon2Error, InvalidHashError
 
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.gateway.people.diagnostics import PASSWORD_LENGTH
 
 SHORTEST = 10

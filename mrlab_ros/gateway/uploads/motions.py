@@ -13,9 +13,9 @@ from mrlab_ros.adapters.store import keys
 from mrlab_ros.adapters.store.port import Missing
 from mrlab_ros.adapters.trajectories import npz_file
 from mrlab_ros.core.base.diagnostic import Diagnostic, from_plain
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE
 from mrlab_ros.core.conversion.preview import Preview
-from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.show import document
 from mrlab_ros.gateway.errors import NotFound
 from mrlab_ros.gateway.store.shelf import Shelf, finding_fields

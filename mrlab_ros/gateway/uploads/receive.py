@@ -18,7 +18,7 @@ from fastapi.concurrency import run_in_threadpool
 
 from mrlab_ros.adapters.store import keys
 from mrlab_ros.adapters.store.port import ObjectStore, StoreFailure
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.gateway.errors import TooLarge
 from mrlab_ros.gateway.uploads.diagnostics import (
     EMPTY_UPLOAD,

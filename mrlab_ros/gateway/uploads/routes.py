@@ -11,7 +11,7 @@ from fastapi.concurrency import run_in_threadpool
 from starlette.requests import ClientDisconnect
 
 from mrlab_ros.adapters.store import keys
-from mrlab_ros.core.errors import BadInput, Unavailable
+from mrlab_ros.core.base.errors import BadInput, Unavailable
 from mrlab_ros.gateway.diagnostics import GATEWAY_WITHOUT_LAB
 from mrlab_ros.gateway.errors import NotFound, NotTheFile
 from mrlab_ros.gateway.patience import in_time

@@ -14,6 +14,7 @@ from threading import Semaphore
 from typing import TYPE_CHECKING
 
 from mrlab_ros.adapters.zenoh.port import Query
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.assets import (
     ASSETS,
     SCHEMA,
@@ -22,7 +23,6 @@ from mrlab_ros.core.bridge.assets import (
     span,
 )
 from mrlab_ros.core.bridge.diagnostics import ASSETS_BUSY
-from mrlab_ros.core.errors import BadInput
 from mrlab_ros.messages.schema import schema
 from mrlab_ros.nodes.bridge.context import BridgeContext, Count
 

@@ -15,7 +15,7 @@ from rclpy.topic_endpoint_info import TopicEndpointInfo
 from mrlab_ros.adapters.zenoh.port import Declared
 from mrlab_ros.core.bridge import rules
 from mrlab_ros.core.bridge.rules import Direction, TopicRule
-from mrlab_ros.core.bucket import Bucket
+from mrlab_ros.core.runtime.bucket import Bucket
 from mrlab_ros.nodes.bridge.context import Count, profile
 from mrlab_ros.nodes.bridge.routes import Route, TopicRoutes
 

@@ -21,13 +21,13 @@ from mrlab_ros.adapters.yaml_files import Loader
 from mrlab_ros.adapters.zenoh.port import Query, Session
 from mrlab_ros.adapters.zenoh.session import ZenohSession
 from mrlab_ros.core.base.diagnostic import Diagnostic, of_text
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge import rules
 from mrlab_ros.core.bridge.diagnostics import ALLOW_LIST_NOT_READ
 from mrlab_ros.core.bridge.latency import Ledger, clock_answer
 from mrlab_ros.core.bridge.pace import Pace
 from mrlab_ros.core.bridge.rules import Direction, ServiceRule, TopicRule
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.identity import Neighbours
+from mrlab_ros.core.runtime.identity import Neighbours
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.latency import latency_to_message
 from mrlab_ros.nodes import parameters

@@ -6,12 +6,12 @@ from pathlib import Path
 from typing import Any
 
 from mrlab_ros.adapters.zenoh.configuration import LOOPBACK, configuration, log_logins
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.access import bounds
 from mrlab_ros.core.bridge.diagnostics import CLIENT_WITHOUT_ROUTER, CONFIG_AND_KEYS
 from mrlab_ros.core.bridge.guests import Guests, Share
 from mrlab_ros.core.bridge.links import EVERYWHERE, check_endpoints, check_router, local_endpoint
 from mrlab_ros.core.bridge.rules import Rules
-from mrlab_ros.core.errors import BadInput
 from mrlab_ros.nodes.parameters import AUTOMATIC, BridgeParameters
 from mrlab_ros.ros import share
 

@@ -10,7 +10,7 @@ from mrlab_msgs import msg, srv
 from rclpy.node import Node
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, heard
-from mrlab_ros.core.errors import BadInput, Misuse
+from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.playback.diagnostics import MEMBER_OF_SYSTEM, NOT_STANDING
 from mrlab_ros.core.playback.states import State
 from mrlab_ros.core.systems.diagnostics import NO_TRAJECTORY_LOADED

@@ -12,7 +12,7 @@ from rclpy.client import Client
 from rclpy.node import Node
 
 from mrlab_ros.core.base.diagnostic import heard
-from mrlab_ros.core.errors import Misuse
+from mrlab_ros.core.base.errors import Misuse
 from mrlab_ros.core.playback.diagnostics import NOT_PLAYED, OF_ROBOT
 from mrlab_ros.core.playback.states import State
 from mrlab_ros.core.systems.diagnostics import NO_STATE_OF_ROBOT, PLAYBACK_SILENT

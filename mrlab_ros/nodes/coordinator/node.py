@@ -17,10 +17,10 @@ from rclpy.service import Service
 
 from mrlab_ros.adapters.journal import Journal
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.errors import BadInput, LabError
-from mrlab_ros.core.identity import Identity
+from mrlab_ros.core.base.errors import BadInput, LabError
 from mrlab_ros.core.playback import diagnostics as playback
 from mrlab_ros.core.playback.states import State
+from mrlab_ros.core.runtime.identity import Identity
 from mrlab_ros.core.systems import diagnostics as say
 from mrlab_ros.core.systems import journal as entries
 from mrlab_ros.core.systems.members import Command, Order

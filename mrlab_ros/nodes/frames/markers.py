@@ -12,9 +12,9 @@ from rclpy.node import Node
 from visualization_msgs.msg import Marker, MarkerArray
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.core.errors import LabError
-from mrlab_ros.core.identity import Identity
+from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.robots.frames import frame_name
+from mrlab_ros.core.runtime.identity import Identity
 from mrlab_ros.messages import markers, qos
 from mrlab_ros.nodes.catalogue import CatalogueClient
 from mrlab_ros.ros import share

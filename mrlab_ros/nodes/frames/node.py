@@ -17,8 +17,8 @@ from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
 from mrlab_ros.adapters.robots.published import together
-from mrlab_ros.core.errors import LabError
-from mrlab_ros.core.identity import Identity
+from mrlab_ros.core.base.errors import LabError
+from mrlab_ros.core.runtime.identity import Identity
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.frames import transforms_to_message
 from mrlab_ros.messages.poses import pose_from_message

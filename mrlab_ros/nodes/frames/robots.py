@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from mrlab_ros.adapters.robots import urdf
-from mrlab_ros.core.clock import SECOND
-from mrlab_ros.core.geometry import Array, Pose
+from mrlab_ros.core.base.clock import SECOND
+from mrlab_ros.core.base.geometry import Array, Pose
 from mrlab_ros.core.robots.frames import WORLD, LinkFrames
 from mrlab_ros.messages import joint_states
 from mrlab_ros.messages.frames import TransformsEncoder

@@ -18,9 +18,9 @@ from mrlab_ros.adapters.robots.published import published
 from mrlab_ros.adapters.scenes.files import SceneFiles
 from mrlab_ros.adapters.scenes.state_file import SCENE_FILE, StateFile
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.errors import LabError
-from mrlab_ros.core.geometry import Pose
-from mrlab_ros.core.identity import Identity
+from mrlab_ros.core.base.errors import LabError
+from mrlab_ros.core.base.geometry import Pose
+from mrlab_ros.core.runtime.identity import Identity
 from mrlab_ros.core.scene.document import RobotEntry, SceneDocument
 from mrlab_ros.core.scene.restore import self_contained, with_pending
 from mrlab_ros.core.scene.robots import PlacedRobot, Scene

@@ -12,8 +12,8 @@ from rclpy.node import Node
 from rclpy.serialization import deserialize_message
 from rclpy.subscription import Subscription
 
-from mrlab_ros.core.errors import LabError
-from mrlab_ros.core.identity import Identity
+from mrlab_ros.core.base.errors import LabError
+from mrlab_ros.core.runtime.identity import Identity
 from mrlab_ros.core.scene.placement import Support, Thing
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.physics import supports_from_message, things_from_message

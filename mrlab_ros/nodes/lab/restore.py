@@ -14,7 +14,7 @@ from rclpy.client import Client
 from rclpy.node import Node
 
 from mrlab_ros.core.base.diagnostic import Code, Diagnostic, heard
-from mrlab_ros.core.errors import LabError, Misuse
+from mrlab_ros.core.base.errors import LabError, Misuse
 from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.scene.diagnostics import STEP_FAILED
 from mrlab_ros.core.scene.document import ObjectEntry, RobotEntry, SceneDocument, SystemEntry

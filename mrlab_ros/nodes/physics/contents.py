@@ -8,11 +8,11 @@ from contextlib import AbstractContextManager
 from dataclasses import replace
 
 from mrlab_ros.adapters.scenes.state_file import StateFile
+from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.diagnostics import IN_PLACE
-from mrlab_ros.core.clock import SECOND
-from mrlab_ros.core.errors import BadInput, LabError
-from mrlab_ros.core.naming import checked_name
+from mrlab_ros.core.base.errors import BadInput, LabError
+from mrlab_ros.core.base.names import checked_name
 from mrlab_ros.core.physics.engine import BodyState
 from mrlab_ros.core.physics.pending_grasp import PendingGrasp
 from mrlab_ros.core.physics.surfaces import Surface

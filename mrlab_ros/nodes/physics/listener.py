@@ -15,10 +15,9 @@ from rclpy.subscription import Subscription
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 
+from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.clock import SECOND
-from mrlab_ros.core.errors import LabError
-from mrlab_ros.core.identity import Identity
+from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.physics.diagnostics import LET_GO
 from mrlab_ros.core.physics.engine import LinkPairs
 from mrlab_ros.core.physics.grasp import Gripper
@@ -26,6 +25,7 @@ from mrlab_ros.core.physics.grasp_load import Tool
 from mrlab_ros.core.physics.simulated_robot import GripperProgram, Playing
 from mrlab_ros.core.physics.world import World
 from mrlab_ros.core.robots.frames import without_frames
+from mrlab_ros.core.runtime.identity import Identity
 from mrlab_ros.messages import joint_states, qos
 from mrlab_ros.messages import physics as messages
 from mrlab_ros.messages.poses import pose_from_message

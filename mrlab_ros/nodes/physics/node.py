@@ -19,9 +19,9 @@ from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.scenes.object_meshes import ObjectMeshes
 from mrlab_ros.adapters.scenes.state_file import StateFile
 from mrlab_ros.adapters.yaml_files import read_yaml
+from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.clock import SECOND
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.world import World

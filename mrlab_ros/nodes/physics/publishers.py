@@ -11,7 +11,7 @@ from rclpy.node import Node
 from rclpy.publisher import Publisher
 from sensor_msgs.msg import JointState
 
-from mrlab_ros.core.clock import SECOND
+from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.physics.engine import BodyState
 from mrlab_ros.core.physics.events import CollisionChanged, Event, LoadChanged, ObjectRemoved
 from mrlab_ros.core.physics.surfaces import Surface

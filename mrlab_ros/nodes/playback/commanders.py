@@ -15,7 +15,7 @@ from rclpy.timer import Timer
 from sensor_msgs.msg import JointState
 from trajectory_msgs.msg import JointTrajectory
 
-from mrlab_ros.core.errors import LabError, Misuse
+from mrlab_ros.core.base.errors import LabError, Misuse
 from mrlab_ros.core.playback import diagnostics as say
 from mrlab_ros.core.playback.goal import Code, WrongGoal
 from mrlab_ros.core.playback.playback import Playback, PlaybackStatus

@@ -23,8 +23,8 @@ from std_msgs.msg import String
 from mrlab_ros.adapters.robots.library import MESH_PREFIX, RobotLibrary
 from mrlab_ros.adapters.trajectories.json_file import chunks
 from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.bridge.assets import media_type
-from mrlab_ros.core.errors import LabError
 from mrlab_ros.core.robots.frames import without_frames
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.messages import qos, trajectories

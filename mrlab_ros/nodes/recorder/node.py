@@ -21,15 +21,15 @@ from mrlab_ros.adapters.bags.reader import Bag, default_folder
 from mrlab_ros.adapters.bags.writer import BagWriter
 from mrlab_ros.adapters.journal import Journal
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.errors import LabError
+from mrlab_ros.core.base.errors import LabError
+from mrlab_ros.core.base.state_machine import Machine
 from mrlab_ros.core.recording import journal as entries
 from mrlab_ros.core.recording.diagnostics import REPLAY_OVER
 from mrlab_ros.core.recording.metadata import GAP, Gap
 from mrlab_ros.core.recording.states import TABLE, RecorderEvent, RecorderState, reason
 from mrlab_ros.core.recording.timeline import ReplayTimeline
 from mrlab_ros.core.recording.topics import Split, Topics
-from mrlab_ros.core.state_machine import Machine
-from mrlab_ros.core.watch import RESTART_SHOWN_S
+from mrlab_ros.core.runtime.watch import RESTART_SHOWN_S
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.definitions import definition
 from mrlab_ros.messages.recorder import recorder_state_to_message

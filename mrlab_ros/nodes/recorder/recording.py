@@ -10,9 +10,9 @@ from rclpy.node import Node
 from rclpy.subscription import Subscription
 
 from mrlab_ros.adapters.bags.writer import BagWriter
+from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.clock import SECOND
-from mrlab_ros.core.errors import BadInput, LabError
+from mrlab_ros.core.base.errors import BadInput, LabError
 from mrlab_ros.core.recording.metadata import Topic
 from mrlab_ros.core.recording.topics import Split, Topics
 from mrlab_ros.messages.qos import message_class, profile, topic_of

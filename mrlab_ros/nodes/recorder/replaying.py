@@ -16,10 +16,10 @@ from rclpy.publisher import Publisher
 from mrlab_ros.adapters.bags.mcap_file import Message
 from mrlab_ros.adapters.bags.migration import Convert, migration
 from mrlab_ros.adapters.bags.reader import Bag
+from mrlab_ros.core.base.clock import SECOND, checked_position
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
-from mrlab_ros.core.clock import SECOND, checked_position
-from mrlab_ros.core.errors import BadInput, LabError, Misuse
-from mrlab_ros.core.foreign_text import for_shell
+from mrlab_ros.core.base.errors import BadInput, LabError, Misuse
+from mrlab_ros.core.base.foreign_text import for_shell
 from mrlab_ros.core.recording.diagnostics import LEFT_OUT, NOTHING_TO_REPLAY
 from mrlab_ros.core.recording.metadata import Topic
 from mrlab_ros.core.recording.timeline import ReplayTimeline, is_state

@@ -10,7 +10,7 @@ from rclpy.node import Node
 from mrlab_ros.adapters.bags.reader import Bag
 from mrlab_ros.adapters.trajectories.json_file import parse
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.messages import trajectories
 from mrlab_ros.nodes.recorder.attachments import trajectory_name
 from mrlab_ros.nodes.recorder.diagnostics import BAG_TRAJECTORY

@@ -11,7 +11,7 @@ import sys
 import pytest
 
 from mrlab_ros.adapters.journal import Journal
-from mrlab_ros.core import journal as form
+from mrlab_ros.core.runtime import journal as form
 
 
 @pytest.fixture

@@ -15,7 +15,7 @@ from refusals import refused
 
 from mrlab_ros.adapters import walled
 from mrlab_ros.adapters.diagnostics import READER_FAILED, READER_MEMORY, READER_SLOW
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 
 
 def test_a_call_answers(tmp_path: Path) -> None:

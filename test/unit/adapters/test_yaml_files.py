@@ -21,7 +21,7 @@ from mrlab_ros.adapters.diagnostics import (
 from mrlab_ros.adapters.yaml_files import RosLoader, read_with_lines, read_yaml
 from mrlab_ros.core.base.diagnostic import Code
 from mrlab_ros.core.base.diagnostics import EMPTY_VALUE
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 
 
 def read(folder: Path, text: str, **options: Any) -> object:

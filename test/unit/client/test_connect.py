@@ -9,7 +9,7 @@ from refusals import refused
 
 from mrlab_ros.client import connect
 from mrlab_ros.commands.open import running_web
-from mrlab_ros.core.errors import Misuse
+from mrlab_ros.core.base.errors import Misuse
 from mrlab_ros.processes.diagnostics import LABS_ELSEWHERE
 from mrlab_ros.processes.run_file import RunFile, domains
 from mrlab_ros.ros.calls import NoAnswer

@@ -20,7 +20,7 @@ from mrlab_ros.cli import make_app
 from mrlab_ros.commands.classroom import command, worker
 from mrlab_ros.commands.classroom.grader import Grader
 from mrlab_ros.commands.classroom.setup import Bounds, MiB, Setup, Task
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.rubrics.rubric import Rubric, Test
 from mrlab_ros.core.scene.document import SceneDocument
 

@@ -26,10 +26,10 @@ from mrlab_ros.commands.diagnostics import (
 )
 from mrlab_ros.commands.record import record
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.errors import LabError, Misuse
+from mrlab_ros.core.base.errors import LabError, Misuse
 from mrlab_ros.core.recording.diagnostics import RECORDING_GAP
 from mrlab_ros.core.recording.states import RecorderState
-from mrlab_ros.core.watch import Sign
+from mrlab_ros.core.runtime.watch import Sign
 from mrlab_ros.messages.diagnostics import signs_to_message
 from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.graph import Watch

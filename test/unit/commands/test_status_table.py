@@ -11,7 +11,7 @@ from rich.console import Console
 from mrlab_ros.commands.status.table import overview
 from mrlab_ros.core.base.diagnostic import Diagnostic, of_text, plain
 from mrlab_ros.core.runtime.diagnostics import PROCESS_SILENT
-from mrlab_ros.core.watch import Freeze, Sign, joined
+from mrlab_ros.core.runtime.watch import Freeze, Sign, joined
 
 RESTARTED = Sign("playback", 1, "SIGKILL").trouble(3.0)
 FROZEN = Sign("playback", freeze=Freeze(17.0, 5.0)).trouble(900.0)

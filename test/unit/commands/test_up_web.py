@@ -18,8 +18,8 @@ from mrlab_ros.commands.up.web import (
     run_facts,
     say_where,
 )
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.access import Login
-from mrlab_ros.core.errors import BadInput
 from mrlab_ros.gateway.diagnostics import OPEN_TO_NETWORK
 from mrlab_ros.gateway.people.accounts import Accounts
 from mrlab_ros.gateway.people.database import FILE, Database

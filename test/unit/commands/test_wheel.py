@@ -8,7 +8,7 @@ import pytest
 from typer.testing import CliRunner
 
 from mrlab_ros import cli
-from mrlab_ros.core.errors import LabError
+from mrlab_ros.core.base.errors import LabError
 
 
 @pytest.mark.parametrize("name", ["rclpy", "mrlab_msgs.msg", "builtin_interfaces"])

@@ -12,8 +12,8 @@ from refusals import refused
 from mrlab_ros.adapters.keys import certificates
 from mrlab_ros.adapters.keys.diagnostics import KEY_FILE_OPEN
 from mrlab_ros.adapters.keys.folder import Keys, now
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.access import Login
-from mrlab_ros.core.errors import BadInput
 from mrlab_ros.gateway.diagnostics import (
     BAD_ADDRESS,
     BAD_PUBLIC_URL,

@@ -8,7 +8,7 @@ import pytest
 
 from mrlab_ros.adapters.store.diagnostics import NOT_IN_STORE, STORE_FAILED
 from mrlab_ros.adapters.store.port import Missing, StoreFailure
-from mrlab_ros.core.errors import BadInput, LabError, Misuse, Unavailable
+from mrlab_ros.core.base.errors import BadInput, LabError, Misuse, Unavailable
 from mrlab_ros.gateway import errors
 from mrlab_ros.gateway.diagnostics import NOTHING_AT
 from mrlab_ros.gateway.lab.connection import NoAnswer, Refused, TimedOut

@@ -11,7 +11,7 @@ from refusals import refused
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from mrlab_ros.core.base.diagnostics import TYPE_NOT_INSTALLED
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.messages.definitions import SEPARATOR, definition
 
 SHARE = Path(get_package_share_directory("mrlab_msgs")) / "msg"

@@ -5,8 +5,8 @@ from __future__ import annotations
 from diagnostic_msgs.msg import DiagnosticStatus
 
 from mrlab_ros.core.base.diagnostic import Severity, of_text
+from mrlab_ros.core.runtime.watch import Sign
 from mrlab_ros.core.systems.diagnostics import SYSTEM_LOST
-from mrlab_ros.core.watch import Sign
 from mrlab_ros.messages.diagnostics import living_in, signs_to_message, troubles_in
 
 

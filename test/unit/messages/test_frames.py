@@ -7,7 +7,7 @@ import pytest
 from rclpy.serialization import deserialize_message, serialize_message
 from tf2_msgs.msg import TFMessage
 
-from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.messages.frames import TransformsEncoder, transforms_to_message
 
 FRAMES = [("world", "a/base_link"), ("a/base_link", "a/link_1"), ("b", "bcd/l")]

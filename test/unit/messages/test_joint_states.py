@@ -14,9 +14,9 @@ from refusals import refused
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Header
 
+from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.base.diagnostics import JOINT_STATE_UNEVEN, JOINT_STATE_WITHOUT
-from mrlab_ros.core.clock import SECOND
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.messages import joint_states
 from mrlab_ros.messages.joint_states import JointStateEncoder
 

@@ -7,7 +7,7 @@ import yaml
 from shape_msgs.msg import SolidPrimitive
 
 from mrlab_ros.adapters.scenes.object_meshes import ObjectMeshes
-from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics.engine import BodyState
 from mrlab_ros.core.physics.world_state import SceneObject

@@ -11,7 +11,7 @@ from mrlab_msgs import msg, srv
 from rclpy.serialization import deserialize_message, serialize_message
 
 from mrlab_ros.client.robot import standing
-from mrlab_ros.core.errors import Misuse
+from mrlab_ros.core.base.errors import Misuse
 from mrlab_ros.messages.requests import fitted
 
 

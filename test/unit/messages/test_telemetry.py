@@ -8,7 +8,7 @@ from fakes import make_trajectory
 from mrlab_msgs import msg
 from rclpy.serialization import deserialize_message
 
-from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.playback.stream import Sample
 from mrlab_ros.messages.poses import pose_from_message
 from mrlab_ros.messages.telemetry import TelemetryEncoder

@@ -12,9 +12,9 @@ from mrlab_msgs.msg import Trajectory as TrajectoryMessage
 from rclpy.serialization import deserialize_message, serialize_message
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, Severity
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.conversion.preview import preview
 from mrlab_ros.core.conversion.workspace import Variable
-from mrlab_ros.core.errors import BadInput
 from mrlab_ros.messages import trajectories
 from mrlab_ros.messages.poses import transform_to_pose_message
 

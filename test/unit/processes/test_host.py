@@ -8,7 +8,7 @@ import sys
 
 import pytest
 
-from mrlab_ros.core.records import fields_of
+from mrlab_ros.core.base.records import fields_of
 from mrlab_ros.nodes.parameters import NODES as PARAMETERS
 from mrlab_ros.processes import host
 from mrlab_ros.processes.lab import NODES

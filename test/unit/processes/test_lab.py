@@ -21,9 +21,9 @@ from mrlab_ros.adapters.keys.folder import Keys, now
 from mrlab_ros.commands.demo.lab import free_port
 from mrlab_ros.commands.up.speaker import COLOURS
 from mrlab_ros.commands.up.surroundings import DISCOVERY, folder_for_state
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.access import Login
 from mrlab_ros.core.bridge.diagnostics import BAD_ENDPOINT, OPEN_ENDPOINT, TLS_NEEDS_KEYS
-from mrlab_ros.core.errors import BadInput
 from mrlab_ros.gateway.__main__ import settings_of
 from mrlab_ros.processes import physics_support
 from mrlab_ros.processes.child import WRONG_CONFIGURATION

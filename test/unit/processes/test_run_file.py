@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from mrlab_ros.core.errors import Unavailable
+from mrlab_ros.core.base.errors import Unavailable
 from mrlab_ros.processes.run_file import RunFile, domains, folder
 
 NAME = f"mrlab-{os.getuid()}"

@@ -14,7 +14,7 @@ from pathlib import Path
 import psutil
 import pytest
 
-from mrlab_ros.core.errors import Misuse
+from mrlab_ros.core.base.errors import Misuse
 from mrlab_ros.processes.child import (
     RESTARTS,
     WRONG_CONFIGURATION,

@@ -11,7 +11,7 @@ import pytest
 from fakes import StraightPlanner, make_model, make_trajectory
 from graph import wait_for
 
-from mrlab_ros.core.clock import SECOND
+from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.playback.playback import Playback
 from mrlab_ros.core.playback.states import State
 from mrlab_ros.ros.clock import LabClock

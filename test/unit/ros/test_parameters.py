@@ -15,9 +15,9 @@ from rclpy.context import Context
 from rclpy.parameter import Parameter
 from rclpy.serialization import deserialize_message, serialize_message
 
-from mrlab_ros.core import records
+from mrlab_ros.core.base import records
 from mrlab_ros.core.base.diagnostic import plain as as_json
-from mrlab_ros.core.records import (
+from mrlab_ros.core.base.records import (
     FLAG,
     TEXT,
     Choice,

@@ -8,7 +8,7 @@ from concurrent.futures import CancelledError
 import pytest
 from graph import wait_for
 
-from mrlab_ros.core.errors import Misuse
+from mrlab_ros.core.base.errors import Misuse
 from mrlab_ros.ros.worker import Worker
 
 

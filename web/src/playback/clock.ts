@@ -1,5 +1,5 @@
 /** The clock of a trajectory: position(t) = position + rate * (t - stamp). The same pair as
- * `mrlab_msgs/msg/PlaybackClock` and `mrlab_ros/core/clock.py`. */
+ * `mrlab_msgs/msg/PlaybackClock` and `mrlab_ros/core/base/clock.py`. */
 export interface PlaybackClock {
   /** Lab time at which `position` holds, s; where it lies ahead, the clock starts then. */
   readonly stamp: number

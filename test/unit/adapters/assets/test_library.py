@@ -14,8 +14,8 @@ from mrlab_ros.adapters.assets.diagnostics import NO_ASSET
 from mrlab_ros.adapters.assets.library import Assets
 from mrlab_ros.adapters.robots.diagnostics import NO_ROBOT_MODEL
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.assets import Span, key_of_uri
-from mrlab_ros.core.errors import BadInput
 
 ROOT = Path(__file__).parents[4]
 PAIR = {

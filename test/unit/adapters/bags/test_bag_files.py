@@ -55,7 +55,7 @@ from mrlab_ros.adapters.bags.writer import (
     WholeFile,
     is_being_written,
 )
-from mrlab_ros.core.errors import BadInput, Misuse
+from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.recording.diagnostics import METADATA_TOO_NEW, repairing
 from mrlab_ros.core.recording.metadata import QosProfile, Topic
 

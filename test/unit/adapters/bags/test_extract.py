@@ -5,7 +5,7 @@ import pytest
 from mrlab_ros.adapters.bags.extract import extract
 from mrlab_ros.adapters.bags.reader import Bag
 from mrlab_ros.adapters.bags.writer import BagWriter
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 
 pytestmark = pytest.mark.fast
 

@@ -6,7 +6,7 @@ from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from mrlab_ros.adapters.bags.diagnostics import FIELD_CHANGED
 from mrlab_ros.adapters.bags.migration import migration
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 
 KIND = "lab_msgs/msg/State"
 INNER = "=" * 80 + "\nMSG: lab_msgs/Clock\n"

@@ -18,9 +18,9 @@ from mrlab_ros.adapters.robots.diagnostics import FOLDER_IN_USE
 from mrlab_ros.adapters.robots.exporting import export
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.yaml_files import read_yaml
-from mrlab_ros.core.clock import SECOND, PlaybackClock
-from mrlab_ros.core.errors import BadInput, Misuse
-from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.base.clock import SECOND, PlaybackClock
+from mrlab_ros.core.base.errors import BadInput, Misuse
+from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics.engine import Body, BodyState, Kind, Part, Shape
 from mrlab_ros.core.physics.events import CollisionChanged, GraspChanged

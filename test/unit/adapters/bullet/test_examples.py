@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from physics_stage import HANDOVER, LIBRARY, SCENES, Stage
 
-from mrlab_ros.core.clock import SECOND
+from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.physics.events import GraspChanged
 from mrlab_ros.core.physics.grasp import Grasp, Gripper
 

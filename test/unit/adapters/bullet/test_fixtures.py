@@ -10,7 +10,7 @@ import pytest
 from physics_cell import LIP, PADS, TYPES, Cell, gantry
 
 from mrlab_ros.adapters.bullet.objects import LOOKED_AT
-from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.physics.diagnostics import (
     CAME_OFF_CUP,
     NO_SEAL_AT_EDGE,

@@ -22,9 +22,9 @@ from mrlab_ros.adapters.scenes.diagnostics import (
 )
 from mrlab_ros.adapters.scenes.object_meshes import ObjectMeshes
 from mrlab_ros.adapters.yaml_files import read_yaml
-from mrlab_ros.core.clock import SECOND
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.base.clock import SECOND
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics.catalogue import HULL_CORNERS
 from mrlab_ros.core.physics.engine import Shape

@@ -11,8 +11,8 @@ import pybullet
 import pytest
 
 from mrlab_ros.adapters.bullet.engine import GRAVITY, BulletEngine
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.physics.engine import Body, BodyState, Kind, Part, Shape
 
 STEP = 1 / 240

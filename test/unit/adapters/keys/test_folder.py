@@ -49,6 +49,7 @@ from mrlab_ros.commands.diagnostics import BRIDGE_PORT_TAKEN, KEYS_OR_INSECURE, 
 from mrlab_ros.commands.up import keys as up_keys
 from mrlab_ros.commands.up.keys import checked_listen, checked_router, free_endpoint
 from mrlab_ros.commands.up.web import prepare_keys
+from mrlab_ros.core.base.errors import BadInput, LabError, Misuse
 from mrlab_ros.core.bridge import rules
 from mrlab_ros.core.bridge.access import Login
 from mrlab_ros.core.bridge.diagnostics import (
@@ -58,7 +59,6 @@ from mrlab_ros.core.bridge.diagnostics import (
     TLS_NEEDS_KEYS,
 )
 from mrlab_ros.core.bridge.rules import Role
-from mrlab_ros.core.errors import BadInput, LabError, Misuse
 from mrlab_ros.processes.lab import lab_processes
 from mrlab_ros.processes.options import LabOptions
 

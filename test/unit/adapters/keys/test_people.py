@@ -25,9 +25,9 @@ from mrlab_ros.adapters.keys.people import (
     read_passwords,
     write_passwords,
 )
+from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.bridge.access import Login, Person
 from mrlab_ros.core.bridge.rules import Role
-from mrlab_ros.core.errors import BadInput, Misuse
 
 NOW = datetime(2026, 9, 1, 8, tzinfo=timezone.utc)
 DAY = timedelta(days=1)

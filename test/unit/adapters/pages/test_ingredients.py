@@ -6,7 +6,7 @@ from refusals import refused
 
 from mrlab_ros.adapters.diagnostics import REPORT_NOT_BUILT
 from mrlab_ros.adapters.pages import ingredients
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 
 URDF = """<robot name="r"><link name="a">
 <visual><geometry><mesh filename="package://p/here.glb"/></geometry></visual>

@@ -32,7 +32,7 @@ from mrlab_ros.adapters.robots.importing import import_robot
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.robots.source import find_description
 from mrlab_ros.core.base.diagnostic import Code
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 
 # Each file is read by a process of its own.
 pytestmark = pytest.mark.slow

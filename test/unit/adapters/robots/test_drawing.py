@@ -16,7 +16,7 @@ from mrlab_ros.adapters.robots import drawing
 from mrlab_ros.adapters.robots.diagnostics import SHEET_FORMAT
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.commands.robots import app
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 
 ROBOTS = Path(__file__).resolve().parents[4] / "robots"
 LIBRARY = RobotLibrary(ROBOTS, ROBOTS / "none imported")

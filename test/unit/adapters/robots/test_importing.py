@@ -38,7 +38,7 @@ from mrlab_ros.adapters.robots.source import MeshFinder, find_description
 from mrlab_ros.adapters.robots.vendor_meshes import remove, use_meshes
 from mrlab_ros.core.base.diagnostic import Code
 from mrlab_ros.core.base.diagnostics import BAD_VALUE, EMPTY_VALUE
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 
 # Each file is read by a process of its own.
 pytestmark = pytest.mark.slow

@@ -13,7 +13,7 @@ from refusals import refused
 from mrlab_ros.adapters.robots.diagnostics import NO_END_EFFECTOR, NO_ROBOT_MODEL
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.core.base.diagnostics import ONE_OF
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 
 ROBOTS = Path(__file__).resolve().parents[4] / "robots"
 LIBRARY = RobotLibrary(ROBOTS, ROBOTS / "none imported")

@@ -19,8 +19,8 @@ from mrlab_ros.adapters.robots import urdf
 from mrlab_ros.adapters.robots.diagnostics import ROOT_LINKS
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.robots.published import published, together
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.geometry import Array, Pose, compose
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.geometry import Array, Pose, compose
 from mrlab_ros.core.robots.frames import LinkFrames, without_frames
 
 ROOT = Path(__file__).parents[4]

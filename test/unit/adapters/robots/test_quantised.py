@@ -11,7 +11,7 @@ from refusals import refused
 from mrlab_ros.adapters.robots import quantised as module
 from mrlab_ros.adapters.robots.diagnostics import ROBOT_MESH_UNREADABLE
 from mrlab_ros.adapters.robots.quantised import quantised
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 
 ROBOTS = Path(__file__).parents[4] / "robots"
 MESHES = sorted(ROBOTS.glob("ur5e/meshes/*.glb")) + sorted(

@@ -11,7 +11,7 @@ from refusals import refused
 
 from mrlab_ros.adapters.robots.diagnostics import MOTION_SIZE
 from mrlab_ros.adapters.robots.ruckig_planner import RuckigPlanner, StagingLimits
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 
 LIMITS = StagingLimits(velocity_share=0.5, acceleration=6.0, jerk=30.0)
 pose = arrays(np.float64, 6, elements=st.floats(-3, 3))

@@ -13,7 +13,7 @@ from mrlab_ros.adapters.robots import sheet
 from mrlab_ros.adapters.robots.diagnostics import SHEET_FORMAT
 from mrlab_ros.adapters.robots.importing import import_robot
 from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 
 ROBOTS = Path(__file__).resolve().parents[4] / "robots"
 LIMIT = '<limit lower="{}" upper="{}" velocity="1" effort="1"/>'

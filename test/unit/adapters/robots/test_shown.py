@@ -6,7 +6,7 @@ import pytest
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.robots.shown import from_library, shown_robot
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 
 LIBRARY = RobotLibrary(Path(__file__).parents[4] / "robots", imported=Path("/nonexistent"))
 

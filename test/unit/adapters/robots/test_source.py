@@ -13,7 +13,7 @@ from refusals import refused
 from mrlab_ros.adapters import wall
 from mrlab_ros.adapters.robots.diagnostics import XACRO_NO_WALL, XACRO_REFUSED
 from mrlab_ros.adapters.robots.source import description_text
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 
 # Each file is read by a process of its own.
 pytestmark = pytest.mark.slow

@@ -25,8 +25,8 @@ from mrlab_ros.core.base.diagnostics import (
     ROWS_OF_NUMBERS,
     UNKNOWN_FIELD,
 )
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.scene.diagnostics import NAMED_TWICE

@@ -16,8 +16,8 @@ from refusals import refused
 
 from mrlab_ros.adapters.diagnostics import NO_ROOM_ON_DISK
 from mrlab_ros.adapters.scenes.state_file import StateFile
-from mrlab_ros.core.errors import LabError
-from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.base.errors import LabError
+from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.scene.document import (
     MemberEntry,

@@ -7,7 +7,7 @@ from refusals import refused
 
 from mrlab_ros.adapters.store import keys
 from mrlab_ros.adapters.store.diagnostics import EMPTY_STORE_NAME, NO_UPLOAD_KEY
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 
 NAMES = st.text(min_size=1, max_size=300)
 

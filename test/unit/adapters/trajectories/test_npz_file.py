@@ -15,7 +15,7 @@ from refusals import refused
 from mrlab_ros.adapters.trajectories import npz_file
 from mrlab_ros.adapters.trajectories.npz_file import Damaged
 from mrlab_ros.core.base.diagnostic import Diagnostic, Severity
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.trajectory import document
 from mrlab_ros.core.trajectory.diagnostics import DAMAGED_TRAJECTORY, NEWER_FORMAT, NO_SUCH_FRAME
 from mrlab_ros.core.trajectory.trajectory import Channels

@@ -12,7 +12,7 @@ from mrlab_ros.adapters import wall
 from mrlab_ros.adapters.workspaces import mat73, worker
 from mrlab_ros.adapters.workspaces.mat5 import Damaged, TooLarge
 from mrlab_ros.adapters.workspaces.reader import WorkspaceReader
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 
 pytestmark = pytest.mark.fast
 AT_ONCE = 150  # of the 2,000 files of the fuzz, in `make test`

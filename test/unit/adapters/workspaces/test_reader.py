@@ -18,7 +18,7 @@ from graph import wait_for
 from refusals import said_in
 
 from mrlab_ros.adapters.workspaces.reader import Limits, MiB, WorkspaceReader
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 
 pytestmark = pytest.mark.slow
 

@@ -14,10 +14,10 @@ from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.trajectories import npz_file
 from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
 from mrlab_ros.adapters.workspaces import results
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.conversion.convert import Outcome
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
-from mrlab_ros.core.errors import BadInput
 from mrlab_ros.core.trajectory.diagnostics import BAD_TRAJECTORY_NAME
 
 SOURCES = Path(__file__).parents[4]

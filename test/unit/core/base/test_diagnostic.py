@@ -17,7 +17,7 @@ from mrlab_ros.core.base.diagnostic import (
     plain,
     to_texts,
 )
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 
 FAR = Code(
     "far",

@@ -5,6 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from refusals import refused
 
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge import diagnostics as say
 from mrlab_ros.core.bridge.assets import (
     LARGEST_PIECE,
@@ -17,7 +18,6 @@ from mrlab_ros.core.bridge.assets import (
     read_attachment,
     span,
 )
-from mrlab_ros.core.errors import BadInput
 
 PART = st.text(min_size=1, max_size=12).filter(
     lambda part: not part.startswith(".") and not set(part) & set("/\\\0") and part.isprintable()

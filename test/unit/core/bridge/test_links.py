@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 from refusals import refused
 
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge import diagnostics as say
 from mrlab_ros.core.bridge import links
-from mrlab_ros.core.errors import BadInput
 
 
 @pytest.mark.parametrize(

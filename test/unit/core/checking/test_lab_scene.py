@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.checking.lab_scene import LabScene, changed
-from mrlab_ros.core.geometry import Pose
 from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.scene.document import ObjectEntry, RobotEntry, SceneDocument
 

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from fake_engine import FakeEngine
 
+from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.checking import evidence
 from mrlab_ros.core.checking.rehearsal import FARTHEST, Actor, Rehearsal
 from mrlab_ros.core.checking.report import CheckReport, digest, in_order
-from mrlab_ros.core.geometry import Pose
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics.engine import Kind
 from mrlab_ros.core.physics.grasp import Gripper

@@ -11,12 +11,12 @@ from refusals import said_in
 from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
 from mrlab_ros.adapters.workspaces.diagnostics import READERS_DISAGREE, UNREADABLE
 from mrlab_ros.core.base.diagnostic import Severity
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.conversion import convert as conversion_convert
 from mrlab_ros.core.conversion import joining
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome, id_from
 from mrlab_ros.core.conversion.options import Options, parse_columns
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
-from mrlab_ros.core.errors import BadInput
 
 COEFFICIENTS = load_coefficients(Path(__file__).parents[4] / "config" / "torque_proxy.yaml")
 ARM = make_model(6)  # 6 joints, -3 to 3 rad, 2 rad/s

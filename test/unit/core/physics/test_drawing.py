@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from mrlab_ros.core.geometry import Pose, quaternion_from_rpy
+from mrlab_ros.core.base.geometry import Pose, quaternion_from_rpy
 from mrlab_ros.core.physics.drawing import glb, surface
 from mrlab_ros.core.physics.engine import Part, Shape
 

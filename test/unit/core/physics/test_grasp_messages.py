@@ -8,9 +8,9 @@ import pytest
 from fake_engine import FakeEngine
 from refusals import refused
 
-from mrlab_ros.core.clock import SECOND, PlaybackClock
-from mrlab_ros.core.errors import Misuse
-from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.base.clock import SECOND, PlaybackClock
+from mrlab_ros.core.base.errors import Misuse
+from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics.diagnostics import NO_SEAL_AT_EDGE, OUT_OF_ATTACH_REACH
 from mrlab_ros.core.physics.engine import BodyState

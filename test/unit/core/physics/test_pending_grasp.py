@@ -7,9 +7,9 @@ import pytest
 from fake_engine import FakeEngine
 from refusals import refused
 
-from mrlab_ros.core.clock import SECOND
-from mrlab_ros.core.errors import Misuse
-from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.base.clock import SECOND
+from mrlab_ros.core.base.errors import Misuse
+from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics.diagnostics import FIXED_OBJECT
 from mrlab_ros.core.physics.grasp import Gripper

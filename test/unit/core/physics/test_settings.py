@@ -9,7 +9,7 @@ import yaml
 from refusals import refused
 
 from mrlab_ros.core.base.diagnostics import AN_INTEGER
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.physics.settings import Settings
 
 SHIPPED = Path(__file__).parents[4] / "config" / "physics.yaml"

@@ -7,6 +7,7 @@ import pytest
 from fake_engine import FakeEngine
 from refusals import refused
 
+from mrlab_ros.core.base.clock import SECOND, PlaybackClock
 from mrlab_ros.core.base.diagnostics import (
     A_NUMBER,
     AN_INTEGER,
@@ -24,9 +25,8 @@ from mrlab_ros.core.base.diagnostics import (
     TRUE_OR_FALSE,
     UNKNOWN_FIELD,
 )
-from mrlab_ros.core.clock import SECOND, PlaybackClock
-from mrlab_ros.core.errors import BadInput, Misuse
-from mrlab_ros.core.geometry import Pose, compose, inverse, relative
+from mrlab_ros.core.base.errors import BadInput, Misuse
+from mrlab_ros.core.base.geometry import Pose, compose, inverse, relative
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics import surfaces as rooms
 from mrlab_ros.core.physics.clearance import Clearance, Halt

@@ -10,9 +10,9 @@ from refusals import refused
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.robots.ruckig_planner import RuckigPlanner
+from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.base.diagnostics import ILLEGAL_EVENT
-from mrlab_ros.core.clock import SECOND
-from mrlab_ros.core.errors import BadInput, Misuse
+from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.playback import diagnostics as say
 from mrlab_ros.core.playback.goal import Code, Goal, Point, WrongGoal
 from mrlab_ros.core.playback.playback import Playback

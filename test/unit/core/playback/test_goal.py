@@ -10,7 +10,7 @@ import pytest
 from refusals import refused
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.core.clock import SECOND
+from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.playback import diagnostics as say
 from mrlab_ros.core.playback.goal import FRAME_RATE, Code, Goal, Point, WrongGoal, trajectory
 

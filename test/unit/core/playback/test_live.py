@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.core.clock import SECOND
+from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.playback.live import CLOSING_SHARE, RATE, SetPoints
 
 pytestmark = pytest.mark.fast

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from refusals import refused
 
 from mrlab_ros.core.base.diagnostics import BAD_POSITION, BAD_RATE, ILLEGAL_EVENT
-from mrlab_ros.core.errors import BadInput, IllegalEvent, LabError, Misuse
+from mrlab_ros.core.base.errors import BadInput, IllegalEvent, LabError, Misuse
 from mrlab_ros.core.playback import diagnostics as say
 from mrlab_ros.core.playback.playback import Playback
 from mrlab_ros.core.playback.states import TABLE, Event, State

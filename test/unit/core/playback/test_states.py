@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from mrlab_ros.core.base.diagnostics import ILLEGAL_EVENT
+from mrlab_ros.core.base.state_machine import Machine
 from mrlab_ros.core.playback.states import TABLE, Event, State
-from mrlab_ros.core.state_machine import Machine
 
 
 def test_the_path_of_a_run_is_in_the_table():

@@ -4,7 +4,7 @@ import pytest
 from refusals import refused
 
 from mrlab_ros.core.base.diagnostic import Fix
-from mrlab_ros.core.errors import BadInput, Misuse
+from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.recording.diagnostics import JOINTS_OF_TOPIC, NO_SUCH_JOINTS, SEVERAL_MODELS
 from mrlab_ros.core.recording.joint_mapping import chosen_models, columns_of
 

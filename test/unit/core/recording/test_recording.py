@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from refusals import refused
 
 from mrlab_ros.core.base.diagnostics import BAD_POSITION
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.recording.diagnostics import (
     BAD_REPLAY_RATE,
     BAD_SPLIT_DURATION,

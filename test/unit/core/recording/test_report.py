@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from mrlab_ros.adapters.bags.diagnostics import BAG_NO_INDEX, CLOCK_SET_BACK
+from mrlab_ros.core.base.clock import PlaybackClock
 from mrlab_ros.core.base.diagnostic import plain
-from mrlab_ros.core.clock import PlaybackClock
 from mrlab_ros.core.recording.diagnostics import RUN_MISSED
 from mrlab_ros.core.recording.report import (
     Borne,

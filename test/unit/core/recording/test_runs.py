@@ -7,9 +7,9 @@ import math
 import numpy as np
 import pytest
 
+from mrlab_ros.core.base.clock import PlaybackClock
 from mrlab_ros.core.base.diagnostic import WARNING, Diagnostic
-from mrlab_ros.core.clock import PlaybackClock
-from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.recording.moves import ObjectTrack, Placed, Target, Targets
 from mrlab_ros.core.recording.report import Contact, ReportedState, SessionReport
 from mrlab_ros.core.recording.report_text import report_lines

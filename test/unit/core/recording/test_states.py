@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 from refusals import refused
 
-from mrlab_ros.core.errors import Misuse
+from mrlab_ros.core.base.errors import Misuse
+from mrlab_ros.core.base.state_machine import Machine
 from mrlab_ros.core.recording.diagnostics import (
     NO_RECORDING,
     NO_REPLAY,
@@ -14,7 +15,6 @@ from mrlab_ros.core.recording.diagnostics import (
     REPLAY_RUNS,
 )
 from mrlab_ros.core.recording.states import TABLE, RecorderEvent, RecorderState, reason
-from mrlab_ros.core.state_machine import Machine
 
 
 def machine_after(*events: RecorderEvent) -> Machine:

@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from refusals import refused
 
-from mrlab_ros.core.errors import Misuse
-from mrlab_ros.core.geometry import (
+from mrlab_ros.core.base.errors import Misuse
+from mrlab_ros.core.base.geometry import (
     inverse_transform,
     pose_from_transform,
     transform_from_xyz_rpy,

@@ -9,8 +9,8 @@ from refusals import refused
 from mrlab_ros.adapters.diagnostics import KEY_TWICE
 from mrlab_ros.adapters.rubrics import files
 from mrlab_ros.core.base import diagnostics as said
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.rubrics.diagnostics import (
     BAD_CLOSEST,
     BAD_POSE,

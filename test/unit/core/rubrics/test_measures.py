@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from made_motions import MODEL, QUINTIC, ROBOT, checked, outcome, reach, recorded, thing
 
+from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.checking.joints import StatedLimits
 from mrlab_ros.core.checking.motion import CheckedRobot
 from mrlab_ros.core.checking.recording import Collision, Distances
-from mrlab_ros.core.geometry import Pose
 from mrlab_ros.core.physics.engine import Kind, Near
 from mrlab_ros.core.rubrics.checked import Motion
 
@@ -146,7 +146,7 @@ def test_a_pose_that_is_missed_says_how_far_and_when():
 def test_a_direction_counts_where_it_is_asked_for():
     pose = reach().robot.model.chain.tool0(reach().trajectory.positions[100])
     x, y, z = pose[:3, 3].tolist()
-    from mrlab_ros.core.geometry import pose_from_transform
+    from mrlab_ros.core.base.geometry import pose_from_transform
 
     right = {"position": [x, y, z], "orientation": list(pose_from_transform(pose).orientation)}
     wrong = {"position": [x, y, z], "rpy_deg": [0, 0, 0]}

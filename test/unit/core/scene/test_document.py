@@ -16,8 +16,8 @@ from mrlab_ros.core.base.diagnostics import (
     RESERVED_NAME,
     UNKNOWN_FIELD,
 )
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.scene.diagnostics import (
     HELD_IN_PART,
     HOLDS_TWO,

@@ -11,8 +11,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from refusals import refused
 
-from mrlab_ros.core.errors import BadInput, Misuse
-from mrlab_ros.core.geometry import Pose, quaternion_from_rpy, rotate
+from mrlab_ros.core.base.errors import BadInput, Misuse
+from mrlab_ros.core.base.geometry import Pose, quaternion_from_rpy, rotate
 from mrlab_ros.core.scene.diagnostics import (
     NO_LEVEL_SURFACE,
     NO_PLACE_BEFORE_VIEWER,

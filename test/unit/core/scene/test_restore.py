@@ -10,8 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from refusals import refused
 
-from mrlab_ros.core.errors import BadInput, Misuse
-from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.base.errors import BadInput, Misuse
+from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.scene import diagnostics as codes
 from mrlab_ros.core.scene import restore

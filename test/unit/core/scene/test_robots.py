@@ -19,9 +19,9 @@ from mrlab_ros.core.base.diagnostics import (
     POSE_NOT_FINITE,
     RESERVED_NAME,
 )
-from mrlab_ros.core.errors import BadInput, Misuse
-from mrlab_ros.core.geometry import Pose
-from mrlab_ros.core.naming import RESERVED
+from mrlab_ros.core.base.errors import BadInput, Misuse
+from mrlab_ros.core.base.geometry import Pose
+from mrlab_ros.core.base.names import RESERVED
 from mrlab_ros.core.scene.placement import BASE_RADIUS, SPACING, Thing
 from mrlab_ros.core.scene.robots import PlacedRobot, Scene
 

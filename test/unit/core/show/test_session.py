@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 import orjson
 
-from mrlab_ros.core.clock import PlaybackClock
-from mrlab_ros.core.geometry import Pose
+from mrlab_ros.core.base.clock import PlaybackClock
+from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.recording.moves import ObjectTrack, Placed
 from mrlab_ros.core.recording.report import Contact, Hop, ReportedState, Series, SessionReport
 from mrlab_ros.core.recording.run_finding import runs_of

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from refusals import refused
 
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.scene.document import parse_cell
 from mrlab_ros.core.systems.cell_file import MEMBER_FIELDS, SYSTEM_FIELDS, plain_system
 from mrlab_ros.core.systems.diagnostics import ENDLESS_HOLD

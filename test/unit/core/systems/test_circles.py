@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from refusals import refused
 
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.systems.circles import waiting_circle
 from mrlab_ros.core.systems.diagnostics import WAITING_CIRCLE
 from mrlab_ros.core.systems.timeline import Member, Mode, Timeline

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from refusals import refused
 
 from mrlab_ros.core.base.diagnostics import ILLEGAL_EVENT, NAME_TAKEN, NO_ROBOT_IN_SCENE
-from mrlab_ros.core.errors import BadInput, IllegalEvent, LabError, Misuse, Unreached
+from mrlab_ros.core.base.errors import BadInput, IllegalEvent, LabError, Misuse, Unreached
 from mrlab_ros.core.playback import diagnostics as playback_codes
 from mrlab_ros.core.playback.playback import Playback
 from mrlab_ros.core.playback.states import State

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from refusals import refused
 
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.playback.states import State
 from mrlab_ros.core.systems.diagnostics import BAD_DWELL
 from mrlab_ros.core.systems.timeline import SAME_INSTANT, Member, Mode, Timeline

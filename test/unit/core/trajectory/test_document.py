@@ -10,7 +10,7 @@ from hypothesis.extra import numpy as hnp
 
 from mrlab_ros.adapters.trajectories import json_file
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, Severity
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.trajectory.channels import ProxyCoefficients, derive
 from mrlab_ros.core.trajectory.trajectory import Source, Trajectory
 

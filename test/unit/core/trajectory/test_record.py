@@ -3,7 +3,7 @@
 import pytest
 from refusals import refused
 
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.trajectory import record as records
 from mrlab_ros.core.trajectory.diagnostics import (
     BAD_TRAJECTORY_ID,

@@ -12,8 +12,8 @@ from anyio import to_thread
 from refusals import refused
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.assets import Described
-from mrlab_ros.core.errors import BadInput
 from mrlab_ros.gateway.assets.cache import AssetCache
 from mrlab_ros.gateway.assets.robots import Robots
 from mrlab_ros.gateway.diagnostics import ROBOT_NOWHERE

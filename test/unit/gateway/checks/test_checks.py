@@ -11,6 +11,7 @@ from gateway_side import Gateway, kind_of
 from mrlab_ros.adapters.checking.diagnostics import NOT_IN_LAB
 from mrlab_ros.adapters.store.memory import MemoryStore
 from mrlab_ros.core.base.diagnostic import plain
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.core.checking.diagnostics import (
     CHECK_NOT_READY,
@@ -20,7 +21,6 @@ from mrlab_ros.core.checking.diagnostics import (
     NO_COLLISION,
 )
 from mrlab_ros.core.checking.hardware import Condition, State
-from mrlab_ros.core.errors import BadInput
 from mrlab_ros.gateway.checks import desk, scene
 from mrlab_ros.gateway.checks.desk import CheckDesk
 from mrlab_ros.gateway.errors import TooMany

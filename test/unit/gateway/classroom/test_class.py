@@ -10,8 +10,8 @@ from refusals import refused
 
 from mrlab_ros.adapters.store.memory import MemoryStore
 from mrlab_ros.adapters.trajectories import json_file
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.rules import Role
-from mrlab_ros.core.errors import BadInput
 from mrlab_ros.gateway.diagnostics import NO_CLASS_FILE
 from mrlab_ros.gateway.lab.definitions import installed_definitions
 from mrlab_ros.gateway.lab.fake_lab import FakeLab

@@ -9,7 +9,7 @@ from rclpy.serialization import deserialize_message, serialize_message
 from refusals import refused
 from sensor_msgs.msg import JointState
 
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.gateway.lab.definitions import Definitions, installed_definitions, plain
 from mrlab_ros.gateway.lab.diagnostics import (
     BYTES_NOT_OF_TYPE,

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from refusals import refused
 
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.gateway.link import frames
 from mrlab_ros.gateway.link.diagnostics import FRAME_LENGTH
 from mrlab_ros.gateway.link.frames import Call, Credit, Received

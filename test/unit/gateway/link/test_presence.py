@@ -6,8 +6,8 @@ import pytest
 from refusals import refused
 
 from mrlab_ros.core.base.diagnostic import Code
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.rules import Role
-from mrlab_ros.core.errors import BadInput
 from mrlab_ros.gateway.errors import NotAllowed
 from mrlab_ros.gateway.lab.definitions import installed_definitions
 from mrlab_ros.gateway.link import presence

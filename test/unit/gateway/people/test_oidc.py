@@ -15,8 +15,8 @@ import pytest
 from gateway_side import Browser, Gateway, code_of
 from joserfc import jwk, jwt
 
+from mrlab_ros.core.base.errors import BadInput, Unavailable
 from mrlab_ros.core.bridge.rules import Role
-from mrlab_ros.core.errors import BadInput, Unavailable
 from mrlab_ros.gateway.errors import NotAllowed, TooMany
 from mrlab_ros.gateway.people.oidc import (
     PENDING_LIFETIME_S,

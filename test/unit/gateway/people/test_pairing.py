@@ -6,8 +6,8 @@ import pytest
 from gateway_side import Gateway, code_of
 from refusals import refused
 
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.rules import Role
-from mrlab_ros.core.errors import BadInput
 from mrlab_ros.gateway.errors import NotFound, TooMany
 from mrlab_ros.gateway.people.diagnostics import PAIRED_ROLE_TOO_HIGH
 from mrlab_ros.gateway.people.pairing import (

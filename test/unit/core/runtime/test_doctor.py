@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, of_text
-from mrlab_ros.core.doctor import NEEDED, Certificate, Facts, Gateway, Port, examine
+from mrlab_ros.core.runtime.doctor import NEEDED, Certificate, Facts, Gateway, Port, examine
 
 DAY = 24 * 3600.0
 URL = "https://lab:8080"

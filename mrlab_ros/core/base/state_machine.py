@@ -15,7 +15,7 @@ from typing import Generic, TypeVar
 
 from mrlab_ros.core.base.diagnostic import Code, Diagnostic
 from mrlab_ros.core.base.diagnostics import ILLEGAL_EVENT
-from mrlab_ros.core.errors import IllegalEvent
+from mrlab_ros.core.base.errors import IllegalEvent
 
 S = TypeVar("S", bound=Enum)
 E = TypeVar("E", bound=Enum)

@@ -12,14 +12,14 @@ from hypothesis import strategies as st
 from refusals import refused
 
 from mrlab_ros.core.base.diagnostics import ILLEGAL_EVENT
-from mrlab_ros.core.errors import IllegalEvent, Misuse
+from mrlab_ros.core.base.errors import IllegalEvent, Misuse
+from mrlab_ros.core.base.state_machine import Machine, Table
 from mrlab_ros.core.physics import clearance, grasp
 from mrlab_ros.core.playback import states as playback
 from mrlab_ros.core.recording import states as recording
-from mrlab_ros.core.state_machine import Machine, Table
 from mrlab_ros.core.systems import states as systems
 
-PACKAGE = Path(__file__).parents[3] / "mrlab_ros"
+PACKAGE = Path(__file__).parents[4] / "mrlab_ros"
 TABLES: dict[str, Table] = {
     "playback": playback.TABLE,
     "system": systems.TABLE,

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mrlab_ros.core import journal
+from mrlab_ros.core.runtime import journal
 
 VALUES = st.recursive(
     st.none() | st.integers(-(2**53), 2**53) | st.floats(allow_nan=False) | st.text(),

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrlab_ros.core.base.diagnostics import BAD_QUATERNION, BAD_VECTOR, POSE_NOT_FINITE
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 
 Array = NDArray[np.float64]
 Vector = tuple[float, float, float]

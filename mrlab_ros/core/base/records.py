@@ -20,10 +20,10 @@ from dataclasses import MISSING, dataclass
 from enum import Enum
 from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeAlias, TypeVar
 
-from mrlab_ros.core import naming
 from mrlab_ros.core.base import diagnostics as said
+from mrlab_ros.core.base import names
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -318,7 +318,7 @@ FLAG = Flag()
 TEXT = Text()
 TEXTS = Texts()
 FILLED_TEXT = Text(re.compile(r".+", re.DOTALL), said.A_FILLED_TEXT())
-NAME = Text(naming.NAME, said.A_NAME())
+NAME = Text(names.NAME, said.A_NAME())
 
 
 def _is_number(value: object) -> bool:
@@ -351,7 +351,7 @@ def checked(what: Words, value: object, check: Check[T]) -> T:
 
 def unknown_field(place: Words, key: object, known: Collection[str]) -> Diagnostic:
     """Return the mistake of a field that does not exist."""
-    close = naming.close_to(str(key), known)
+    close = names.close_to(str(key), known)
     fields = [] if close and len(known) > LONGEST_LIST else list(known)
     return said.UNKNOWN_FIELD(place=place, key=str(key), fields=fields, close=close)
 

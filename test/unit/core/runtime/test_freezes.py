@@ -6,13 +6,7 @@ from collections.abc import Callable
 
 import pytest
 
-from mrlab_ros.core.freezes import (
-    FROZEN_AFTER_S,
-    LONG_S,
-    LOOK_PERIOD_S,
-    THAW_S,
-    Freezes,
-)
+from mrlab_ros.core.runtime.freezes import FROZEN_AFTER_S, LONG_S, LOOK_PERIOD_S, THAW_S, Freezes
 
 BEGAN, ENDED = 100.0, 130.0
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from mrlab_ros.core.base.diagnostic import Severity, of_text
+from mrlab_ros.core.runtime.watch import Sign, Watch
 from mrlab_ros.core.systems.diagnostics import SYSTEM_LOST
-from mrlab_ros.core.watch import Sign, Watch
 
 LOST, FULL = SYSTEM_LOST(system="cell"), of_text("the disk is full")
 

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable
 
 from mrlab_ros.core.base.diagnostics import BAD_NAME, NAME_TAKEN, RESERVED_NAME
-from mrlab_ros.core.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput
 
 NAME = re.compile(r"[a-z][a-z0-9_]{0,62}")
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, of_text
-from mrlab_ros.core.foreign_text import visible_lines
+from mrlab_ros.core.base.foreign_text import visible_lines
 
 
 class LabError(Exception):

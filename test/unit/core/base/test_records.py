@@ -10,11 +10,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from refusals import refused
 
-from mrlab_ros.core import records
 from mrlab_ros.core.base import diagnostics as codes
-from mrlab_ros.core.errors import BadInput
-from mrlab_ros.core.naming import close_to
-from mrlab_ros.core.records import (
+from mrlab_ros.core.base import records
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.names import close_to
+from mrlab_ros.core.base.records import (
     FILLED_TEXT,
     FLAG,
     NAME,

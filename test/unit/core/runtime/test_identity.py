@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.identity import PRESENT_S, Identity, Neighbours
 from mrlab_ros.core.runtime.diagnostics import LAB_WITHOUT_ID, OTHER_LAB, SHARED_SERVICE
+from mrlab_ros.core.runtime.identity import PRESENT_S, Identity, Neighbours
 
 
 def test_another_lab_is_named_once_and_ignored():

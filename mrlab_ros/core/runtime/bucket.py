@@ -1,4 +1,7 @@
-"""Thins out lines of a log that repeat without end; time is an argument, s, monotonic."""
+"""Limits of rates: a bucket of tokens for what a client sends, and of repeated lines of a log.
+
+Time is an argument, s, monotonic.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +9,27 @@ import re
 from collections import OrderedDict
 from dataclasses import dataclass, field
 
-from mrlab_ros.core.bucket import Bucket
+
+@dataclass
+class Bucket:
+    """Holds `burst` tokens at most and gets `rate` a second."""
+
+    rate: float
+    burst: float
+
+    def __post_init__(self) -> None:
+        self._tokens = self.burst
+        self._at = 0.0
+
+    def take(self, count: float, now: float) -> bool:
+        """Take tokens where there are enough; return whether there were."""
+        self._tokens = min(self.burst, self._tokens + (now - self._at) * self.rate)
+        self._at = now
+        if count > self._tokens:
+            return False
+        self._tokens -= count
+        return True
+
 
 # Lines of one kind at once, and then one in so many seconds.
 BURST = 10

@@ -13,9 +13,9 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from mrlab_ros.core import foreign_text
+from mrlab_ros.core.base import foreign_text
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.conversion.diagnostics import NEVER_FILLED
-from mrlab_ros.core.errors import BadInput
 
 ANY = st.text(st.characters(codec="utf-8"))
 
