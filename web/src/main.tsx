@@ -1,12 +1,12 @@
 import { render } from 'preact'
 import './design/styles'
-import './pages/shell/shell.css'
+import './shell/shell.css'
 import type { Api } from './api/api'
 import { HttpApi } from './api/http'
+import { App } from './app'
 import { followTheme } from './design/theme'
-import { App } from './pages/shell/app'
-import { followLinks } from './pages/shell/router'
-import { leaveSignedOut } from './pages/shell/session'
+import { followLinks } from './shell/router'
+import { leaveSignedOut } from './shell/session'
 import { preferredLanguage, setLanguage, words } from './words/words'
 
 async function connect(): Promise<Api> {

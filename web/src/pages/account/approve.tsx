@@ -3,9 +3,9 @@ import type { Role } from '../../api/types'
 import { Button, ButtonLink } from '../../design/button'
 import { Field, Select } from '../../design/field'
 import { Icon } from '../../design/icons'
+import { session, useApi } from '../../shell/session'
 import { sentence } from '../../words/diagnostic'
 import { words } from '../../words/words'
-import { session, useApi } from '../shell/session'
 
 /** From the one that may least. */
 const ORDER: readonly Role[] = ['display', 'student', 'operator', 'instructor']

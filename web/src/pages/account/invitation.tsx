@@ -3,10 +3,10 @@ import type { Invitation } from '../../api/types'
 import { Button, ButtonLink } from '../../design/button'
 import { Field } from '../../design/field'
 import { Notice } from '../../design/notice'
+import { navigate, path } from '../../shell/router'
+import { session, useApi } from '../../shell/session'
 import { sentence } from '../../words/diagnostic'
 import { words } from '../../words/words'
-import { navigate, path } from '../shell/router'
-import { session, useApi } from '../shell/session'
 import './account.css'
 
 /** Fewest characters that the gateway takes. */

@@ -1,5 +1,5 @@
-import { path } from '../shell/router'
-import { session } from '../shell/session'
+import { path } from '../../shell/router'
+import { session } from '../../shell/session'
 import { ApprovePage } from './approve'
 import { ShowCodePage } from './show_code'
 import './account.css'

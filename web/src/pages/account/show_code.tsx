@@ -3,11 +3,11 @@ import type { Pairing } from '../../api/types'
 import { Button, ButtonLink } from '../../design/button'
 import { Icon } from '../../design/icons'
 import { Notice } from '../../design/notice'
+import { navigate } from '../../shell/router'
+import { session, useApi } from '../../shell/session'
 import { sentence } from '../../words/diagnostic'
 import { words } from '../../words/words'
 import { QrCode } from '../motion/lazy'
-import { navigate } from '../shell/router'
-import { session, useApi } from '../shell/session'
 
 /** The gateway expects to be asked this often. */
 const ASK_EVERY_MS = 2000

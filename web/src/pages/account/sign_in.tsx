@@ -2,10 +2,10 @@ import { useState } from 'preact/hooks'
 import { Button, ButtonLink } from '../../design/button'
 import { Field } from '../../design/field'
 import { Notice } from '../../design/notice'
+import { navigate, path, search } from '../../shell/router'
+import { session, useApi } from '../../shell/session'
 import { sentence } from '../../words/diagnostic'
 import { words } from '../../words/words'
-import { navigate, path, search } from '../shell/router'
-import { session, useApi } from '../shell/session'
 import './account.css'
 
 /** Sign in with a password, at the university, or by pairing. */

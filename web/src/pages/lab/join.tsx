@@ -1,7 +1,7 @@
 import { Dialog } from '../../design/dialog'
+import { session } from '../../shell/session'
 import { words } from '../../words/words'
 import { LinkWithCode } from '../motion/lazy'
-import { session } from '../shell/session'
 
 /** Return whether another device reaches this machine by a host name of the address bar. */
 export function reachable(hostname: string): boolean {

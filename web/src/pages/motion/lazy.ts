@@ -1,4 +1,4 @@
-import { lazy } from '../shell/lazy'
+import { lazy } from '../../shell/lazy'
 
 /** Plots and 3D come when there is a motion to show. */
 export const MotionView = lazy(async () => (await import('./motion_view')).MotionView)

@@ -4,9 +4,9 @@ import { Button, ButtonLink } from '../../design/button'
 import { Icon } from '../../design/icons'
 import { Notice } from '../../design/notice'
 import { showToast } from '../../design/toast'
+import { session, useApi } from '../../shell/session'
 import { sentence } from '../../words/diagnostic'
 import { dateTime, words } from '../../words/words'
-import { session, useApi } from '../shell/session'
 
 /** Headsets and browsers that are signed in; ending one closes its connection at once. */
 export function Devices() {

@@ -1,5 +1,5 @@
+import { mayAdmit, session } from '../../shell/session'
 import { words } from '../../words/words'
-import { mayAdmit, session } from '../shell/session'
 import { Devices } from './devices'
 import { PeopleList } from './people_list'
 import './people.css'

@@ -6,11 +6,11 @@ import { Field, Select } from '../../design/field'
 import { Menu } from '../../design/menu'
 import { Notice } from '../../design/notice'
 import { showToast } from '../../design/toast'
+import { session, useApi } from '../../shell/session'
 import { sentence } from '../../words/diagnostic'
 import { number, words } from '../../words/words'
 import { rolesUpTo } from '../account/approve'
 import { LinkWithCode } from '../motion/lazy'
-import { session, useApi } from '../shell/session'
 
 const DAY_S = 86_400
 

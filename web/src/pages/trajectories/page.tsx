@@ -1,6 +1,6 @@
 import { useEffect, useMemo } from 'preact/hooks'
-import { path } from '../shell/router'
-import { session, useApi } from '../shell/session'
+import { path } from '../../shell/router'
+import { session, useApi } from '../../shell/session'
 import { Catalogue, idOfPath } from './catalogue'
 import { TrajectoryDetail } from './detail'
 import { TrajectoryList } from './list'

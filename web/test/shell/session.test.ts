@@ -1,7 +1,7 @@
 // @vitest-environment jsdom
 import { expect, test } from 'vitest'
-import { checkSignIn, session } from '../../../src/pages/shell/session'
-import { FakeApi } from '../../fake_api'
+import { checkSignIn, session } from '../../src/shell/session'
+import { FakeApi } from '../fake_api'
 
 test('somebody whose sign-in was ended is led to the page that says so', async () => {
   const api = new FakeApi()

@@ -1,8 +1,8 @@
 import { signal } from '@preact/signals'
 import { createContext } from 'preact'
 import { useContext } from 'preact/hooks'
-import type { Api } from '../../api/api'
-import type { Session } from '../../api/types'
+import type { Api } from '../api/api'
+import type { Session } from '../api/types'
 import { navigate } from './router'
 
 /** Who is signed in; null until the gateway has answered. */

@@ -1,8 +1,8 @@
 import type { ComponentType } from 'preact'
 import { useEffect, useState } from 'preact/hooks'
-import { Notice } from '../../design/notice'
-import { sentence } from '../../words/diagnostic'
-import { words } from '../../words/words'
+import { Notice } from '../design/notice'
+import { sentence } from '../words/diagnostic'
+import { words } from '../words/words'
 
 interface Pending<Props> {
   page: ComponentType<Props> | null

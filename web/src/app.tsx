@@ -1,15 +1,15 @@
 import type { ComponentType } from 'preact'
 import { useEffect, useErrorBoundary, useState } from 'preact/hooks'
-import type { Api } from '../../api/api'
-import { Button, ButtonLink } from '../../design/button'
-import { Notice } from '../../design/notice'
-import { Toasts } from '../../design/toast'
-import { sentence } from '../../words/diagnostic'
-import { words } from '../../words/words'
-import { Header } from './header'
-import { lazy } from './lazy'
-import { path } from './router'
-import { ApiProvider, checkSignIn, session } from './session'
+import type { Api } from './api/api'
+import { Button, ButtonLink } from './design/button'
+import { Notice } from './design/notice'
+import { Toasts } from './design/toast'
+import { Header } from './shell/header'
+import { lazy } from './shell/lazy'
+import { path } from './shell/router'
+import { ApiProvider, checkSignIn, session } from './shell/session'
+import { sentence } from './words/diagnostic'
+import { words } from './words/words'
 
 interface Route {
   readonly path: RegExp
@@ -20,50 +20,50 @@ interface Route {
   readonly wide?: boolean
 }
 
-const SignIn = lazy(async () => (await import('../account/sign_in')).SignInPage)
+const SignIn = lazy(async () => (await import('./pages/account/sign_in')).SignInPage)
 
 const ROUTES: readonly Route[] = [
   {
     path: /^\/$/,
-    page: lazy(async () => (await import('../upload/page')).UploadPage),
+    page: lazy(async () => (await import('./pages/upload/page')).UploadPage),
     members: true,
   },
   {
     path: /^\/lab$/,
-    page: lazy(async () => (await import('../lab/page')).LabPage),
+    page: lazy(async () => (await import('./pages/lab/page')).LabPage),
     members: true,
     wide: true,
   },
   {
     path: /^\/room$/,
-    page: lazy(async () => (await import('../../room/page')).RoomPage),
+    page: lazy(async () => (await import('./room/page')).RoomPage),
     members: true,
     wide: true,
   },
   {
     path: /^\/trajectories(\/.*)?$/,
-    page: lazy(async () => (await import('../trajectories/page')).TrajectoriesPage),
+    page: lazy(async () => (await import('./pages/trajectories/page')).TrajectoriesPage),
     members: true,
   },
   {
     path: /^\/class(\/.*)?$/,
-    page: lazy(async () => (await import('../class/page')).ClassPage),
+    page: lazy(async () => (await import('./pages/class/page')).ClassPage),
     members: true,
   },
   {
     path: /^\/people$/,
-    page: lazy(async () => (await import('../people/page')).PeoplePage),
+    page: lazy(async () => (await import('./pages/people/page')).PeoplePage),
     members: true,
   },
   { path: /^\/sign-in$/, page: SignIn, members: false },
   {
     path: /^\/pair(\/[^/]+)?$/,
-    page: lazy(async () => (await import('../account/pair')).PairPage),
+    page: lazy(async () => (await import('./pages/account/pair')).PairPage),
     members: false,
   },
   {
     path: /^\/invitation\/[^/]+$/,
-    page: lazy(async () => (await import('../account/invitation')).InvitationPage),
+    page: lazy(async () => (await import('./pages/account/invitation')).InvitationPage),
     members: false,
   },
 ]
