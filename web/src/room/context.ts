@@ -1,6 +1,6 @@
 import type { Object3D, PerspectiveCamera, Vector3 } from 'three'
+import type { CheckApi } from '../lab/robot_check'
 import type { Link, ServiceType } from '../link/link'
-import type { CheckApi } from '../pages/lab/robot_check'
 import type { TrajectoryInfo } from '../protocol/mrlab_msgs'
 import { sentence, spoken, type Told } from '../words/diagnostic'
 import type { Words } from '../words/en'

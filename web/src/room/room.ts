@@ -1,6 +1,6 @@
 import { signal } from '@preact/signals'
 import { Quaternion, Vector3 } from 'three'
-import type { LabFollower } from '../pages/lab/follow'
+import type { LabFollower } from '../lab/follower'
 import { type TrajectoryInfo, trajectoryCatalogueType } from '../protocol/mrlab_msgs'
 import { LabScene } from '../scene/lab_scene'
 import { MeshLibrary } from '../scene/meshes'

@@ -1,13 +1,13 @@
 import { useEffect, useMemo, useState } from 'preact/hooks'
 import type { Submission } from '../../api/types'
 import { Button, ButtonLink } from '../../design/button'
+import { LabCatalogue } from '../../lab/catalogue'
+import { ask } from '../../lab/commands'
 import { useLink } from '../../link/use_link'
 import { loadTrajectoryType, type Robot, robotsType } from '../../protocol/mrlab_msgs'
 import { useApi } from '../../shell/session'
 import { sentence } from '../../words/diagnostic'
 import { words } from '../../words/words'
-import { LabCatalogue } from '../lab/catalogue'
-import { ask } from '../lab/commands'
 import { publishedName } from './published_name'
 
 /** Load a submission on a robot of the lab, by the services that every upload takes. */

@@ -2,10 +2,9 @@ import { useState } from 'preact/hooks'
 import type { Check, CheckFinding } from '../../api/types'
 import { Button } from '../../design/button'
 import { Icon, type IconName } from '../../design/icons'
+import { counted, kindOf, type RobotCheck } from '../../lab/robot_check'
 import { say, spoken } from '../../words/diagnostic'
 import { number, words } from '../../words/words'
-import { kindOf } from './check_words'
-import { counted, type RobotCheck } from './robot_check'
 
 /** Shown before somebody asks for all. */
 const FEW = 3

@@ -1,8 +1,8 @@
 import { useEffect, useState } from 'preact/hooks'
 import { Button } from '../../design/button'
 import { showToast } from '../../design/toast'
+import type { LabFollower } from '../../lab/follower'
 import { fixed, words } from '../../words/words'
-import type { LabFollower } from './follow'
 
 const EVERY_MS = 1000
 

@@ -1,11 +1,11 @@
 import { useEffect, useState } from 'preact/hooks'
 import { Button } from '../../design/button'
+import { listBagsOf, order, trigger } from '../../lab/commands'
+import type { LabFollower } from '../../lab/follower'
 import { RecorderState, replayType } from '../../protocol/mrlab_msgs'
 import { spoken } from '../../words/diagnostic'
 import { words } from '../../words/words'
-import { listBagsOf, order, trigger } from './commands'
 import { useLab } from './context'
-import type { LabFollower } from './follow'
 import { Timeline } from './timeline'
 
 /** Play a recorded bag in this view, and say what the recorder does. */

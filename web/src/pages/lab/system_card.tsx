@@ -1,11 +1,11 @@
 import { useEffect, useRef } from 'preact/hooks'
 import { StateChip } from '../../design/chip'
 import { STATE_NAMES, type StateName } from '../../design/tokens'
+import type { SystemView } from '../../lab/follower'
 import type { RemotePlayer } from '../../playback/player'
 import { spoken } from '../../words/diagnostic'
 import { number, words } from '../../words/words'
 import { useLab } from './context'
-import type { SystemView } from './follow'
 import { Timeline } from './timeline'
 
 const ROW = 12 // of a segment and the space below it, in the drawing's units

@@ -1,4 +1,4 @@
-import type { LabFollower } from '../../pages/lab/follow'
+import type { LabFollower } from '../../lab/follower'
 import type { LabScene } from '../../scene/lab_scene'
 import type { SceneRobot } from '../../scene/robot'
 import { sentence } from '../../words/diagnostic'

@@ -1,4 +1,4 @@
-import type { FollowedScene } from '../../pages/lab/follow'
+import type { FollowedScene } from '../../lab/follower'
 import type { LabScene } from '../../scene/lab_scene'
 import type { ShownSurface } from '../../scene/surfaces'
 import type { ObjectHandles } from '../handles/object_handles'

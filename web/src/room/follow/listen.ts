@@ -1,5 +1,5 @@
 import { effect, type ReadonlySignal } from '@preact/signals'
-import type { LabFollower } from '../../pages/lab/follow'
+import type { LabFollower } from '../../lab/follower'
 import type { Entry, RoomContext } from '../context'
 import type { Board } from '../panels/board'
 import type { RobotPanels } from '../panels/robot_panels'

@@ -1,6 +1,5 @@
 import type { Check } from '../../api/types'
-import { kindOf } from '../../pages/lab/check_words'
-import { counted } from '../../pages/lab/robot_check'
+import { counted, kindOf } from '../../lab/robot_check'
 import type { Words } from '../../words/en'
 import { number } from '../../words/words'
 import type { Choice } from './paged_list'

@@ -1,6 +1,6 @@
 import { effect } from '@preact/signals'
 import type { Submission } from '../../api/types'
-import type { LabFollower } from '../../pages/lab/follow'
+import type { LabFollower } from '../../lab/follower'
 import { loadTrajectoryType } from '../../protocol/mrlab_msgs'
 import { say, sentence, spoken } from '../../words/diagnostic'
 import { number } from '../../words/words'

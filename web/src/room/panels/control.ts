@@ -1,5 +1,5 @@
-import { fits } from '../../pages/lab/catalogue'
-import type { RobotView } from '../../pages/lab/followed_robot'
+import { fits } from '../../lab/catalogue'
+import type { RobotView } from '../../lab/followed_robot'
 import { RATES } from '../../playback/player'
 import {
   attachType,

@@ -1,4 +1,4 @@
-import type { RobotView } from '../../pages/lab/followed_robot'
+import type { RobotView } from '../../lab/followed_robot'
 import { spoken } from '../../words/diagnostic'
 import type { RoomContext } from '../context'
 import { GAP, HIT, PANEL_THEME, type Pen, TEXT } from './pen'

@@ -1,5 +1,5 @@
-import { listBagsOf } from '../../pages/lab/commands'
-import type { LabFollower } from '../../pages/lab/follow'
+import { listBagsOf } from '../../lab/commands'
+import type { LabFollower } from '../../lab/follower'
 import {
   listScenesType,
   RecorderState,

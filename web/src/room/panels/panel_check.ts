@@ -1,6 +1,6 @@
 import { effect } from '@preact/signals'
-import type { RobotView } from '../../pages/lab/followed_robot'
-import { marksOf, RobotCheck } from '../../pages/lab/robot_check'
+import type { RobotView } from '../../lab/followed_robot'
+import { marksOf, RobotCheck } from '../../lab/robot_check'
 import type { Player } from '../../playback/player'
 import type { RoomContext } from '../context'
 import { CHECK_WIDTH, checkColour, checkLabel, findingChoices } from './check_view'

@@ -1,6 +1,6 @@
 import { type Object3D, Vector3 } from 'three'
+import type { RobotView } from '../../lab/followed_robot'
 import type { Unsubscribe } from '../../link/link'
-import type { RobotView } from '../../pages/lab/followed_robot'
 import { telemetryType } from '../../protocol/mrlab_msgs'
 import type { LabScene } from '../../scene/lab_scene'
 import type { RoomContext } from '../context'

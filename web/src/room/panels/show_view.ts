@@ -1,6 +1,6 @@
 import { Color } from 'three'
-import { fits } from '../../pages/lab/catalogue'
-import type { RobotView } from '../../pages/lab/followed_robot'
+import { fits } from '../../lab/catalogue'
+import type { RobotView } from '../../lab/followed_robot'
 import { fixed } from '../../words/words'
 import type { RoomContext } from '../context'
 import { speedColour } from '../drawings/tool_ribbon'

@@ -1,6 +1,6 @@
+import type { LabFollower } from '../../lab/follower'
 import type { Link } from '../../link/link'
 import { LinkError } from '../../link/link'
-import type { LabFollower } from '../../pages/lab/follow'
 import { RobotSystem, triggerType } from '../../protocol/mrlab_msgs'
 import { spoken } from '../../words/diagnostic'
 

@@ -1,4 +1,4 @@
-import type { LabFollower } from '../../pages/lab/follow'
+import type { LabFollower } from '../../lab/follower'
 import type { RoomContext } from '../context'
 import { BOARD_WIDTH, BOTTOM, EDGE, type Tab, TOP } from '../panels/board'
 import { GAP, HIT, TEXT } from '../panels/pen'

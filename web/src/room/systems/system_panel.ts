@@ -1,5 +1,5 @@
 import { STATE_NAMES, type StateName } from '../../design/tokens'
-import type { SystemView } from '../../pages/lab/follow'
+import type { SystemView } from '../../lab/follower'
 import { RATES } from '../../playback/player'
 import { RobotSystem, removeType, setModeType, triggerType } from '../../protocol/mrlab_msgs'
 import { spoken } from '../../words/diagnostic'

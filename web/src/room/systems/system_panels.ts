@@ -1,5 +1,5 @@
 import { type Object3D, Vector3 } from 'three'
-import type { SystemView } from '../../pages/lab/follow'
+import type { SystemView } from '../../lab/follower'
 import type { LabScene } from '../../scene/lab_scene'
 import type { RoomContext } from '../context'
 import type { Targets } from '../input/targets'

@@ -1,4 +1,4 @@
-import type { LabFollower } from '../../pages/lab/follow'
+import type { LabFollower } from '../../lab/follower'
 import { createSystemMember, createSystemType } from '../../protocol/mrlab_msgs'
 import { order, type RoomContext } from '../context'
 import { BOARD_WIDTH, EDGE, type Tab, TOP } from '../panels/board'

@@ -1,5 +1,5 @@
 import type { Vector3 } from 'three'
-import type { LabFollower } from '../../pages/lab/follow'
+import type { LabFollower } from '../../lab/follower'
 import type { RoomContext } from '../context'
 import type { XrInputs } from '../input/sources'
 import type { Targets } from '../input/targets'

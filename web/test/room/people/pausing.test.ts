@@ -1,8 +1,8 @@
 import { signal } from '@preact/signals'
 import { describe, expect, it, vi } from 'vitest'
+import type { RobotView } from '../../../src/lab/followed_robot'
+import type { LabFollower, SystemView } from '../../../src/lab/follower'
 import { FakeLink } from '../../../src/link/fake'
-import type { LabFollower, SystemView } from '../../../src/pages/lab/follow'
-import type { RobotView } from '../../../src/pages/lab/followed_robot'
 import { RobotSystem, triggerType } from '../../../src/protocol/mrlab_msgs'
 import { movingNow, pauseAll, pauseNews } from '../../../src/room/people/pausing'
 

@@ -1,17 +1,17 @@
 import { afterEach, beforeEach, expect, test, vi } from 'vitest'
-import { ApiError } from '../../../src/api/api'
-import type { Check } from '../../../src/api/types'
-import { kindOf } from '../../../src/pages/lab/check_words'
+import { ApiError } from '../../src/api/api'
+import type { Check } from '../../src/api/types'
 import {
   counted,
+  kindOf,
   marksOf,
   RobotCheck,
   RUNNING_MS,
   STALE_MS,
-} from '../../../src/pages/lab/robot_check'
-import { own } from '../../../src/words/diagnostic'
-import { en } from '../../../src/words/en'
-import { FOUND_CHECK, finding, NO_CHECK } from '../../fake_api'
+} from '../../src/lab/robot_check'
+import { own } from '../../src/words/diagnostic'
+import { en } from '../../src/words/en'
+import { FOUND_CHECK, finding, NO_CHECK } from '../fake_api'
 
 beforeEach(() => {
   vi.useFakeTimers()

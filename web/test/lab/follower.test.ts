@@ -1,8 +1,8 @@
 import { expect, test, vi } from 'vitest'
-import { FakeLink } from '../../../src/link/fake'
-import { commandsOf } from '../../../src/pages/lab/commands'
-import { LabFollower } from '../../../src/pages/lab/follow'
-import { Course } from '../../../src/playback/course'
+import { commandsOf } from '../../src/lab/commands'
+import { LabFollower } from '../../src/lab/follower'
+import { FakeLink } from '../../src/link/fake'
+import { Course } from '../../src/playback/course'
 import {
   collisionType,
   contactsType,
@@ -17,10 +17,10 @@ import {
   robotsType,
   robotType,
   triggerType,
-} from '../../../src/protocol/mrlab_msgs'
-import { jointStateType } from '../../../src/protocol/sensor_msgs'
-import { stringType } from '../../../src/protocol/std_msgs'
-import type { LabScene } from '../../../src/scene/lab_scene'
+} from '../../src/protocol/mrlab_msgs'
+import { jointStateType } from '../../src/protocol/sensor_msgs'
+import { stringType } from '../../src/protocol/std_msgs'
+import type { LabScene } from '../../src/scene/lab_scene'
 
 function lab() {
   const link = new FakeLink()

@@ -1,10 +1,10 @@
 import { signal } from '@preact/signals'
-import type { StateName } from '../../design/tokens'
-import type { Link, LinkStatus, MessageType, Sample } from '../../link/link'
-import type { PoseSource } from '../../playback/clocked_arm'
-import type { Course } from '../../playback/course'
-import type { Commands } from '../../playback/player'
-import { RemotePlayer } from '../../playback/player'
+import type { StateName } from '../design/tokens'
+import type { Link, LinkStatus, MessageType, Sample } from '../link/link'
+import type { PoseSource } from '../playback/clocked_arm'
+import type { Course } from '../playback/course'
+import type { Commands } from '../playback/player'
+import { RemotePlayer } from '../playback/player'
 import {
   collisionType,
   contactsType,
@@ -21,13 +21,13 @@ import {
   type Surface,
   sceneObjectsType,
   surfacesType,
-} from '../../protocol/mrlab_msgs'
-import { jointStateType } from '../../protocol/sensor_msgs'
-import { stringType } from '../../protocol/std_msgs'
-import type { LabScene } from '../../scene/lab_scene'
-import { Courses } from './courses'
+} from '../protocol/mrlab_msgs'
+import { jointStateType } from '../protocol/sensor_msgs'
+import { stringType } from '../protocol/std_msgs'
+import type { LabScene } from '../scene/lab_scene'
 import {
   type CourseOf,
+  Courses,
   clockOf,
   type DrawnArm,
   FollowedRobot,

@@ -1,7 +1,8 @@
 import { type Signal, signal } from '@preact/signals'
-import { type Api, ApiError } from '../../api/api'
-import type { Check, CheckFinding } from '../../api/types'
-import { sentence } from '../../words/diagnostic'
+import { type Api, ApiError } from '../api/api'
+import type { Check, CheckFinding } from '../api/types'
+import { sentence } from '../words/diagnostic'
+import type { Words } from '../words/en'
 
 /** ms between two questions about a check that runs, and about one whose scene may change. */
 export const RUNNING_MS = 1000
@@ -110,4 +111,10 @@ export function counted(check: Check): { readonly refusing: number; readonly war
     else if (severity === 'warning') warning++
   }
   return { refusing, warning }
+}
+
+/** Return what kind of finding a code of a check or a rubric means, in words. */
+export function kindOf(code: string, { check }: Pick<Words, 'check'>): string {
+  const kinds: Readonly<Record<string, string>> = check.kinds
+  return kinds[code] ?? code.replaceAll('_', ' ')
 }

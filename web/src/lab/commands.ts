@@ -1,14 +1,14 @@
-import { showToast } from '../../design/toast'
-import { type Link, LinkError, type ServiceType } from '../../link/link'
-import type { Commands } from '../../playback/player'
+import { showToast } from '../design/toast'
+import { type Link, LinkError, type ServiceType } from '../link/link'
+import type { Commands } from '../playback/player'
 import {
   listBagsType,
   seekType,
   setRateType,
   type TriggerResponse,
   triggerType,
-} from '../../protocol/mrlab_msgs'
-import { sentence, spoken, type Told } from '../../words/diagnostic'
+} from '../protocol/mrlab_msgs'
+import { sentence, spoken, type Told } from '../words/diagnostic'
 
 interface Answer extends Told {
   readonly success: boolean

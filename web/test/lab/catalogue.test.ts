@@ -1,9 +1,9 @@
 // @vitest-environment jsdom
 import { expect, test, vi } from 'vitest'
-import type { Api } from '../../../src/api/api'
-import { fits, LabCatalogue, playable } from '../../../src/pages/lab/catalogue'
-import { reachable } from '../../../src/pages/lab/join'
-import { FakeApi } from '../../fake_api'
+import type { Api } from '../../src/api/api'
+import { fits, LabCatalogue, playable } from '../../src/lab/catalogue'
+import { reachable } from '../../src/pages/lab/join'
+import { FakeApi } from '../fake_api'
 
 test('a robot plays what is for its model, and for what it carries or for nothing', async () => {
   const [made] = await new FakeApi().trajectories()

@@ -1,7 +1,7 @@
 import { signal } from '@preact/signals'
-import type { Api } from '../../api/api'
-import type { TrajectoryInfo } from '../../api/types'
-import { sentence, ToldError } from '../../words/diagnostic'
+import type { Api } from '../api/api'
+import type { TrajectoryInfo } from '../api/types'
+import { sentence, ToldError } from '../words/diagnostic'
 
 interface Carrier {
   readonly model: string

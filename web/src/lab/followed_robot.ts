@@ -1,17 +1,17 @@
-import { STATE_NAMES, type StateName } from '../../design/tokens'
-import type { PlaybackClock } from '../../playback/clock'
-import { ClockedArm, type PoseSource } from '../../playback/clocked_arm'
-import type { Course } from '../../playback/course'
-import type { RemotePlayer } from '../../playback/player'
-import type { Time } from '../../protocol/builtin_interfaces'
+import { STATE_NAMES, type StateName } from '../design/tokens'
+import type { PlaybackClock } from '../playback/clock'
+import { ClockedArm, type PoseSource } from '../playback/clocked_arm'
+import type { Course } from '../playback/course'
+import type { RemotePlayer } from '../playback/player'
+import type { Time } from '../protocol/builtin_interfaces'
 import {
   type Collision,
   type GraspTarget,
   PlaybackState,
   type Robot,
-} from '../../protocol/mrlab_msgs'
-import type { JointState } from '../../protocol/sensor_msgs'
-import type { SceneRobot } from '../../scene/robot'
+} from '../protocol/mrlab_msgs'
+import type { JointState } from '../protocol/sensor_msgs'
+import type { SceneRobot } from '../scene/robot'
 
 /** How one robot stands, for the panel beside the picture. */
 export interface RobotView {
@@ -178,4 +178,27 @@ export function setJoints(drawn: DrawnArm, { name, position }: JointState): bool
     moved = drawn.setJoint(name[i] as string, position[i] as number) || moved
   }
   return moved
+}
+
+/** Of how many trajectories the frames are kept. */
+const MOST = 24
+
+/** The frames of trajectories, each fetched once for all robots that play it. */
+export class Courses {
+  private readonly known = new Map<string, Promise<Course>>()
+
+  constructor(private readonly fetch: CourseOf) {}
+
+  /** Return the frames of a trajectory, such as quintic@3; one that failed is asked for again. */
+  readonly of: CourseOf = (id) => {
+    let fetching = this.known.get(id)
+    if (fetching === undefined) {
+      fetching = this.fetch(id)
+      this.known.set(id, fetching)
+      fetching.catch(() => this.known.delete(id))
+      const [oldest] = this.known.keys()
+      if (this.known.size > MOST && oldest !== undefined) this.known.delete(oldest)
+    }
+    return fetching
+  }
 }
