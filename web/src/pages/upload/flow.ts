@@ -10,7 +10,7 @@ import type {
 } from '../../api/types'
 import type { MotionDocument } from '../../playback/motion'
 import { sentence } from '../../words/diagnostic'
-import { applied } from './fixes'
+import { applied } from '../motion/fixes'
 
 export type Stage =
   | { readonly kind: 'idle' }

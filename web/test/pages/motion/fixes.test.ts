@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest'
-import { applied, fixLabel, optionLabels, robotMatters } from '../../../src/pages/upload/fixes'
+import { applied, fixLabel, optionLabels, robotMatters } from '../../../src/pages/motion/fixes'
 import { words as de } from '../../../src/words/de'
 import { en } from '../../../src/words/en'
 import { finding } from '../../fake_api'
