@@ -47,7 +47,7 @@ const ROUTES: readonly Route[] = [
   },
   {
     path: /^\/class(\/.*)?$/,
-    page: lazy(async () => (await import('./pages/class/page')).ClassPage),
+    page: lazy(async () => (await import('./classroom/page')).ClassPage),
     members: true,
   },
   {

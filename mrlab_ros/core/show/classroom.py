@@ -1,4 +1,4 @@
-"""A graded class as its page reads it: ClassDocument of web/src/report/class_document.ts."""
+"""A graded class as its page reads it: ClassDocument of web/src/classroom/class_document.ts."""
 
 from __future__ import annotations
 

@@ -1,3 +1,5 @@
+import { classTab } from '../../classroom/class_tab'
+import type { Lesson } from '../../classroom/lesson'
 import { sentence } from '../../words/diagnostic'
 import type { RoomContext } from '../context'
 import type { Fixtures } from '../fixtures'
@@ -8,9 +10,7 @@ import { settingsTab } from '../settings/settings_tab'
 import { systemsTab } from '../systems/systems_tab'
 import type { Tab } from './board'
 import { objectsTab, robotsTab } from './catalogue_tabs'
-import { classTab } from './class_tab'
 import { labTab } from './lab_tab'
-import type { Lesson } from './lesson'
 
 const OBJECT_AWAY = 0.8 // m
 

@@ -1,13 +1,13 @@
 import { effect } from '@preact/signals'
-import type { Submission } from '../../api/types'
-import type { LabFollower } from '../../lab/follower'
-import { loadTrajectoryType } from '../../protocol/mrlab_msgs'
-import { say, sentence, spoken } from '../../words/diagnostic'
-import { number } from '../../words/words'
-import { order, type RoomContext } from '../context'
-import { BOARD_WIDTH, BOTTOM, EDGE, type Tab, TOP } from './board'
+import type { Submission } from '../api/types'
+import type { LabFollower } from '../lab/follower'
+import { loadTrajectoryType } from '../protocol/mrlab_msgs'
+import { order, type RoomContext } from '../room/context'
+import { BOARD_WIDTH, BOTTOM, EDGE, type Tab, TOP } from '../room/panels/board'
+import { GAP, HIT, PANEL_THEME, type Pen, TEXT } from '../room/panels/pen'
+import { say, sentence, spoken } from '../words/diagnostic'
+import { number } from '../words/words'
 import { type Lesson, SUBMISSION } from './lesson'
-import { GAP, HIT, PANEL_THEME, type Pen, TEXT } from './pen'
 
 const MOST_MARKS = 6
 const MOST_ROBOTS = 3

@@ -1,8 +1,8 @@
 import { computed, signal } from '@preact/signals'
-import { type Api, submissionUrl } from '../../api/api'
-import type { GradedClass, Submission } from '../../api/types'
-import type { MotionDocument } from '../../playback/motion'
-import { sentence } from '../../words/diagnostic'
+import { type Api, submissionUrl } from '../api/api'
+import type { GradedClass, Submission } from '../api/types'
+import type { MotionDocument } from '../playback/motion'
+import { sentence } from '../words/diagnostic'
 
 export type Order = 'class' | 'points'
 export type ClassApi = Pick<Api, 'gradedClass' | 'motion'>
@@ -112,4 +112,10 @@ export function stepOf({
 export function numbersOf({ marks }: Submission): number[] {
   let number = 0
   return marks.map(({ passed }) => (passed ? 0 : ++number))
+}
+
+/** Return the name under which a submission's motion is published, for its teacher alone. */
+export function publishedName(key: string): string {
+  const plain = key.toLowerCase().replace(/[^a-z0-9]+/g, '_')
+  return `class_${plain.replace(/^_+|_+$/g, '')}`.slice(0, 60)
 }

@@ -1,7 +1,7 @@
-import type { Submission } from '../../api/types'
-import { Icon } from '../../design/icons'
-import { say } from '../../words/diagnostic'
-import { number, words } from '../../words/words'
+import type { Submission } from '../api/types'
+import { Icon } from '../design/icons'
+import { say } from '../words/diagnostic'
+import { number, words } from '../words/words'
 import { numbersOf } from './class_steps'
 
 interface MarksProps {

@@ -1,17 +1,17 @@
 // @vitest-environment jsdom
 import { expect, test, vi } from 'vitest'
-import type { GradedClass, Submission } from '../../../src/api/types'
+import type { GradedClass, Submission } from '../../src/api/types'
 import {
   ClassSteps,
   numbersOf,
   ordered,
+  publishedName,
   REFERENCE,
   stepOf,
-} from '../../../src/pages/class/class_steps'
-import { keyOfPath } from '../../../src/pages/class/page'
-import { publishedName } from '../../../src/pages/class/published_name'
-import { finding } from '../../fake_api'
-import { fakeMotion } from '../../fake_motion'
+} from '../../src/classroom/class_steps'
+import { keyOfPath } from '../../src/classroom/page'
+import { finding } from '../fake_api'
+import { fakeMotion } from '../fake_motion'
 
 function submission(key: string, points: number, more: Partial<Submission> = {}): Submission {
   const lost = { points: 0, of: 1, found: finding({}), hint: '', hidden: false, time: null }

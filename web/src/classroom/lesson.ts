@@ -1,5 +1,5 @@
-import type { Submission } from '../../api/types'
-import type { ClassSteps } from '../../pages/class/class_steps'
+import type { Submission } from '../api/types'
+import type { ClassSteps } from './class_steps'
 
 /** How the motion of a submission is named among trajectories: class:ben. */
 export const SUBMISSION = 'class:'

@@ -2,13 +2,13 @@ import { createContext } from 'preact'
 import { useContext, useEffect, useMemo, useRef, useState } from 'preact/hooks'
 import { Icon } from '../design/icons'
 import { Notice } from '../design/notice'
+import { printing } from '../report/fold'
+import { Page } from '../report/page'
+import { type Scale, scaleOf, Thumbnail, type Way } from '../report/plot/thumbnail'
 import { say } from '../words/diagnostic'
 import { number, words } from '../words/words'
 import type { ClassDocument, ClassMark, ClassResult, ClassStudent } from './class_document'
 import { type Column, FILTERS, type Filter, isShown, sorted } from './class_rows'
-import { printing } from './fold'
-import { Page } from './page'
-import { type Scale, scaleOf, Thumbnail, type Way } from './plot/thumbnail'
 
 // Rows that are drawn at once; more come when they are asked for.
 const ROWS = 300
