@@ -2,7 +2,7 @@ import { InstancedMesh, Matrix4, MeshBasicMaterial, SphereGeometry } from 'three
 import type { SceneTheme } from './theme'
 
 const MOST = 64
-const RADIUS = 0.012 // m
+const DOT = 0.012 // m
 
 /** Where robots touch something. */
 export class Contacts {
@@ -11,7 +11,7 @@ export class Contacts {
 
   constructor() {
     const material = new MeshBasicMaterial({ depthTest: false, transparent: true, opacity: 0.9 })
-    this.mesh = new InstancedMesh(new SphereGeometry(RADIUS, 16, 12), material, MOST)
+    this.mesh = new InstancedMesh(new SphereGeometry(DOT, 16, 12), material, MOST)
     this.mesh.count = 0
     this.mesh.renderOrder = 5
     this.mesh.frustumCulled = false
