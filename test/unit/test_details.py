@@ -207,7 +207,7 @@ def test_meshes_have_the_materials_of_bodies(folder: Path) -> None:
 
 
 def bend(start: Any, end: Any, leaves: Any, arrives: Any, length: float) -> float:
-    """Return the tightest radius, m, of the curve that web/src/scene/hose.ts draws."""
+    """Return the tightest radius, m, of the curve that web/src/scene/robot/hose.ts draws."""
     t = np.linspace(0, 1, 81)[:, None]
     low, high = np.linalg.norm(end - start) * 0.1, length
     share = (1 - t) ** 2 * (1 + 2 * t)

@@ -24,7 +24,7 @@ PAGES = (
 MOTION = (
     "src/pages/motion/motion_view.tsx",
     "src/pages/motion/link_with_code.tsx",
-    "src/scene/preview.ts",
+    "src/scene/preview/preview.ts",
     "src/words/de.ts",
 )
 

@@ -11,7 +11,7 @@ import {
   type Robot,
 } from '../protocol/mrlab_msgs'
 import type { JointState } from '../protocol/sensor_msgs'
-import type { SceneRobot } from '../scene/robot'
+import type { SceneRobot } from '../scene/robot/robot'
 
 /** How one robot stands, for the panel beside the picture. */
 export interface RobotView {

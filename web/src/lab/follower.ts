@@ -24,7 +24,7 @@ import {
 } from '../protocol/mrlab_msgs'
 import { jointStateType } from '../protocol/sensor_msgs'
 import { stringType } from '../protocol/std_msgs'
-import type { LabScene } from '../scene/lab_scene'
+import type { LabScene } from '../scene/lab/lab_scene'
 import {
   type CourseOf,
   Courses,

@@ -1,4 +1,4 @@
-import type { MeshBytes } from '../scene/meshes'
+import type { MeshBytes } from '../scene/robot/meshes'
 
 /** What a page carries: a document, and the meshes that it names. */
 export interface ShownData {

@@ -12,8 +12,8 @@ import {
 } from 'three'
 import type { Link } from '../link/link'
 import { collisionType, type GraspTarget, graspTargetsType } from '../protocol/mrlab_msgs'
-import type { LabScene } from '../scene/lab_scene'
-import { Label } from '../scene/labels'
+import type { LabScene } from '../scene/lab/lab_scene'
+import { Label } from '../scene/stage/labels'
 
 /** m, edge of the cube at a grasp; most of them a robot. */
 const CUBE = 0.05

@@ -20,7 +20,7 @@ import {
 } from '../../src/protocol/mrlab_msgs'
 import { jointStateType } from '../../src/protocol/sensor_msgs'
 import { stringType } from '../../src/protocol/std_msgs'
-import type { LabScene } from '../../src/scene/lab_scene'
+import type { LabScene } from '../../src/scene/lab/lab_scene'
 
 function lab() {
   const link = new FakeLink()

@@ -1,6 +1,6 @@
 import { useEffect, useRef } from 'preact/hooks'
 import type { RemotePlayer } from '../../playback/player'
-import { Controls, type TimeMark } from '../../scene/controls'
+import { Controls, type TimeMark } from '../../scene/preview/controls'
 import { words } from '../../words/words'
 
 interface TimelineProps {

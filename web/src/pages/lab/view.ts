@@ -1,6 +1,6 @@
-import { LabScene } from '../../scene/lab_scene'
-import { MeshLibrary } from '../../scene/meshes'
-import { Stage } from '../../scene/stage'
+import { LabScene } from '../../scene/lab/lab_scene'
+import { MeshLibrary } from '../../scene/robot/meshes'
+import { Stage } from '../../scene/stage/stage'
 import { words } from '../../words/words'
 
 /** The picture of the lab, in code that is loaded only when it is shown. */

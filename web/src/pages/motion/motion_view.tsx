@@ -13,7 +13,7 @@ import {
 import { Strips } from '../../design/plot/strips'
 import { courseOf } from '../../playback/course'
 import type { MotionDocument } from '../../playback/motion'
-import type { MotionPreview } from '../../scene/preview'
+import type { MotionPreview } from '../../scene/preview/preview'
 import { sentence } from '../../words/diagnostic'
 import { language, words } from '../../words/words'
 import './motion.css'
@@ -57,7 +57,7 @@ export function MotionView({ motion, compared = null, selected }: MotionViewProp
   useEffect(() => {
     let here = true
     let dispose = () => {}
-    import('../../scene/preview')
+    import('../../scene/preview/preview')
       .then(async ({ createMotionPreview }) => {
         const element = host.current
         if (!here || element === null) return

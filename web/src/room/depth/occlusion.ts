@@ -11,7 +11,7 @@ import {
   Vector4,
   type WebGLRenderer,
 } from 'three'
-import { originOf } from '../../scene/dissolve'
+import { originOf } from '../../scene/robot/cross_fade'
 import { hidden } from './material'
 
 /** s between two looks for materials that came with new robots and objects. */

@@ -1,6 +1,6 @@
 import type { LabFollower } from '../../lab/follower'
-import type { LabScene } from '../../scene/lab_scene'
-import type { SceneRobot } from '../../scene/robot'
+import type { LabScene } from '../../scene/lab/lab_scene'
+import type { SceneRobot } from '../../scene/robot/robot'
 import { sentence } from '../../words/diagnostic'
 import { Envelope } from './envelope'
 import { Reference } from './reference'

@@ -9,7 +9,7 @@ import {
   type Object3D,
   Vector3,
 } from 'three'
-import type { Chain } from '../../scene/chain'
+import type { Chain } from '../../scene/robot/chain'
 
 const ACROSS = 40
 const UP = 20

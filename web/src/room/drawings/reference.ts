@@ -1,7 +1,7 @@
 import { Vector3 } from 'three'
 import type { Course } from '../../playback/course'
-import type { Chain } from '../../scene/chain'
-import type { SceneRobot } from '../../scene/robot'
+import type { Chain } from '../../scene/robot/chain'
+import type { SceneRobot } from '../../scene/robot/robot'
 
 const here = new Vector3()
 const there = new Vector3()

@@ -3,7 +3,7 @@ import { Line2 } from 'three/addons/lines/Line2.js'
 import { LineGeometry } from 'three/addons/lines/LineGeometry.js'
 import { LineMaterial } from 'three/addons/lines/LineMaterial.js'
 import type { Course } from '../../playback/course'
-import type { Chain } from '../../scene/chain'
+import type { Chain } from '../../scene/robot/chain'
 
 const MOST_POINTS = 600
 const WIDTH = 0.008 // m

@@ -1,6 +1,6 @@
 import type { FollowedScene } from '../../lab/follower'
-import type { LabScene } from '../../scene/lab_scene'
-import type { ShownSurface } from '../../scene/surfaces'
+import type { LabScene } from '../../scene/lab/lab_scene'
+import type { ShownSurface } from '../../scene/lab/surfaces'
 import type { ObjectHandles } from '../handles/object_handles'
 import type { RoomRobots } from './robots'
 

@@ -3,7 +3,7 @@ import { commandsOf } from '../../lab/commands'
 import type { CourseOf } from '../../lab/followed_robot'
 import { LabFollower } from '../../lab/follower'
 import type { Link } from '../../link/link'
-import { themeNow } from '../../scene/theme'
+import { themeNow } from '../../scene/stage/theme'
 import { sentence } from '../../words/diagnostic'
 import type { RoomContext } from '../context'
 

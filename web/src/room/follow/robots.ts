@@ -1,5 +1,5 @@
 import { Vector3 } from 'three'
-import type { LabScene, ShownRobot } from '../../scene/lab_scene'
+import type { LabScene, ShownRobot } from '../../scene/lab/lab_scene'
 import type { RoomContext } from '../context'
 import { RobotHandle } from '../handles/robot_handle'
 import type { Pointer } from '../input/pointer'

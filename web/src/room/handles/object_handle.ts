@@ -5,7 +5,7 @@ import {
   moveObjectType,
   type SceneObject,
 } from '../../protocol/mrlab_msgs'
-import type { LabScene } from '../../scene/lab_scene'
+import type { LabScene } from '../../scene/lab/lab_scene'
 import { order, type RoomContext } from '../context'
 import type { Hit, Pointer, Signal, Target } from '../input/pointer'
 

@@ -1,6 +1,6 @@
 import { Group, Matrix4, type Object3D, Vector3 } from 'three'
 import { GLTFLoader } from 'three/examples/jsm/loaders/GLTFLoader.js'
-import { release } from '../../scene/meshes'
+import { release } from '../../scene/robot/meshes'
 
 // Files of our own origin, so that a headset without internet has them too.
 const FILES = import.meta.glob<string>(

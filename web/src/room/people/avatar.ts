@@ -8,8 +8,8 @@ import {
   Vector3,
 } from 'three'
 import { Presence } from '../../protocol/mrlab_msgs'
-import { Label } from '../../scene/labels'
-import type { Pose } from '../../scene/pose'
+import { Label } from '../../scene/stage/labels'
+import type { Pose } from '../../scene/stage/pose'
 
 /** m */
 const HEAD = 0.11

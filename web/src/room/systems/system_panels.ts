@@ -1,6 +1,6 @@
 import { type Object3D, Vector3 } from 'three'
 import type { SystemView } from '../../lab/follower'
-import type { LabScene } from '../../scene/lab_scene'
+import type { LabScene } from '../../scene/lab/lab_scene'
 import type { RoomContext } from '../context'
 import type { Targets } from '../input/targets'
 import { Stand } from '../panels/stand'

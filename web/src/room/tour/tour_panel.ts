@@ -1,5 +1,5 @@
 import type { Group, Object3D, Vector3 } from 'three'
-import { Label } from '../../scene/labels'
+import { Label } from '../../scene/stage/labels'
 import type { RoomContext } from '../context'
 import { BOARD_HEIGHT, BOARD_WIDTH, EDGE } from '../panels/board'
 import { Panel } from '../panels/panel'

@@ -4,8 +4,8 @@ import { Course } from '../../../src/playback/course'
 import { Envelope } from '../../../src/room/drawings/envelope'
 import { Reference } from '../../../src/room/drawings/reference'
 import { speedColour, toolSpeeds } from '../../../src/room/drawings/tool_ribbon'
-import { Chain } from '../../../src/scene/chain'
-import type { SceneRobot } from '../../../src/scene/robot'
+import { Chain } from '../../../src/scene/robot/chain'
+import type { SceneRobot } from '../../../src/scene/robot/robot'
 
 /** One joint about z, a tool 2 m out. */
 function arm(): Chain {

@@ -10,7 +10,7 @@ import {
 import type { RoomContext } from '../../../src/room/context'
 import { ObjectHandle } from '../../../src/room/handles/object_handle'
 import type { Pointer } from '../../../src/room/input/pointer'
-import type { LabScene } from '../../../src/scene/lab_scene'
+import type { LabScene } from '../../../src/scene/lab/lab_scene'
 import { en } from '../../../src/words/en'
 
 function carried(heldBy: string, robotAt: string) {

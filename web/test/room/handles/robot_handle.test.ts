@@ -5,8 +5,8 @@ import { upright } from '../../../src/room/frames'
 import { RobotHandle } from '../../../src/room/handles/robot_handle'
 import { RayPointer } from '../../../src/room/input/pointer'
 import { supportsOf } from '../../../src/room/placement/supports'
-import type { LabScene } from '../../../src/scene/lab_scene'
-import { type Pose, place } from '../../../src/scene/pose'
+import type { LabScene } from '../../../src/scene/lab/lab_scene'
+import { type Pose, place } from '../../../src/scene/stage/pose'
 
 const settled = () => new Promise((resolve) => setTimeout(resolve))
 

@@ -1,0 +1,54 @@
+import { Mesh, MeshStandardMaterial, type Object3D, type Vector3, WebGLRenderer } from 'three'
+import type { ShadowFit } from './shadow_fit'
+import type { SceneTheme } from './theme'
+
+const MATT = 0.15 // most metalness without reflections
+
+/** A browser that cannot draw in 3D. */
+export class NoWebGL extends Error {
+  override readonly name = 'NoWebGL'
+}
+
+/** Return a renderer on a canvas. Throws NoWebGL. */
+export function rendererOn(canvas: HTMLCanvasElement): WebGLRenderer {
+  const context = canvas.getContext('webgl2', {
+    alpha: true,
+    antialias: true,
+    powerPreference: 'high-performance',
+  })
+  if (context === null) throw new NoWebGL('this browser has no WebGL 2')
+  try {
+    return new WebGLRenderer({ canvas, context, alpha: true, antialias: true })
+  } catch (error) {
+    throw new NoWebGL(error instanceof Error ? error.message : 'this browser has no WebGL 2')
+  }
+}
+
+/** Let metal show its own colour: without reflections it would be black. */
+export function matt(node: Object3D): void {
+  if (!(node instanceof Mesh)) return
+  const { material } = node
+  if (material instanceof MeshStandardMaterial && material.metalness > MATT)
+    material.metalness = MATT
+}
+
+/** Return whether a processor draws in place of a GPU, as far as the browser says. */
+export function drawsInSoftware(renderer: WebGLRenderer): boolean {
+  const context = renderer.getContext()
+  const info = context.getExtension('WEBGL_debug_renderer_info')
+  const name = context.getParameter(info?.UNMASKED_RENDERER_WEBGL ?? context.RENDERER)
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(String(name))
+}
+
+/** Where a lab is drawn: a page's picture, or the room. */
+export interface SceneHost {
+  /** The lab's frame `world`: z up, m. */
+  readonly world: Object3D
+  readonly theme: SceneTheme
+  readonly shadow: ShadowFit
+  onTheme(listener: (theme: SceneTheme) => void): () => void
+  /** Ask for a new picture. */
+  invalidate(): void
+  /** Show points of the world's frame whole; a view that a person chose stays, unless `again`. */
+  frame(points: readonly Vector3[], again?: boolean): void
+}

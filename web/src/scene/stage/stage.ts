@@ -1,0 +1,362 @@
+import '../scene.css'
+import {
+  Box3,
+  DirectionalLight,
+  Group,
+  HemisphereLight,
+  NeutralToneMapping,
+  PCFShadowMap,
+  PerspectiveCamera,
+  PMREMGenerator,
+  Scene,
+  Sphere,
+  Vector3,
+  type WebGLRenderer,
+} from 'three'
+import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js'
+import { RoomEnvironment } from 'three/examples/jsm/environments/RoomEnvironment.js'
+import { Floor } from './floor'
+import { drawsInSoftware, matt, rendererOn } from './renderer'
+import { ShadowFit } from './shadow_fit'
+import { onTheme, reducedMotion, type SceneTheme, themeNow } from './theme'
+
+const MOST_PIXEL_RATIO = 2
+// While it moves, a machine that draws slowly gets fewer pixels; the last picture is always sharp.
+const LEAST_SHARPNESS = 0.4
+const SLOW = 0.045 // s, until a picture is drawn
+const FAST = 0.022
+const LONGEST_WAIT = 0.3 // s
+const STANDS = 0.4 // s without a new picture
+// From the front right and a little above, in ROS axes: as the pictures of the robots are taken.
+const VIEW = new Vector3(1.05, -1.0, 0.62).normalize()
+const LIGHT = new Vector3(0.55, 1.5, 0.75).normalize() // in the scene's axes
+const SHADOW = 1.25 // half of what the shadow covers, radii of what is shown
+const MARGIN = 1.08 // of the distance at which everything just fits
+const TURN = Math.PI / 24 // rad, a press of an arrow key
+
+/** Called before each picture; true asks for another one. now: s, of performance.now(). */
+export type FrameListener = (now: number) => boolean
+
+/** A canvas with light, floor and camera. It draws when something changed, and only then. */
+export class Stage {
+  readonly scene = new Scene()
+  /** The lab's world: z up, m. */
+  readonly world = new Group()
+  readonly camera = new PerspectiveCamera(32, 1, 0.02, 60)
+  readonly canvas: HTMLCanvasElement
+  /** Pictures drawn so far. */
+  drawn = 0
+  theme: SceneTheme
+  private readonly renderer: WebGLRenderer
+  private readonly controls: OrbitControls
+  private readonly floor = new Floor()
+  private readonly sun = new DirectionalLight(0xffffff, 1.7)
+  readonly shadow = new ShadowFit(this.sun, LIGHT)
+  private readonly listeners = new Set<FrameListener>()
+  private readonly themed = new Set<(theme: SceneTheme) => void>()
+  private readonly undo: (() => void)[] = []
+  private readonly scratch = new Vector3()
+  /** What the picture shows whole, in the scene's frame. */
+  private framed: Vector3[] = []
+  private touched = false
+  private request = 0
+  private disposed = false
+  private sharpness = 1
+  /** s, from asking for a picture to drawing it */
+  private latency = FAST
+  private requested = 0
+  private waiting: ReturnType<typeof setTimeout> | undefined
+  private sharpening: ReturnType<typeof setTimeout> | undefined
+
+  /** Throws NoWebGL where the browser has none. label: what the picture shows, for screen readers. */
+  constructor(
+    private readonly container: HTMLElement,
+    label: string,
+  ) {
+    this.canvas = document.createElement('canvas')
+    this.canvas.className = 'scene-canvas'
+    this.canvas.tabIndex = 0
+    this.canvas.setAttribute('role', 'img')
+    this.canvas.setAttribute('aria-label', label)
+    this.renderer = rendererOn(this.canvas)
+    const software = drawsInSoftware(this.renderer)
+    if (software) this.sharpness = LEAST_SHARPNESS
+    this.renderer.toneMapping = NeutralToneMapping
+    this.renderer.toneMappingExposure = software ? 1.05 : 1
+    this.renderer.shadowMap.enabled = true
+    this.renderer.shadowMap.type = PCFShadowMap
+    container.append(this.canvas)
+
+    this.world.rotation.x = -Math.PI / 2
+    this.scene.add(this.world)
+    this.world.add(this.floor.group)
+    this.lightUp(software)
+
+    this.controls = new OrbitControls(this.camera, this.canvas)
+    this.controls.enableDamping = !reducedMotion()
+    this.controls.dampingFactor = 0.12
+    this.controls.maxPolarAngle = Math.PI * 0.497
+    this.controls.minDistance = 0.15
+    this.controls.maxDistance = 25
+    this.controls.zoomToCursor = true
+    const moved = () => this.invalidate()
+    const began = () => {
+      this.touched = true
+    }
+    this.controls.addEventListener('change', moved)
+    this.controls.addEventListener('start', began)
+    this.canvas.addEventListener('keydown', this.onKey)
+    const watched = new ResizeObserver(() => this.resize())
+    watched.observe(container)
+    this.theme = themeNow()
+    this.setTheme(this.theme)
+    this.undo.push(
+      () => this.controls.removeEventListener('change', moved),
+      () => this.controls.removeEventListener('start', began),
+      () => this.canvas.removeEventListener('keydown', this.onKey),
+      () => watched.disconnect(),
+      onTheme((theme) => this.setTheme(theme)),
+    )
+    this.resize()
+  }
+
+  /** Ask for a new picture. */
+  invalidate(): void {
+    if (this.request !== 0 || this.waiting !== undefined || this.disposed) return
+    this.requested = performance.now() / 1000
+    if (this.latency < SLOW) this.request = requestAnimationFrame(this.draw)
+    // leave a machine that cannot keep up as much time for the rest of the page as for pictures
+    else this.waiting = setTimeout(this.drawSoon, Math.min(this.latency, LONGEST_WAIT) * 1000)
+  }
+
+  onFrame(listener: FrameListener): () => void {
+    this.listeners.add(listener)
+    this.invalidate()
+    return () => this.listeners.delete(listener)
+  }
+
+  onTheme(listener: (theme: SceneTheme) => void): () => void {
+    this.themed.add(listener)
+    listener(this.theme)
+    return () => this.themed.delete(listener)
+  }
+
+  /** Show points of the world's frame whole; a view that a person chose stays, unless `again`. */
+  frame(points: readonly Vector3[], again = false): void {
+    if (points.length === 0) return
+    this.world.updateMatrixWorld()
+    this.framed = points.map((point) => point.clone().applyMatrix4(this.world.matrixWorld))
+    const { center, radius } = new Box3()
+      .setFromPoints(this.framed)
+      .getBoundingSphere(new Sphere())
+    this.floor.setReach(Math.max(radius, 0.1) * 5)
+    this.shadow.about(center, Math.max(radius, 0.1) * SHADOW)
+    if (!this.touched || again) {
+      this.touched = false
+      this.place()
+    }
+    this.invalidate()
+  }
+
+  /** Return where on the canvas, CSS pixels from its corner, a point of the world frame is. */
+  toScreen(point: Vector3, into: Vector3): Vector3 {
+    into.copy(point).applyMatrix4(this.world.matrixWorld).project(this.camera)
+    into.x = ((into.x + 1) / 2) * this.canvas.clientWidth
+    into.y = ((1 - into.y) / 2) * this.canvas.clientHeight
+    return into
+  }
+
+  /** Turn the camera about what it looks at, rad. */
+  turn(azimuth: number, polar: number): void {
+    const offset = this.scratch.copy(this.camera.position).sub(this.controls.target)
+    const radius = offset.length()
+    const upward = Math.acos(offset.y / radius)
+    const around = Math.atan2(offset.x, offset.z) + azimuth
+    const down = Math.min(Math.max(upward + polar, 0.05), this.controls.maxPolarAngle)
+    offset.set(
+      radius * Math.sin(down) * Math.sin(around),
+      radius * Math.cos(down),
+      radius * Math.sin(down) * Math.cos(around),
+    )
+    this.camera.position.copy(this.controls.target).add(offset)
+    this.controls.update()
+    this.invalidate()
+  }
+
+  /** Return the picture as it is now, a data: URL. */
+  picture(): string {
+    for (const listener of this.listeners) listener(performance.now() / 1000)
+    this.shadow.apply()
+    this.renderer.render(this.scene, this.camera)
+    return this.canvas.toDataURL()
+  }
+
+  dispose(): void {
+    this.disposed = true
+    cancelAnimationFrame(this.request)
+    clearTimeout(this.sharpening)
+    clearTimeout(this.waiting)
+    for (const undo of this.undo) undo()
+    this.controls.dispose()
+    this.floor.dispose()
+    this.sun.shadow.dispose()
+    this.scene.environment?.dispose()
+    this.renderer.dispose()
+    this.canvas.remove()
+  }
+
+  private readonly draw = (): void => {
+    this.request = 0
+    if (this.disposed) return
+    const now = performance.now() / 1000
+    let more = false
+    for (const listener of this.listeners) more = listener(now) || more
+    this.controls.update()
+    this.adapt(now)
+    if (this.scene.environment === null) this.scene.traverse(matt)
+    this.shadow.apply()
+    this.renderer.render(this.scene, this.camera)
+    this.drawn++
+    if (more) this.invalidate()
+  }
+
+  private readonly drawSoon = (): void => {
+    this.waiting = undefined
+    this.requested = performance.now() / 1000
+    this.request = requestAnimationFrame(this.draw)
+  }
+
+  /** Choose how many pixels this picture gets, by how long the last ones were waited for. */
+  private adapt(now: number): void {
+    clearTimeout(this.sharpening)
+    this.latency += 0.2 * (Math.min(now - this.requested, 1) - this.latency)
+    if (this.latency > SLOW) this.setSharpness(Math.max(this.sharpness * 0.85, LEAST_SHARPNESS))
+    else if (this.latency < FAST) this.setSharpness(Math.min(this.sharpness * 1.05, 1))
+    if (this.sharpness < 1) this.sharpening = setTimeout(this.sharpen, STANDS * 1000)
+  }
+
+  private readonly sharpen = (): void => {
+    if (this.disposed || this.request !== 0 || this.waiting !== undefined) return
+    const moving = this.sharpness
+    this.setSharpness(1)
+    this.renderer.render(this.scene, this.camera)
+    this.sharpness = moving
+  }
+
+  private setSharpness(sharpness: number): void {
+    this.sharpness = sharpness
+    const ratio = Math.min(devicePixelRatio, MOST_PIXEL_RATIO) * sharpness
+    if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio)
+  }
+
+  private readonly onKey = (event: KeyboardEvent): void => {
+    const turns: Record<string, readonly [number, number]> = {
+      ArrowLeft: [-TURN, 0],
+      ArrowRight: [TURN, 0],
+      ArrowUp: [0, -TURN],
+      ArrowDown: [0, TURN],
+    }
+    const turn = turns[event.key]
+    if (turn !== undefined) {
+      this.touched = true
+      this.turn(turn[0], turn[1])
+    } else if (event.key === '+' || event.key === '=' || event.key === '-') {
+      this.touched = true
+      const way = this.scratch.copy(this.camera.position).sub(this.controls.target)
+      this.camera.position.copy(this.controls.target)
+      this.camera.position.add(way.multiplyScalar(event.key === '-' ? 1.15 : 1 / 1.15))
+      this.controls.update()
+    } else if (event.key === '0' || event.key === 'Home') {
+      this.touched = false
+      this.place()
+      this.invalidate()
+    } else {
+      return
+    }
+    event.preventDefault()
+  }
+
+  /** Put the camera where all that is framed just fits, seen from VIEW. */
+  private place(): void {
+    if (this.framed.length === 0) return
+    const high = Math.tan((this.camera.fov * Math.PI) / 360)
+    const wide = high * this.camera.aspect
+    const back = new Vector3(VIEW.x, VIEW.z, -VIEW.y)
+    const right = new Vector3(0, 1, 0).cross(back).normalize()
+    const up = new Vector3().crossVectors(back, right)
+    const target = new Box3().setFromPoints(this.framed).getCenter(new Vector3())
+    let distance = 0
+    // centring what is seen changes what just fits: a few rounds settle it
+    for (let round = 0; round < 4; round++) {
+      distance = 0
+      for (const point of this.framed) {
+        const to = this.scratch.copy(point).sub(target)
+        const needed = Math.max(Math.abs(to.dot(right)) / wide, Math.abs(to.dot(up)) / high)
+        distance = Math.max(distance, needed + to.dot(back))
+      }
+      distance = Math.max(distance, 0.2)
+      const seen = { left: 1, right: -1, low: 1, high: -1 }
+      for (const point of this.framed) {
+        const to = this.scratch.copy(point).sub(target)
+        const depth = distance - to.dot(back)
+        const x = to.dot(right) / depth / wide
+        const y = to.dot(up) / depth / high
+        seen.left = Math.min(seen.left, x)
+        seen.right = Math.max(seen.right, x)
+        seen.low = Math.min(seen.low, y)
+        seen.high = Math.max(seen.high, y)
+      }
+      target.addScaledVector(right, ((seen.left + seen.right) / 2) * distance * wide)
+      target.addScaledVector(up, ((seen.low + seen.high) / 2) * distance * high)
+    }
+    this.controls.target.copy(target)
+    this.camera.position
+      .copy(back)
+      .multiplyScalar(distance * MARGIN)
+      .add(target)
+    this.controls.update()
+  }
+
+  private resize(): void {
+    const width = this.container.clientWidth
+    const height = this.container.clientHeight
+    if (width === 0 || height === 0 || this.disposed) return
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, MOST_PIXEL_RATIO) * this.sharpness)
+    this.renderer.setSize(width, height, false)
+    this.camera.aspect = width / height
+    this.camera.updateProjectionMatrix()
+    if (!this.touched) this.place()
+    // at once: a canvas that was resized is empty until it is drawn again
+    this.draw()
+  }
+
+  private lightUp(software: boolean): void {
+    this.sun.castShadow = true
+    if (software) {
+      // its reflections alone would take a processor ten seconds
+      this.sun.shadow.mapSize.set(1024, 1024)
+      this.sun.intensity = 2.4
+      const fill = new DirectionalLight(0xffffff, 0.9)
+      fill.position.set(-LIGHT.x, LIGHT.y * 0.35, -LIGHT.z)
+      this.scene.add(new HemisphereLight(0xffffff, 0x9aa4b0, 1.7), fill)
+    } else {
+      const generator = new PMREMGenerator(this.renderer)
+      const room = new RoomEnvironment()
+      this.scene.environment = generator.fromScene(room, 0.04).texture
+      room.dispose()
+      generator.dispose()
+      this.sun.shadow.mapSize.set(2048, 2048)
+      this.scene.add(new HemisphereLight(0xffffff, 0x8895a5, 0.2))
+    }
+    this.sun.shadow.radius = 6
+    this.scene.add(this.sun, this.sun.target)
+  }
+
+  private setTheme(theme: SceneTheme): void {
+    this.theme = theme
+    this.floor.setTheme(theme)
+    this.scene.environmentIntensity = theme.name === 'dark' ? 0.45 : 0.55
+    for (const listener of this.themed) listener(theme)
+    this.invalidate()
+  }
+}
