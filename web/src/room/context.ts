@@ -4,9 +4,9 @@ import type { Link, ServiceType } from '../link/link'
 import type { TrajectoryInfo } from '../protocol/mrlab_msgs'
 import { sentence, spoken, type Told } from '../words/diagnostic'
 import type { Words } from '../words/en'
-import type { Drawings } from './drawings/drawings'
 import type { Surroundings } from './panels/panel'
-import type { Place, Support } from './placement/supports'
+import type { Place, Support } from './place/supports'
+import type { Drawings } from './scene/drawings'
 
 /** A catalogue's entry with its picture, once that is read. */
 export interface Entry {

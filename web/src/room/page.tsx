@@ -13,11 +13,11 @@ import type { Link } from '../link/link'
 import { courseOf } from '../playback/course'
 import { checkSignIn, session, useApi } from '../shell/session'
 import { language, words } from '../words/words'
+import type { Person } from './board/people_tab'
 import type { Entry } from './context'
-import type { Person } from './people/people_tab'
 import type { Room } from './room'
 import { type Ability, abilityOf } from './session/features'
-import { type Hop, hopsOf, refusalOf } from './why/hops'
+import { type Hop, hopsOf, refusalOf } from './session/hops'
 
 /** s between two looks at what is not there. */
 const PERIOD_S = 1

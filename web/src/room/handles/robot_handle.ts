@@ -3,10 +3,10 @@ import { placeRobotType } from '../../protocol/mrlab_msgs'
 import type { LabScene } from '../../scene/lab/lab_scene'
 import type { Pose } from '../../scene/stage/pose'
 import { order, type RoomContext } from '../context'
-import { upright } from '../frames'
 import type { Hit, Pointer, Signal, Target } from '../input/pointer'
-import { isClear, isOn, landing, type Place } from '../placement/supports'
-import { ArmShape } from '../systems/arm_shape'
+import { isClear, isOn, landing, type Place } from '../place/supports'
+import { upright } from '../scene/frames'
+import { ArmShape } from './arm_shape'
 
 /** m: what of a robot's base can be taken hold of. */
 const RADIUS = 0.18

@@ -2,8 +2,8 @@ import { type Object3D, Quaternion, type Vector3 } from 'three'
 import type { Link } from '../../link/link'
 import { type Presence, presenceType } from '../../protocol/mrlab_msgs'
 import type { Words } from '../../words/en'
-import type { Viewer } from '../anchor/alignment'
-import { poseInWorld } from '../frames'
+import type { Viewer } from '../place/alignment'
+import { poseInWorld } from '../scene/frames'
 import { Avatar, AvatarShapes, type Part, partOf } from './avatar'
 
 /** s between two of our own messages: less than 20 a second. */

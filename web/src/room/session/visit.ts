@@ -3,7 +3,7 @@ import type { Vector3 } from 'three'
 import type { Pointer } from '../input/pointer'
 import { XrInputs } from '../input/sources'
 import type { Targets } from '../input/targets'
-import type { RoomStage } from '../stage'
+import type { RoomStage } from '../scene/stage'
 import type { Feature, Mode } from './features'
 import { enter, type RoomSession } from './session'
 

@@ -7,7 +7,7 @@ import { order, type RoomContext } from '../context'
 import { PagedList } from '../panels/paged_list'
 import { Panel } from '../panels/panel'
 import { GAP, HIT, PANEL_THEME, type Pen, TEXT } from '../panels/pen'
-import { Timeline, type Track } from '../panels/timeline'
+import { Timeline, type Track } from '../robots/timeline'
 import { type Segment, segmentsOf } from './segments'
 
 const WIDTH = 640

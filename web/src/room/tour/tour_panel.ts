@@ -1,7 +1,7 @@
 import type { Group, Object3D, Vector3 } from 'three'
 import { Label } from '../../scene/stage/labels'
+import { BOARD_HEIGHT, BOARD_WIDTH, EDGE } from '../board/board'
 import type { RoomContext } from '../context'
-import { BOARD_HEIGHT, BOARD_WIDTH, EDGE } from '../panels/board'
 import { Panel } from '../panels/panel'
 import { GAP, HIT, type Pen, TEXT } from '../panels/pen'
 import { STEPS, type Tour } from './tour'

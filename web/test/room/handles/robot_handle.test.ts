@@ -1,10 +1,10 @@
 import { Object3D } from 'three'
 import { beforeEach, describe, expect, it } from 'vitest'
 import type { RoomContext } from '../../../src/room/context'
-import { upright } from '../../../src/room/frames'
 import { RobotHandle } from '../../../src/room/handles/robot_handle'
 import { RayPointer } from '../../../src/room/input/pointer'
-import { supportsOf } from '../../../src/room/placement/supports'
+import { supportsOf } from '../../../src/room/place/supports'
+import { upright } from '../../../src/room/scene/frames'
 import type { LabScene } from '../../../src/scene/lab/lab_scene'
 import { type Pose, place } from '../../../src/scene/stage/pose'
 

@@ -1,0 +1,138 @@
+import type { RoomContext } from '../context'
+import { Panel } from '../panels/panel'
+import { GAP, HIT, PANEL_THEME, type Pen, TEXT } from '../panels/pen'
+
+export const BOARD_WIDTH = 760
+export const BOARD_HEIGHT = 600
+export const EDGE = 26
+/** mm from the top, where a tab's own content begins, and where it ends. */
+export const TOP = 112
+export const BOTTOM = BOARD_HEIGHT - 62
+const NOTICE_S = 10
+/** s between two questions to the tab that is shown whether it says something else. */
+const ASK_PERIOD = 1
+/** mm between two tabs; and letters that a tab's margins take. */
+const TAB_GAP = 8
+const TAB_MARGIN = 2.5
+
+/** A page of the board. */
+export interface Tab {
+  readonly id: string
+  readonly words: string
+  /** What it says that changes by itself, as with time: it is painted anew where this is another. */
+  says?(): string
+  draw(pen: Pen): void
+}
+
+/** The panel beside the person: what there is to put into the room, and the room itself. */
+export class Board {
+  readonly panel: Panel
+  tabs: readonly Tab[] = []
+  private chosen = 0
+  private stands = ''
+  private notice = ''
+  private warns = false
+  private noticedAt = 0
+  private now = 0
+  private askedAt = 0
+  /** What its tab said when it was asked last. */
+  private said = ''
+
+  constructor(context: RoomContext) {
+    this.panel = new Panel(BOARD_WIDTH, BOARD_HEIGHT, (pen) => this.draw(pen), context)
+  }
+
+  /** What is wrong as long as it is: shown where nothing newer is. */
+  set standing(text: string) {
+    if (text === this.stands) return
+    this.stands = text
+    this.panel.repaint()
+  }
+
+  /** Show a tab by its id. */
+  open(id: string): void {
+    this.chosen = Math.max(
+      this.tabs.findIndex((tab) => tab.id === id),
+      0,
+    )
+    this.panel.repaint()
+  }
+
+  /** Say a sentence at the bottom for a while. */
+  say(text: string, warns = true): void {
+    this.notice = text
+    this.warns = warns
+    this.noticedAt = this.now
+    this.panel.repaint()
+  }
+
+  update(now: number): void {
+    this.now = now
+    if (now - this.askedAt > ASK_PERIOD) {
+      this.askedAt = now
+      const says = this.tabs[this.chosen]?.says?.() ?? ''
+      if (says !== this.said) this.panel.repaint()
+      this.said = says
+    }
+    if (this.notice !== '' && now - this.noticedAt > NOTICE_S) {
+      this.notice = ''
+      this.panel.repaint()
+    }
+    this.panel.update()
+  }
+
+  private draw(pen: Pen): void {
+    // each as wide as its word needs, in any language
+    const room = BOARD_WIDTH - 2 * EDGE - (this.tabs.length - 1) * TAB_GAP
+    const letters = this.tabs.reduce((sum, { words }) => sum + words.length + TAB_MARGIN, 0)
+    let x = EDGE
+    this.tabs.forEach(({ id, words }, i) => {
+      const width = (room * (words.length + TAB_MARGIN)) / Math.max(letters, 1)
+      const open = () => {
+        this.chosen = i
+      }
+      pen.button(`tab ${id}`, x, 24, width, words, open, {
+        chosen: i === this.chosen,
+        small: true,
+      })
+      x += width + TAB_GAP
+    })
+    this.tabs[this.chosen]?.draw(pen)
+    const text = this.notice || this.stands
+    if (text === '') return
+    const warns = this.notice === '' || this.warns
+    const ink = warns ? PANEL_THEME.states.PAUSED : PANEL_THEME.colours.second
+    pen.lines(EDGE, BOTTOM + 18, text, TEXT.small, undefined, ink, 2)
+  }
+}
+
+/** A page of cards, with ‹ and › where there are more; `page` is where it is. */
+export function drawCards<T>(
+  pen: Pen,
+  top: number,
+  entries: readonly T[],
+  page: { value: number },
+  card: (entry: T, x: number, y: number, width: number, height: number) => void,
+): void {
+  const columns = 4
+  const width = (BOARD_WIDTH - 2 * EDGE - (columns - 1) * GAP) / columns
+  const height = (BOTTOM - top - HIT - 2 * GAP) / 2
+  const each = columns * 2
+  const pages = Math.max(Math.ceil(entries.length / each), 1)
+  page.value = Math.min(page.value, pages - 1)
+  entries.slice(page.value * each, (page.value + 1) * each).forEach((entry, i) => {
+    const x = EDGE + (i % columns) * (width + GAP)
+    const y = top + Math.floor(i / columns) * (height + GAP)
+    card(entry, x, y, width, height)
+  })
+  if (pages === 1) return
+  const y = BOTTOM - HIT
+  const turn = (by: number) => () => {
+    page.value += by
+  }
+  const right = BOARD_WIDTH - EDGE
+  pen.button('previous', right - 290, y, 90, '‹', turn(-1), { enabled: page.value > 0 })
+  const place = `${page.value + 1} / ${pages}`
+  pen.text(right - 145, y + HIT / 2, place, TEXT.small, 90, 'second', 400, 'center')
+  pen.button('next', right - 90, y, 90, '›', turn(1), { enabled: page.value < pages - 1 })
+}

@@ -1,0 +1,53 @@
+import { type Quaternion, Vector3 } from 'three'
+import type { RoomContext } from '../context'
+import { Stand } from '../panels/stand'
+import type { Viewer } from '../place/alignment'
+import type { Board } from './board'
+
+/** rad: a board that is this far to the side of where one looks, for so long, s, comes along. */
+const ASIDE = (75 * Math.PI) / 180
+const ASIDE_S = 1.5
+const SIDE = (36 * Math.PI) / 180
+/** m */
+const AWAY = 0.95
+const BELOW_EYES = 0.22
+
+const at = new Vector3()
+
+/** Keeps the board at the hand that does not work, a little to the side of where one looks. */
+export class BoardPlace {
+  private readonly stand: Stand
+  private yaw = 0
+  private asideSince = Number.NaN
+
+  constructor(
+    private readonly board: Board,
+    private readonly context: RoomContext,
+  ) {
+    this.stand = new Stand(board.panel.group, 'top')
+  }
+
+  /** Take where somebody looks as straight ahead. */
+  face(look: Quaternion): void {
+    this.yaw = yawOf(look)
+  }
+
+  /** Before each picture. now, step: s. Returns whether the board moves. */
+  update({ head, look }: Viewer, now: number, step: number): boolean {
+    const yaw = yawOf(look)
+    const off = Math.abs(Math.atan2(Math.sin(yaw - this.yaw), Math.cos(yaw - this.yaw)))
+    if (this.context.screen !== null) this.yaw = yaw
+    else if (off < ASIDE) this.asideSince = Number.NaN
+    else if (Number.isNaN(this.asideSince)) this.asideSince = now
+    else if (now - this.asideSince > ASIDE_S) this.yaw = yaw
+    const side = this.yaw + (this.context.leftHanded ? -SIDE : SIDE)
+    at.set(-Math.sin(side), 0, -Math.cos(side)).multiplyScalar(AWAY)
+    at.add(head).setY(head.y - BELOW_EYES)
+    return this.stand.update(at, head, now, step, this.board.panel.pointers > 0, this.context)
+  }
+}
+
+/** Return the heading of a look about the vertical, rad; 0 looks along -z. */
+function yawOf({ x, y, z, w }: Quaternion): number {
+  return Math.atan2(2 * (w * y + x * z), 1 - 2 * (x * x + y * y))
+}

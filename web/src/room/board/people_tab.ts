@@ -1,0 +1,54 @@
+import type { LabFollower } from '../../lab/follower'
+import type { RoomContext } from '../context'
+import { GAP, HIT, TEXT } from '../panels/pen'
+import { PART_ICONS, type Part } from '../people/avatar'
+import { pauseAll } from '../people/pausing'
+import type { People } from '../people/people'
+import { BOARD_WIDTH, BOTTOM, EDGE, type Tab, TOP } from './board'
+
+/** Somebody who is signed in here. */
+export interface Person {
+  readonly name: string
+  readonly part: Part
+}
+
+const MOST_LISTED = 8
+const ROW = 36
+
+/** Who is here, and what only instructors may do to all. */
+export function peopleTab(
+  context: RoomContext,
+  people: People,
+  follower: LabFollower,
+  own: Person,
+): Tab {
+  const w = context.words.room
+  const pause = async () => {
+    const { paused, failed } = await pauseAll(context.link, follower)
+    if (failed.length > 0) context.say(failed.join('; '))
+    else context.say(paused.length === 0 ? w.nothingMoves : w.pausedAll(paused.length), false)
+  }
+  return {
+    id: 'people',
+    words: w.people,
+    draw: (pen) => {
+      let y = TOP + 12
+      const line = (part: Part, name: string, ink: string) => {
+        const words = `${PART_ICONS[part]}  ${name} · ${w.parts[part]}`
+        pen.text(EDGE, y, words, TEXT.body, undefined, ink, 600)
+        y += ROW
+      }
+      line(own.part, `${own.name} (${w.you})`, 'ink')
+      const { present } = people
+      for (const { name, part } of present.slice(0, MOST_LISTED)) line(part, name, 'ink')
+      const more = present.length - MOST_LISTED
+      if (more > 0) pen.text(EDGE, y, w.andMore(more), TEXT.small, undefined, 'second')
+      if (present.length === 0) pen.lines(EDGE, y, w.alone, TEXT.small, undefined, 'second')
+      const width = (BOARD_WIDTH - 2 * EDGE - GAP) / 2
+      if (own.part !== 2) return
+      pen.button('pause_all', EDGE, BOTTOM - HIT - GAP, width, w.pauseAll, () => void pause(), {
+        primary: true,
+      })
+    },
+  }
+}

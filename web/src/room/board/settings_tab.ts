@@ -1,0 +1,122 @@
+import type { Words } from '../../words/en'
+import type { RoomContext } from '../context'
+import { GAP, HIT, TEXT } from '../panels/pen'
+import type { Hold } from '../place/anchor'
+import type { Settings, Switch } from '../session/settings'
+import { BOARD_WIDTH, BOTTOM, EDGE, type Tab, TOP } from './board'
+
+const SWITCH = 270
+const ABOUT = EDGE + SWITCH + 20
+
+/** What somebody chooses for their own eyes and hands. */
+export function settingsTab(context: RoomContext, settings: Settings, tour: () => void): Tab {
+  const w = context.words.room
+  const rows: readonly (readonly [string, Switch, string, string])[] = [
+    ['left_handed', settings.leftHanded, w.leftHanded, w.leftHandedAbout],
+    ['seated', settings.seated, w.seated, w.seatedAbout],
+    ['contrast', settings.contrast, w.contrast, w.contrastAbout],
+    ['still', settings.still, w.still, w.stillAbout],
+    ['occlusion', settings.occlusion, w.occlusion, w.occlusionAbout],
+  ]
+  return {
+    id: 'settings',
+    words: w.settings,
+    draw: (pen) => {
+      let y = TOP
+      const about = (words: string) =>
+        pen.lines(ABOUT, y + 18, words, TEXT.small, BOARD_WIDTH - ABOUT - EDGE, 'second', 2)
+      for (const [id, each, words, why] of rows) {
+        const look = { chosen: each.value, tick: each.value }
+        pen.button(id, EDGE, y, SWITCH, words, () => each.toggle(), look)
+        about(why)
+        y += HIT + GAP
+      }
+      pen.button('tour', EDGE, y, SWITCH, w.tour.again, tour)
+      about(w.tour.about)
+    },
+  }
+}
+
+/** s: a headset says what it knows of the room within this. */
+const SCAN_WAIT_S = 3
+
+/** How the room stands, for somebody in it. */
+export interface RoomStanding {
+  /** Surfaces that the lab knows. */
+  readonly surfaces: number
+  /** s since somebody entered; NaN: nobody is inside. */
+  readonly insideFor: number
+  /** Surfaces that the headset knows. */
+  readonly scanned: number
+  readonly hold: Hold
+  /** Features that the session came without. */
+  readonly missing: readonly string[]
+}
+
+/** Return the lines that say how the room stands. */
+export function roomLines(room: RoomStanding, words: Words['room']): string[] {
+  const lines = [words.surfaces(room.surfaces)]
+  if (Number.isNaN(room.insideFor)) return lines
+  if (room.insideFor > SCAN_WAIT_S && room.scanned === 0) lines.push(words.notSetUp)
+  const holds = { kept: words.anchorKept, session: words.anchorSession, none: words.anchorNone }
+  lines.push(holds[room.hold])
+  if (room.missing.length > 0) lines.push(words.lacks(room.missing.join(', ')))
+  return lines
+}
+
+/** What the room tab shows and switches. */
+export interface RoomSwitches {
+  lines(): readonly string[]
+  readonly grid: boolean
+  toggleGrid(): void
+  /** Whether headsets can be aligned here by touch. */
+  readonly canAlign: boolean
+  /** Whether a touch is awaited. */
+  readonly aligning: boolean
+  align(): void
+  readonly canUndo: boolean
+  undoAlign(): void
+  /** null: the device has no room scan of its own. */
+  readonly scan: (() => void) | null
+  /** Bring the scene's origin to the floor before the person. */
+  bringHere(): void
+  /** Have the lab forget the surfaces of all headsets, of those too that left. */
+  forgetSurfaces(): void
+  leave(): void
+}
+
+export function roomTab(context: RoomContext, room: RoomSwitches): Tab {
+  return {
+    id: 'room',
+    words: context.words.room.room,
+    says: () => room.lines().join(),
+    draw: (pen) => {
+      const w = context.words.room
+      let y = TOP + 6
+      for (const line of room.lines())
+        y = pen.lines(EDGE, y, line, TEXT.small, undefined, 'second') + 4
+      const width = (BOARD_WIDTH - 2 * EDGE - GAP) / 2
+      const top = BOTTOM - 4 * (HIT + GAP)
+      const right = EDGE + width + GAP
+      const second = top + HIT + GAP
+      const third = second + HIT + GAP
+      pen.button('grid', EDGE, top, width, w.grid, () => room.toggleGrid(), { chosen: room.grid })
+      pen.button('scan', right, top, width, w.scan, () => room.scan?.(), {
+        enabled: room.scan !== null,
+      })
+      pen.button('align', EDGE, second, width, w.align, () => room.align(), {
+        chosen: room.aligning,
+        enabled: room.canAlign,
+      })
+      pen.button('undo_align', right, second, width, w.undoAlign, () => room.undoAlign(), {
+        enabled: room.canUndo,
+      })
+      pen.button('bring', EDGE, third, width, w.bringHere, () => room.bringHere())
+      pen.button('forget', right, third, width, w.forgetSurfaces, () => room.forgetSurfaces())
+      const fourth = third + HIT + GAP
+      pen.button('leave', EDGE, fourth, width, w.leave, () => room.leave(), {
+        enabled: room.canAlign,
+      })
+    },
+  }
+}

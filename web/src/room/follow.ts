@@ -1,0 +1,140 @@
+import { effect, type ReadonlySignal } from '@preact/signals'
+import { THEMES } from '../design/tokens'
+import { commandsOf } from '../lab/commands'
+import type { CourseOf } from '../lab/followed_robot'
+import { type FollowedScene, LabFollower } from '../lab/follower'
+import type { Link } from '../link/link'
+import type { LabScene } from '../scene/lab/lab_scene'
+import type { ShownSurface } from '../scene/lab/surfaces'
+import { themeNow } from '../scene/stage/theme'
+import { sentence } from '../words/diagnostic'
+import type { Board } from './board/board'
+import type { Entry, RoomContext } from './context'
+import type { ObjectHandles } from './handles/object_handles'
+import type { RobotPanels } from './robots/robot_panels'
+import type { RoomRobots } from './robots/robots'
+import { hopsOf } from './session/hops'
+import type { SystemPanels } from './systems/system_panels'
+
+/** Return what follows the lab for a room; says which motion could not be fetched. */
+export function roomFollower(
+  link: Link,
+  { words, say }: Pick<RoomContext, 'words' | 'say'>,
+  courseOf: CourseOf,
+): LabFollower {
+  return new LabFollower(link, {
+    commands: (name) => commandsOf(link, name),
+    word: (state) => words.states[state],
+    // names stand in the picture, whose theme is the page's
+    colour: (state) => THEMES[themeNow().name].states[state],
+    stir: () => undefined,
+    courseOf: (id) =>
+      courseOf(id).catch((error: unknown) => {
+        say(sentence(error))
+        throw error
+      }),
+  })
+}
+
+/** Who takes what a lab says. */
+export interface FollowedParts {
+  readonly scene: LabScene
+  readonly robots: RoomRobots
+  readonly objects: ObjectHandles
+  /** The robots are there, or others. */
+  came(): void
+  setSurfaces(surfaces: readonly ShownSurface[]): void
+}
+
+/** Return the scene as the follower moves it. */
+export function followedScene(parts: FollowedParts): FollowedScene {
+  const { scene, robots, objects } = parts
+  return {
+    setRobots: (shown) => {
+      robots.set(shown)
+      parts.came()
+    },
+    setState: (name, word, colour, filled) => scene.setState(name, word, colour, filled),
+    setCollision: (name, link) => scene.setCollision(name, link),
+    setObjects: (shown) => {
+      scene.setObjects(shown)
+      objects.set(shown)
+    },
+    setContacts: (contacts) => scene.setContacts(contacts),
+    setSurfaces: (surfaces) => parts.setSurfaces(surfaces),
+    // cubes between the fingers mark them here
+    setTargets: () => undefined,
+    frame: () => undefined,
+    robot: (name) => scene.robot(name),
+  }
+}
+
+/** s between two looks at a lab that says nothing: silence is no message. */
+const PERIOD_S = 1
+
+/** What shows how the lab stands. */
+export interface Listeners {
+  readonly context: RoomContext
+  readonly follower: LabFollower
+  readonly board: Board
+  readonly panels: RobotPanels
+  readonly systems: SystemPanels
+  /** The files of meshes that could not be read. */
+  readonly troubles: ReadonlySignal<readonly string[]>
+  /** A robot has begun to halt. */
+  halt(): void
+}
+
+/** Keep the panels as the lab is; returns how to end it. */
+export function listen({
+  context,
+  follower,
+  board,
+  panels,
+  systems,
+  troubles,
+  halt,
+}: Listeners): () => void {
+  const { words, robots, endEffectors } = context
+  const repaint = () => board.panel.repaint()
+  /** s; NaN: the link is not open. */
+  let openedAt = Number.NaN
+  const look = () => {
+    const link = follower.status.value
+    const now = performance.now() / 1000
+    if (link.phase !== 'open') openedAt = Number.NaN
+    else if (Number.isNaN(openedAt)) openedAt = now
+    const way = {
+      ability: null,
+      link,
+      openFor: now - openedAt,
+      known: follower.known.value,
+      robots: follower.robots.value.length,
+      troubles: troubles.value,
+    }
+    board.standing = hopsOf(way, words.room)[0]?.words ?? ''
+  }
+  const timer = setInterval(look, PERIOD_S * 1000)
+  const undo = [
+    () => clearInterval(timer),
+    effect(look),
+    effect(() => {
+      if (panels.show(follower.robots.value)) halt()
+    }),
+    effect(() => {
+      if (follower.recorder.value !== null) repaint()
+    }),
+    effect(() => {
+      systems.show(follower.systems.value)
+      repaint()
+    }),
+    // pictures of the catalogue come later than the panel
+    ...[...robots, ...endEffectors].map(({ picture }: Entry) => {
+      picture?.addEventListener('load', repaint)
+      return () => picture?.removeEventListener('load', repaint)
+    }),
+  ]
+  return () => {
+    for (const each of undo) each()
+  }
+}

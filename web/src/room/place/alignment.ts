@@ -1,0 +1,63 @@
+import { Quaternion, Vector3 } from 'three'
+import type { RoomStage } from '../scene/stage'
+import type { SceneAnchor } from './anchor'
+import type { RoomScan } from './scan'
+import type { Place } from './supports'
+
+/** m before the eyes: where the scene's middle comes to stand. */
+const AWAY = 1.5
+const at = new Vector3()
+
+/** Somebody's eyes in the floor space. */
+export interface Viewer {
+  readonly head: Vector3
+  readonly look: Quaternion
+}
+
+/** Where the desktop view looks from. */
+export const SEATED: Viewer = { head: new Vector3(0, 1.6, 0.9), look: new Quaternion() }
+
+/** Puts the scene before who enters, unless an anchor of an earlier session says where it stands. */
+export class Alignment {
+  private aligned = false
+  private restoring = false
+
+  constructor(
+    private readonly stage: RoomStage,
+    private readonly anchor: SceneAnchor,
+    private readonly scan: RoomScan,
+    private readonly bases: () => Iterable<Place>,
+  ) {}
+
+  /** A session begins. */
+  begin(session: XRSession): void {
+    this.aligned = false
+    this.restoring = true
+    this.anchor.restore(session).then(() => {
+      this.restoring = false
+    })
+  }
+
+  /** Whether the scene waits to be put before the eyes. */
+  get due(): boolean {
+    if (this.restoring || this.anchor.waits) return false
+    return !this.aligned && !this.anchor.found
+  }
+
+  /** Put the scene's middle on the floor before somebody. */
+  align({ head, look }: Viewer): void {
+    at.set(0, 0, 0)
+    let count = 0
+    for (const { x, y, z } of this.bases()) {
+      at.x += x
+      at.y += y
+      at.z += z
+      count++
+    }
+    if (count > 0) at.divideScalar(count).applyQuaternion(this.stage.world.quaternion)
+    const floor = Number.isNaN(this.scan.floor) ? 0 : this.scan.floor
+    this.anchor.place(head, look, at, count > 0 ? AWAY : 0, floor)
+    this.stage.anchor.updateMatrixWorld(true)
+    this.aligned = true
+  }
+}

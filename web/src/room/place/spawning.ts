@@ -1,0 +1,69 @@
+import { Quaternion, Vector3 } from 'three'
+import type { Unsubscribe } from '../../link/link'
+import type { Pose } from '../../protocol/geometry_msgs'
+import { listCatalogueType, type ObjectType, spawnRobotType } from '../../protocol/mrlab_msgs'
+import { type Entry, order, type RoomContext } from '../context'
+import { poseInWorld } from '../scene/frames'
+import type { Viewer } from './alignment'
+
+const BELOW_EYES = 0.2 // m
+const LOWEST = 0.3 // m
+const UPRIGHT = { x: 0, y: 0, z: 0, w: 1 } as const
+const level = new Quaternion()
+const at = new Vector3()
+
+/** Puts new robots and objects before the eyes. */
+export class Spawning {
+  types: readonly ObjectType[] = []
+  /** Objects that there may be at once; 0: not known. */
+  most = 0
+  private readonly undo: Unsubscribe
+
+  /** listed: the types of objects are there. */
+  constructor(
+    private readonly context: RoomContext,
+    private readonly viewer: Viewer,
+    private readonly listed: () => void,
+  ) {
+    this.undo = context.link.onOffer(() => this.list())
+    this.list()
+  }
+
+  /** Have the lab place a robot on what is before the eyes. */
+  async spawn({ id }: Entry): Promise<void> {
+    const { context, viewer } = this
+    const request = spawnRobotType.request.create({
+      model: id,
+      automatic: true,
+      has_viewer: true,
+      viewer: poseInWorld(context.world, viewer.head, viewer.look),
+    })
+    const answer = await order(context, 'lab/spawn_robot', spawnRobotType, request)
+    if (answer !== null) context.say(context.words.room.placed(answer.robot.name), false)
+  }
+
+  /** Return a place so far before the eyes, m, a little below them. */
+  before(distance: number): Pose {
+    const { head, look } = this.viewer
+    at.set(0, 0, -distance).applyQuaternion(look).add(head)
+    at.y = Math.max(at.y - BELOW_EYES, LOWEST)
+    return { ...poseInWorld(this.context.world, at, level), orientation: UPRIGHT }
+  }
+
+  dispose(): void {
+    this.undo()
+  }
+
+  private list(): void {
+    if (this.types.length > 0) return
+    this.context.link
+      .call('physics/list_catalogue', listCatalogueType, {})
+      .then(({ types, limit }) => {
+        this.types = types
+        this.most = limit
+        this.listed()
+      })
+      // without physics there are no objects; the offer tells when it is there
+      .catch(() => undefined)
+  }
+}

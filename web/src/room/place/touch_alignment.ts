@@ -1,0 +1,150 @@
+import {
+  type Group,
+  type Matrix4,
+  Mesh,
+  MeshBasicMaterial,
+  Quaternion,
+  SphereGeometry,
+  Vector3,
+} from 'three'
+import type { RoomContext } from '../context'
+import type { SceneAnchor } from './anchor'
+import type { RoomScan } from './scan'
+
+const MARK = 0.02 // m
+
+const position = new Vector3()
+const turn = new Quaternion()
+
+export type Awaited = 'nothing' | 'first' | 'second'
+
+/** Aligns the headsets of a room: who touches the same two points in the same order sees the lab in
+ * the same place. */
+export class TouchAlignment {
+  awaited: Awaited = 'nothing'
+  private readonly first = new Vector3()
+  private readonly marks: readonly Mesh[]
+  private readonly shape = new SphereGeometry(MARK, 16, 12)
+  private readonly look = new MeshBasicMaterial({ color: 0xffe08a, toneMapped: false })
+  /** Where the scene stood before, in the frame of where it stands now: a recentre moves both. */
+  private before: Matrix4 | null = null
+
+  /** group: what the anchor moves. marks: where the touched points are shown, in the floor space.
+   * context: says what is awaited. */
+  constructor(
+    private readonly anchor: SceneAnchor,
+    private readonly group: Group,
+    private readonly scan: RoomScan,
+    marks: Group,
+    private readonly context: Pick<RoomContext, 'say' | 'words'>,
+  ) {
+    this.marks = [0, 1].map(() => new Mesh(this.shape, this.look))
+    for (const mark of this.marks) mark.visible = false
+    marks.add(...this.marks)
+  }
+
+  private get words(): RoomContext['words']['room'] {
+    return this.context.words.room
+  }
+
+  get canUndo(): boolean {
+    return this.before !== null
+  }
+
+  begin(): void {
+    this.awaited = 'first'
+    this.show(0, null)
+    this.show(1, null)
+    this.context.say(this.words.alignFirst, false)
+  }
+
+  cancel(): void {
+    this.awaited = 'nothing'
+    this.show(0, null)
+    this.show(1, null)
+  }
+
+  /** A point was touched, in the floor space; returns whether it was awaited. */
+  touch(point: Vector3): boolean {
+    if (this.awaited === 'nothing') return false
+    if (this.awaited === 'first') {
+      this.first.copy(point)
+      this.show(0, point)
+      this.awaited = 'second'
+      this.context.say(this.words.alignSecond, false)
+      return true
+    }
+    const footing = footingOf(this.first, point)
+    if (footing === null) {
+      this.context.say(this.words.alignNear)
+      return true
+    }
+    this.show(1, point)
+    this.awaited = 'nothing'
+    this.group.updateMatrixWorld(true)
+    const old = this.group.matrixWorld.clone()
+    stand(footing, Number.isNaN(this.scan.floor) ? 0 : this.scan.floor, position, turn)
+    this.anchor.put(position, turn)
+    this.group.updateMatrixWorld(true)
+    this.before = this.group.matrixWorld.clone().invert().multiply(old)
+    this.context.say(this.words.alignDone, false)
+    return true
+  }
+
+  /** Put the scene where it stood before the last alignment. */
+  undo(): void {
+    if (this.before === null) return
+    this.group.updateMatrixWorld(true)
+    const old = this.group.matrixWorld.clone().multiply(this.before)
+    this.before = null
+    old.decompose(position, turn, new Vector3())
+    this.anchor.put(position, turn)
+    this.group.updateMatrixWorld(true)
+    this.cancel()
+    this.context.say(this.words.alignUndone, false)
+  }
+
+  dispose(): void {
+    for (const mark of this.marks) mark.removeFromParent()
+    this.shape.dispose()
+    this.look.dispose()
+  }
+
+  private show(index: number, point: Vector3 | null): void {
+    const mark = this.marks[index] as Mesh
+    mark.visible = point !== null
+    if (point !== null) mark.position.copy(point)
+  }
+}
+
+/** m: points that are nearer say too little of a direction. */
+export const NEAREST = 0.4
+
+/** Where the lab's origin is in the floor space, and its heading about the vertical. */
+export interface Footing {
+  readonly x: number
+  readonly z: number
+  /** rad; 0: the lab's x points along -z */
+  readonly yaw: number
+}
+
+/** Return where the lab stands by two points that were touched in the floor space: its origin is
+ * below the first, its x points to the second. null: they are too near to each other. Heights do not
+ * count: each headset knows its floor. */
+export function footingOf(first: Vector3, second: Vector3): Footing | null {
+  const x = second.x - first.x
+  const z = second.z - first.z
+  if (Math.hypot(x, z) < NEAREST) return null
+  return { x: first.x, z: first.z, yaw: Math.atan2(-x, -z) }
+}
+
+/** Write a footing on a floor of a height, m. */
+export function stand(
+  { x, z, yaw }: Footing,
+  floor: number,
+  position: Vector3,
+  turn: Quaternion,
+): void {
+  position.set(x, floor, z)
+  turn.set(0, Math.sin(yaw / 2), 0, Math.cos(yaw / 2))
+}

@@ -1,0 +1,133 @@
+import { effect } from '@preact/signals'
+import type { Check } from '../../api/types'
+import type { RobotView } from '../../lab/followed_robot'
+import { counted, kindOf, marksOf, RobotCheck } from '../../lab/robot_check'
+import type { Player } from '../../playback/player'
+import type { Words } from '../../words/en'
+import { number } from '../../words/words'
+import type { RoomContext } from '../context'
+import type { Choice, PagedList } from '../panels/paged_list'
+import { HIT, PANEL_THEME, type Pen } from '../panels/pen'
+import type { Mark } from './timeline'
+
+/** mm */
+export const CHECK_WIDTH = 240
+const MOST_LISTED = 40
+
+/** Return what the button of a check says. */
+export function checkLabel(check: Check | null, { check: w }: Pick<Words, 'check'>): string {
+  if (check === null) return w.check
+  const { state, verdict, stale } = check
+  if (state === 'failed') return w.again
+  if (state !== 'done') return w.verdicts.running
+  const { refusing, warning } = counted(check)
+  const count = refusing + warning
+  const said = `${w.verdicts[verdict === 'ready' ? 'ready' : 'not_ready']}${stale !== null ? '?' : ''}`
+  return count > 0 ? `${said} · ${count}` : said
+}
+
+/** Return the colour of a verdict, which stands below its words. */
+export function checkColour({ state, verdict, stale }: Check): string {
+  const { states } = PANEL_THEME
+  if (state !== 'done' || stale !== null) return states.PAUSED
+  return verdict === 'ready' ? states.READY : states.COLLISION_HALT
+}
+
+/** Return the findings of a check as a list, by their place in it; first, to check again. */
+export function findingChoices(
+  check: Check | null,
+  again: boolean,
+  words: Pick<Words, 'check' | 'severities'>,
+): Choice[] {
+  const choices: Choice[] = again ? [{ id: 'again', words: words.check.again, note: '' }] : []
+  check?.findings.slice(0, MOST_LISTED).forEach(({ severity, code, time, link }, i) => {
+    const at = time === null ? '' : ` ${words.check.at(number(time, 2))}`
+    const text = `${words.severities[severity]}: ${kindOf(code, words)}${at}`
+    choices.push({ id: String(i), words: text, note: link })
+  })
+  return choices
+}
+
+const TOP = 108
+/** mm, of the line below the verdict that has its colour. */
+const LINE = 5
+
+/** The check of what a robot has loaded, on the robot's panel. */
+export class PanelCheck {
+  private readonly check: RobotCheck
+  private readonly stopListening: () => void
+  /** What was loaded when the panel came is not checked by itself. */
+  private followed = false
+
+  constructor(
+    private readonly context: RoomContext,
+    robot: string,
+    repaint: () => void,
+    say: (text: string) => void,
+  ) {
+    this.check = new RobotCheck(context.checks, robot)
+    const { check, problem } = this.check
+    this.stopListening = effect(() => {
+      // read first: both are followed
+      const known = check.value
+      if (problem.value !== '' && known === null) say(problem.value)
+      else repaint()
+    })
+  }
+
+  /** Have what is loaded checked, where it has been loaded since the panel came. */
+  follow({ playback, state }: RobotView): void {
+    if (playback === null) return
+    const { trajectory_id: id, trajectory_version: version } = playback
+    const begins = this.followed && this.context.commands && state === 'READY'
+    this.followed = true
+    void this.check.follow(id && `${id}@${version}`, begins)
+  }
+
+  /** Return what is marked on the timeline of a motion of `duration` s. */
+  marks(duration: number): Mark[] {
+    const { states } = PANEL_THEME
+    return marksOf(this.check.check.value, duration).map(({ time, finding: { severity } }) => ({
+      time,
+      colour: severity === 'error' ? states.COLLISION_HALT : states.PAUSED,
+      words: '',
+    }))
+  }
+
+  /** Draw a button that says the verdict and opens its findings; without one, it has the motion
+   * checked. right: mm, where it ends. */
+  drawVerdict(pen: Pen, right: number, open: () => void): void {
+    const { words, commands } = this.context
+    const check = this.check.check.value
+    const unknown = check === null || check.state === 'failed'
+    const press = () => {
+      if (unknown) void this.check.start()
+      else open()
+    }
+    const x = right - CHECK_WIDTH
+    const look = { small: true, enabled: !unknown || commands }
+    pen.button('check', x, TOP, CHECK_WIDTH, checkLabel(check, words), press, look)
+    if (check === null) return
+    pen.box(x + 12, TOP + HIT + 4, CHECK_WIDTH - 24, LINE, checkColour(check))
+  }
+
+  /** Draw what the check found; a finding leads to its instant. */
+  drawFindings(pen: Pen, edge: number, list: PagedList, player: Player, back: () => void): void {
+    const { words, commands } = this.context
+    const check = this.check.check.value
+    list.draw(pen, edge, findingChoices(check, commands, words), words.room.back, {
+      back,
+      choose: (id) => {
+        back()
+        const time = check?.findings[Number(id)]?.time ?? null
+        if (id === 'again') void this.check.start()
+        else if (time !== null) player.seek(time)
+      },
+    })
+  }
+
+  dispose(): void {
+    this.stopListening()
+    this.check.dispose()
+  }
+}

@@ -1,0 +1,298 @@
+import { fits } from '../../lab/catalogue'
+import type { RobotView } from '../../lab/followed_robot'
+import { RATES } from '../../playback/player'
+import {
+  attachType,
+  detachType,
+  loadTrajectoryType,
+  removeType,
+  setEndEffectorType,
+  triggerType,
+} from '../../protocol/mrlab_msgs'
+import { fixed } from '../../words/words'
+import { order, type RoomContext } from '../context'
+import { type Choice, PagedList } from '../panels/paged_list'
+import { Panel } from '../panels/panel'
+import { HIT, PANEL_THEME, type Pen, TEXT } from '../panels/pen'
+import { CHECK_WIDTH, PanelCheck } from './check'
+import { type ControlActions, drawButtons, drawStatus } from './control_view'
+import { comparable, drawShow } from './show_view'
+import { type Mark, Timeline, type Track } from './timeline'
+
+const WIDTH = 640
+const HEIGHT = 516
+const EDGE = 26
+const TRACK: Track = { x: EDGE, y: 200, width: WIDTH - 2 * EDGE, height: HIT }
+/** s between two paintings of how far a robot is from its ghost. */
+const COMPARE_PERIOD = 0.5
+const NOTICE_S = 8
+
+type View = 'control' | 'motions' | 'end_effectors' | 'show' | 'compare' | 'check'
+
+/** The panel at a robot: its motions, play, timeline, rate, end effector, and why it halted. */
+export class ControlPanel {
+  readonly panel: Panel
+  telemetry = false
+  /** Places on the timeline, s, at which it collided. */
+  readonly collisions: number[] = []
+  private view: View = 'control'
+  private notice = ''
+  private noticedAt = 0
+  private paintedAt = 0
+  private now = 0
+  private robot: RobotView
+  private readonly list = new PagedList()
+  private readonly timeline: Timeline
+  private readonly check: PanelCheck
+  private readonly actions: ControlActions = {
+    trigger: (verb) => this.trigger(verb),
+    changeRate: (step) => this.changeRate(step),
+    open: (view) => this.open(view),
+    toggleTelemetry: () => {
+      this.telemetry = !this.telemetry
+    },
+    useHand: () => this.useHand(),
+    remove: () => this.remove(),
+  }
+
+  constructor(
+    private readonly context: RoomContext,
+    robot: RobotView,
+  ) {
+    this.robot = robot
+    this.panel = new Panel(WIDTH, HEIGHT, (pen) => this.draw(pen), context)
+    const rowAt = (position: number) => this.rowAt(position)
+    const stir = () => context.stir()
+    this.timeline = new Timeline(this.panel.group, WIDTH, HEIGHT, TRACK, rowAt, stir)
+    this.check = new PanelCheck(context, this.name, () => this.panel.repaint(), this.say)
+    this.check.follow(robot)
+  }
+
+  get name(): string {
+    return this.robot.robot.name
+  }
+
+  get scrubs(): number {
+    return this.timeline.scrubs
+  }
+
+  get joints(): readonly string[] {
+    return this.robot.robot.joint_names
+  }
+
+  /** Take over how the robot stands. */
+  show(robot: RobotView): void {
+    const before = this.robot
+    this.robot = robot
+    const halted = robot.state === 'COLLISION_HALT' && before.state !== 'COLLISION_HALT'
+    if (halted) {
+      this.view = 'control'
+      this.collisions.push(robot.player.position())
+    }
+    if (robot.playback?.trajectory_id !== before.playback?.trajectory_id) {
+      this.collisions.length = 0
+    }
+    this.check.follow(robot)
+    if (halted || !looksAlike(robot, before)) this.panel.repaint()
+  }
+
+  /** Before each picture. now: s. */
+  update(now: number): void {
+    this.now = now
+    if (this.notice !== '' && now - this.noticedAt > NOTICE_S) {
+      this.notice = ''
+      this.panel.repaint()
+    }
+    const { player } = this.robot
+    const shown = this.view === 'control' && this.loaded
+    this.timeline.update(shown ? player : null, now)
+    if (this.compares && now - this.paintedAt > COMPARE_PERIOD) {
+      this.paintedAt = now
+      this.panel.repaint()
+    }
+    this.panel.update()
+  }
+
+  dispose(): void {
+    this.check.dispose()
+    this.panel.dispose()
+    this.timeline.dispose()
+  }
+
+  /** Whether it shows how far the robot is from its ghost. */
+  private get compares(): boolean {
+    return this.view === 'show' && this.context.drawings.reference(this.name) !== null
+  }
+
+  private get loaded(): boolean {
+    return (this.robot.playback?.frame_count ?? 0) > 0
+  }
+
+  private readonly say = (text: string): void => {
+    this.notice = text
+    this.noticedAt = this.now
+    this.panel.repaint()
+  }
+
+  private trigger(verb: string): void {
+    order({ link: this.context.link, say: this.say }, `${this.name}/${verb}`, triggerType, {})
+  }
+
+  private remove(): void {
+    const teller = { link: this.context.link, say: this.say }
+    order(teller, 'lab/remove_robot', removeType, { name: this.name })
+  }
+
+  private draw(pen: Pen): void {
+    const { state } = this.robot
+    const w = this.context.words
+    pen.text(EDGE, 42, this.name, TEXT.head, 330, 'ink', 700)
+    const halted = state === 'COLLISION_HALT'
+    pen.chip(WIDTH - EDGE, 42, w.states[state], PANEL_THEME.states[state], halted)
+    if (this.view === 'motions') this.drawMotions(pen)
+    else if (this.view === 'end_effectors') this.drawEndEffectors(pen)
+    else if (this.view === 'show') this.drawShow(pen)
+    else if (this.view === 'compare') this.drawCompare(pen)
+    else if (this.view === 'check') {
+      this.check.drawFindings(pen, EDGE, this.list, this.robot.player, () => this.open('control'))
+    } else this.drawControl(pen)
+  }
+
+  private drawControl(pen: Pen): void {
+    const { context, robot, notice, loaded, telemetry } = this
+    const checked = loaded && robot.state !== 'COLLISION_HALT'
+    const shown = { notice, loaded, telemetry, beside: checked ? CHECK_WIDTH + 16 : 0 }
+    if (checked) this.check.drawVerdict(pen, WIDTH - EDGE, () => this.open('check'))
+    drawStatus(pen, EDGE, context, robot, shown)
+    if (loaded) this.timeline.draw(pen, robot.player, this.marks())
+    drawButtons(pen, EDGE, context, robot, shown, this.actions)
+  }
+
+  /** Let the gripper lose what it holds, or fix to it what is nearest to its fingers. */
+  private useHand(): void {
+    const { link, objectAt } = this.context
+    const { holding } = this.robot
+    const robot = this.name
+    const teller = { link, say: this.say }
+    if (holding !== '') {
+      order(teller, 'physics/detach', detachType, { robot })
+      return
+    }
+    const object = objectAt(robot)
+    if (object === '') this.say(this.context.words.room.nothingNear)
+    else order(teller, 'physics/attach', attachType, { robot, object })
+  }
+
+  private drawShow(pen: Pen): void {
+    drawShow(pen, EDGE, this.context, this.robot, {
+      compare: () => this.open('compare'),
+      back: () => this.open('control'),
+    })
+  }
+
+  private drawCompare(pen: Pen): void {
+    const back = () => this.open('show')
+    this.list.draw(pen, EDGE, comparable(this.context, this.robot), this.context.words.room.back, {
+      back,
+      choose: (id) => {
+        back()
+        this.context.drawings.compare(this.name, id)
+      },
+    })
+  }
+
+  /** What is marked on the timeline: grasps, releases and collisions. */
+  private marks(): Mark[] {
+    const w = this.context.words.room
+    const { colours, states } = PANEL_THEME
+    return [
+      ...this.robot.targets.map(({ time, close }) => ({
+        time,
+        colour: colours.second,
+        words: close ? w.grasps : w.releases,
+      })),
+      ...this.collisions.map((time) => ({ time, colour: states.COLLISION_HALT, words: '' })),
+      ...this.check.marks(this.robot.playback?.duration ?? 0),
+    ]
+  }
+
+  /** Say which row of the motion is at a position, s. */
+  private rowAt(position: number): string {
+    const { playback } = this.robot
+    const row = Math.round(position * (playback?.frame_rate ?? 0)) + 1
+    return this.context.words.room.frame(row, playback?.frame_count ?? 0)
+  }
+
+  private open(view: View): void {
+    this.view = view
+    this.list.page = 0
+    this.panel.repaint()
+  }
+
+  private changeRate(step: number): void {
+    const { player } = this.robot
+    const index = RATES.findIndex((rate) => rate >= player.rate - 1e-9)
+    const next = RATES[Math.min(Math.max(index + step, 0), RATES.length - 1)]
+    if (next !== undefined) player.setRate(next)
+  }
+
+  private drawMotions(pen: Pen): void {
+    const { robot } = this.robot
+    const w = this.context.words.room
+    const fit = this.context.trajectories.filter((each) => fits(each, robot))
+    if (fit.length === 0) pen.lines(EDGE, 120, w.noneFits(robot.model), TEXT.body)
+    this.drawList(
+      pen,
+      fit.map(({ id, duration }) => ({ id, words: id, note: `${fixed(duration, 1)} s` })),
+      (id) => {
+        const { link } = this.context
+        order({ link, say: this.say }, `${this.name}/load`, loadTrajectoryType, { id })
+      },
+    )
+  }
+
+  private drawEndEffectors(pen: Pen): void {
+    const w = this.context.words.room
+    const none = { id: '', words: w.bareFlange, note: '' }
+    const all = this.context.endEffectors.map(({ id, name }) => ({ id, words: name, note: id }))
+    this.drawList(pen, [none, ...all], (id) => {
+      const request = { robot: this.name, end_effector: id }
+      const { link } = this.context
+      order({ link, say: this.say }, 'lab/set_end_effector', setEndEffectorType, request)
+    })
+  }
+
+  /** A page of a list; choosing one returns to the controls. */
+  private drawList(pen: Pen, entries: readonly Choice[], choose: (id: string) => void): void {
+    const back = () => this.open('control')
+    this.list.draw(pen, EDGE, entries, this.context.words.room.back, {
+      back,
+      choose: (id) => {
+        back()
+        choose(id)
+      },
+    })
+  }
+}
+
+/** Return whether a panel says the same of two: the lab says how a robot stands once a second, and a
+ * panel that is painted costs a frame. */
+function looksAlike(one: RobotView, other: RobotView): boolean {
+  const a = one.playback
+  const b = other.playback
+  return (
+    one.state === other.state &&
+    one.holding === other.holding &&
+    one.touching === other.touching &&
+    one.targets === other.targets &&
+    one.robot.model === other.robot.model &&
+    one.robot.end_effector === other.robot.end_effector &&
+    a?.trajectory_id === b?.trajectory_id &&
+    a?.trajectory_version === b?.trajectory_version &&
+    a?.frame_count === b?.frame_count &&
+    a?.frame_rate === b?.frame_rate &&
+    a?.duration === b?.duration &&
+    a?.rate === b?.rate &&
+    a?.message === b?.message
+  )
+}

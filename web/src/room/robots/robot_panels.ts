@@ -1,0 +1,157 @@
+import { type Object3D, Vector3 } from 'three'
+import type { RobotView } from '../../lab/followed_robot'
+import type { Unsubscribe } from '../../link/link'
+import { telemetryType } from '../../protocol/mrlab_msgs'
+import type { LabScene } from '../../scene/lab/lab_scene'
+import type { RoomContext } from '../context'
+import type { Targets } from '../input/targets'
+import { Stand } from '../panels/stand'
+import { ControlPanel } from './control'
+import { TelemetryPanel } from './telemetry'
+
+/** m */
+const LEAST_SIDE = 0.72
+const TOWARDS = 0.3
+const BELOW_EYES = 0.32
+const LOWEST = 0.75
+const LOWEST_SEATED = 0.5
+const BETWEEN = 0.66
+
+const UP = new Vector3(0, 1, 0)
+const toHead = new Vector3()
+const side = new Vector3()
+const at = new Vector3()
+const base = new Vector3()
+
+interface Entry {
+  readonly control: ControlPanel
+  readonly stand: Stand
+  telemetry: { readonly panel: TelemetryPanel; readonly undo: Unsubscribe } | null
+  /** m: how far the arm reaches, as far as it was seen. */
+  reach: number
+}
+
+/** The control panels of all robots, each at its robot on the person's side. */
+export class RobotPanels {
+  private readonly entries = new Map<string, Entry>()
+
+  constructor(
+    private readonly context: RoomContext,
+    private readonly parent: Object3D,
+    private readonly scene: LabScene,
+    private readonly targets: Targets,
+  ) {}
+
+  /** Return the panel of a robot. */
+  of(name: string): ControlPanel | undefined {
+    return this.entries.get(name)?.control
+  }
+
+  /** Take over the robots there are; return whether one has begun to halt. The members of a system
+   * have no panels of their own: the system's has all of them. */
+  show(views: readonly RobotView[]): boolean {
+    let halts = false
+    const wanted = new Set<string>()
+    for (const view of views) {
+      const { name } = view.robot
+      if (view.playback?.system) continue
+      wanted.add(name)
+      const entry = this.entries.get(name)
+      if (entry === undefined) this.add(view)
+      else {
+        const before = entry.control.collisions.length
+        entry.control.show(view)
+        halts ||= entry.control.collisions.length > before
+      }
+    }
+    for (const [name, entry] of this.entries) if (!wanted.has(name)) this.remove(name, entry)
+    return halts
+  }
+
+  /** How often timelines were dragged. */
+  get scrubs(): number {
+    let count = 0
+    for (const { control } of this.entries.values()) count += control.scrubs
+    return count
+  }
+
+  repaint(): void {
+    for (const { control } of this.entries.values()) control.panel.repaint()
+  }
+
+  /** Before each picture. now, step: s. */
+  update(now: number, step: number): void {
+    for (const [name, entry] of this.entries) {
+      this.place(name, entry, now, step)
+      entry.control.update(now)
+      this.updateTelemetry(name, entry, now)
+    }
+  }
+
+  dispose(): void {
+    for (const [name, entry] of this.entries) this.remove(name, entry)
+  }
+
+  private add(view: RobotView): void {
+    const { name } = view.robot
+    const control = new ControlPanel(this.context, view)
+    this.parent.add(control.panel.group)
+    this.targets.add(control.panel)
+    const stand = new Stand(control.panel.group)
+    this.entries.set(name, { control, stand, telemetry: null, reach: 0 })
+  }
+
+  private remove(name: string, entry: Entry): void {
+    this.entries.delete(name)
+    this.targets.remove(entry.control.panel)
+    entry.control.dispose()
+    entry.telemetry?.undo()
+    entry.telemetry?.panel.dispose()
+  }
+
+  private place(name: string, entry: Entry, now: number, step: number): void {
+    const frame = this.scene.base(name)
+    const robot = this.scene.robot(name)
+    // out of the way of who touches robots one after the other
+    entry.control.panel.group.visible = frame !== undefined && !this.context.choosing
+    if (frame === undefined || robot === undefined) return
+    const { head, leftHanded, seated } = this.context
+    base.setFromMatrixPosition(frame.matrixWorld)
+    at.setFromMatrixPosition(robot.tip.matrixWorld)
+    entry.reach = Math.max(entry.reach, 0.8 * at.distanceTo(base))
+    toHead.subVectors(head, base).setY(0)
+    if (toHead.lengthSq() < 1e-4) toHead.set(0, 0, 1)
+    toHead.normalize()
+    side.crossVectors(UP, toHead).multiplyScalar(leftHanded ? -1 : 1)
+    at.copy(base)
+      .addScaledVector(side, Math.max(entry.reach, LEAST_SIDE))
+      .addScaledVector(toHead, TOWARDS)
+    at.y = Math.max(head.y - BELOW_EYES, seated ? LOWEST_SEATED : LOWEST)
+    const held = entry.control.panel.pointers > 0
+    if (entry.stand.update(at, head, now, step, held, this.context)) this.context.stir()
+  }
+
+  private updateTelemetry(name: string, entry: Entry, now: number): void {
+    const robot = this.scene.robot(name)
+    const { control } = entry
+    if (control.telemetry && entry.telemetry === null && robot !== undefined) {
+      const panel = new TelemetryPanel(this.context, control.joints)
+      panel.panel.group.position.x = BETWEEN
+      control.panel.group.add(panel.panel.group)
+      this.targets.add(panel.panel)
+      const undo = this.context.link.subscribe(`${name}/telemetry`, telemetryType, (message) =>
+        panel.take(message),
+      )
+      const gone = () => {
+        undo()
+        this.targets.remove(panel.panel)
+      }
+      entry.telemetry = { panel, undo: gone }
+    } else if (!control.telemetry && entry.telemetry !== null) {
+      entry.telemetry.undo()
+      entry.telemetry.panel.dispose()
+      entry.telemetry = null
+    }
+    entry.telemetry?.panel.update(now, (joint) => robot?.angle(joint) ?? 0)
+  }
+}

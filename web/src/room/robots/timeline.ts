@@ -1,0 +1,138 @@
+import { CircleGeometry, type Group, Mesh, MeshBasicMaterial, PlaneGeometry } from 'three'
+import type { RemotePlayer } from '../../playback/player'
+import { fixed } from '../../words/words'
+import { PANEL_THEME, type Pen, TEXT } from '../panels/pen'
+import { Readout } from '../panels/readout'
+
+const MM = 0.001
+const THICK = 8
+const KNOB = 30
+/** s between two seeks of one drag. */
+const SEEK_PERIOD = 0.05
+/** s between two paintings of the time that goes on. */
+const READ_PERIOD = 0.1
+/** mm, of the row below the track that says the time; its middle is so far below the track. */
+const ROW = 26
+const BELOW = 10
+
+/** Where a timeline lies in its panel, mm from the left top corner. */
+export interface Track {
+  readonly x: number
+  readonly y: number
+  readonly width: number
+  readonly height: number
+}
+
+/** A place on the timeline, s: a bar, a word above it. */
+export interface Mark {
+  readonly time: number
+  readonly colour: string
+  readonly words: string
+}
+
+/** The timeline of a panel: what goes on is a bar and a knob of their own, so that time alone paints
+ * nothing. */
+export class Timeline {
+  private readonly flat = new MeshBasicMaterial({ toneMapped: false })
+  private readonly bar = new Mesh(new PlaneGeometry(1, 1), this.flat)
+  private readonly knob = new Mesh(new CircleGeometry(0.5, 24), this.flat)
+  private readonly readout: Readout
+  /** How often it was dragged and let go. */
+  scrubs = 0
+  private scrub: number | null = null
+  private soughtAt = 0
+  private now = 0
+  private readAt = Number.NaN
+
+  /** width, height: of the panel, mm. noteAt: says what stands at its right end at a position, s.
+   * stir: a picture is due. */
+  constructor(
+    group: Group,
+    private readonly width: number,
+    private readonly height: number,
+    private readonly track: Track,
+    private readonly noteAt: (position: number) => string,
+    private readonly stir: () => void,
+  ) {
+    this.flat.color.set(PANEL_THEME.colours.accent)
+    group.add(this.bar, this.knob)
+    this.bar.position.z = this.knob.position.z = 1.5 * MM
+    this.knob.scale.setScalar(KNOB * MM)
+    const middle = track.x + track.width / 2 - width / 2
+    const row = height / 2 - track.y - track.height - BELOW
+    this.readout = new Readout(group, track.width, ROW, middle, row)
+  }
+
+  /** Return where it stands, s: where it is dragged to, else where the lab is. */
+  position(player: RemotePlayer): number {
+    return this.scrub ?? player.position()
+  }
+
+  /** Before each picture; null: there is nothing to show. now: s. */
+  update(player: RemotePlayer | null, now: number): void {
+    this.now = now
+    this.bar.visible = this.knob.visible = this.readout.visible = player !== null
+    if (player === null) return
+    if (Number.isNaN(this.readAt)) {
+      this.read(player)
+      // not in the same picture as other panels
+      this.readAt -= READ_PERIOD * Math.random()
+    } else if (now - this.readAt > READ_PERIOD) this.read(player)
+    const { x, y, width, height } = this.track
+    const share = player.duration > 0 ? this.position(player) / player.duration : 0
+    const length = Math.max(share * width, 0.1)
+    const left = x - this.width / 2
+    const middle = (this.height / 2 - y - height / 2) * MM
+    this.bar.scale.set(length * MM, THICK * MM, 1)
+    this.bar.position.set((left + length / 2) * MM, middle, this.bar.position.z)
+    this.knob.position.set((left + length) * MM, middle, this.knob.position.z)
+  }
+
+  /** Paint what stands still: the track and its marks. */
+  draw(pen: Pen, player: RemotePlayer, marks: readonly Mark[]): void {
+    const { x, y, width, height } = this.track
+    const middle = y + height / 2
+    const { duration } = player
+    pen.box(x, middle - THICK / 2, width, THICK, PANEL_THEME.colours.hairline)
+    for (const { time, colour, words } of marks) {
+      const at = x + (duration > 0 ? time / duration : 0) * width
+      const half = words === '' ? 16 : 20
+      pen.box(at - 2.5, middle - half, 5, 2 * half, colour)
+      if (words !== '') pen.text(at, middle - 30, words, TEXT.small, 120, 'second', 400, 'center')
+    }
+    pen.zone({
+      id: 'timeline',
+      x,
+      y,
+      width,
+      height,
+      enabled: true,
+      drags: true,
+      press: (share, final) => this.seek(player, share * duration, final),
+    })
+  }
+
+  dispose(): void {
+    this.readout.dispose()
+    this.bar.geometry.dispose()
+    this.knob.geometry.dispose()
+    this.flat.dispose()
+  }
+
+  /** Say what the time is. */
+  private read(player: RemotePlayer): void {
+    this.readAt = this.now
+    const position = this.position(player)
+    const time = `${fixed(position, 1)} / ${fixed(player.duration, 1)} s`
+    if (this.readout.set(time, this.noteAt(position))) this.stir()
+  }
+
+  private seek(player: RemotePlayer, position: number, final: boolean): void {
+    this.scrub = final ? null : position
+    if (final) this.scrubs++
+    this.read(player)
+    if (!final && this.now - this.soughtAt < SEEK_PERIOD) return
+    this.soughtAt = this.now
+    player.seek(position)
+  }
+}

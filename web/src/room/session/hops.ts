@@ -1,0 +1,71 @@
+import type { LinkStatus } from '../../link/link'
+import { sentence } from '../../words/diagnostic'
+import type { Words } from '../../words/en'
+import type { Ability } from './features'
+
+/** s: a lab that is there says which robots it has within this. */
+export const SILENCE_S = 6
+
+/** What is known of the way from the lab's robots to a person's eyes. */
+export interface Way {
+  readonly ability: Ability | null
+  readonly link: LinkStatus
+  /** s since the link opened; NaN: it is not open. */
+  readonly openFor: number
+  /** Whether the lab has said which robots there are, and how many. */
+  readonly known: boolean
+  readonly robots: number
+  /** The files of meshes that could not be read. */
+  readonly troubles: readonly string[]
+}
+
+/** One hop that failed, or is not there yet: what it is and what to do. */
+export interface Hop {
+  readonly id: 'headset' | 'gateway' | 'lab' | 'robots' | 'meshes'
+  readonly severity: 'info' | 'warning' | 'error'
+  readonly words: string
+}
+
+/** Return what stands between the lab and the eyes, the first hop first; empty: nothing does. Hops
+ * behind one that failed say nothing: they cannot be known. */
+export function hopsOf(way: Way, words: Words['room']): Hop[] {
+  const found: Hop[] = []
+  const hindrance = way.ability?.hindrance ?? ''
+  if (hindrance !== '') {
+    const severity = hindrance === 'no_https' ? 'warning' : 'info'
+    found.push({ id: 'headset', severity, words: words.hindrances[hindrance] })
+  }
+  const { phase, reason } = way.link
+  if (phase !== 'open') {
+    const text = phase === 'connecting' ? words.hops.connecting : words.hops[phase](reason)
+    const severity = phase === 'connecting' ? 'info' : 'error'
+    found.push({ id: 'gateway', severity, words: text })
+    return found
+  }
+  if (!way.known) {
+    if (way.openFor > SILENCE_S) {
+      found.push({ id: 'lab', severity: 'error', words: words.hops.silent })
+    }
+    return found
+  }
+  if (way.robots === 0) found.push({ id: 'robots', severity: 'info', words: words.empty })
+  if (way.troubles.length > 0) {
+    found.push({
+      id: 'meshes',
+      severity: 'warning',
+      words: words.missing(way.troubles.join(', ')),
+    })
+  }
+  return found
+}
+
+/** Return why a headset did not let somebody in, for that person. */
+export function refusalOf(error: unknown, words: Words['room']): string {
+  const name = error instanceof Error ? error.name : ''
+  if (name === 'NotAllowedError' || name === 'SecurityError') {
+    return words.refusedEntry(words.permission)
+  }
+  if (name === 'NotSupportedError') return words.refusedEntry(words.noFloor)
+  if (name === 'InvalidStateError') return words.refusedEntry(words.busy)
+  return words.refusedEntry(sentence(error))
+}

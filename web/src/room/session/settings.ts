@@ -1,0 +1,75 @@
+import { effect, signal } from '@preact/signals'
+import { setContrast } from '../panels/pen'
+import type { Visit } from './visit'
+
+const PREFIX = 'mrlab.room.'
+
+/** A switch that the browser remembers. */
+export class Switch {
+  private readonly on = signal(false)
+
+  /** usually: how it stands before anybody chose. */
+  constructor(
+    private readonly key: string,
+    usually = false,
+  ) {
+    const kept = localStorage.getItem(PREFIX + key)
+    this.on.value = kept === null ? usually : kept === 'yes'
+  }
+
+  get value(): boolean {
+    return this.on.value
+  }
+
+  set value(on: boolean) {
+    this.on.value = on
+    localStorage.setItem(PREFIX + this.key, on ? 'yes' : 'no')
+  }
+
+  toggle(): void {
+    this.value = !this.value
+  }
+}
+
+/** What a person chose for their own eyes and hands; kept in the browser. */
+export class Settings {
+  readonly leftHanded = new Switch('left')
+  readonly seated = new Switch('seated')
+  readonly contrast = new Switch('contrast', matchMedia('(prefers-contrast: more)').matches)
+  readonly still = new Switch('still', matchMedia('(prefers-reduced-motion: reduce)').matches)
+  /** Whether real things hide what is behind them. */
+  readonly occlusion = new Switch('occlusion')
+  /** Whether the tour was taken or skipped. */
+  readonly toured = new Switch('toured')
+}
+
+/** Return the id of this headset or browser, the same each time; other pages of it have it too. */
+export function deviceId(): string {
+  const key = `${PREFIX}device`
+  const kept = localStorage.getItem(key)
+  if (kept !== null && /^[0-9a-f]{12}$/.test(kept)) return kept
+  const made = randomId(6)
+  localStorage.setItem(key, made)
+  return made
+}
+
+/** Return so many random bytes in hexadecimal; works without HTTPS too. */
+export function randomId(bytes: number): string {
+  const values = crypto.getRandomValues(new Uint8Array(bytes))
+  return [...values].map((value) => value.toString(16).padStart(2, '0')).join('')
+}
+
+/** Keep the room as somebody chose it; returns how to end it. repaint: all panels. */
+export function applySettings(settings: Settings, visit: Visit, repaint: () => void): () => void {
+  const undo = [
+    effect(() => {
+      setContrast(settings.contrast.value)
+      repaint()
+    }),
+    effect(() => visit.seat(settings.seated.value)),
+    effect(() => visit.hide(settings.occlusion.value)),
+  ]
+  return () => {
+    for (const each of undo) each()
+  }
+}

@@ -1,0 +1,141 @@
+import { Object3D, Quaternion, Vector3 } from 'three'
+import { beforeEach, describe, expect, it, vi } from 'vitest'
+import { SceneAnchor } from '../../../src/room/place/anchor'
+
+const KEY = 'mrlab.room.anchor'
+const floor = {} as XRReferenceSpace
+const kept = new Map<string, string>()
+
+/** A headset that keeps so many places, and says where each is. */
+class Headset {
+  readonly places = new Set<string>()
+  readonly session = {
+    restorePersistentAnchor: async (handle: string) => {
+      if (!this.places.has(handle)) throw new DOMException('unknown', 'InvalidStateError')
+      return this.anchor()
+    },
+    deletePersistentAnchor: async (handle: string) => {
+      this.places.delete(handle)
+    },
+  } as unknown as XRSession
+  readonly frame = {
+    createAnchor: async () => this.anchor(),
+    getPose: () => (this.tracked ? { transform: { matrix: this.pose.toArray() } } : undefined),
+  } as unknown as XRFrame
+  pose = new Object3D().matrix.clone().makeTranslation(1, 0, 2)
+  tracked = true
+  private made = 0
+
+  constructor(private readonly most: number) {}
+
+  private anchor(): XRAnchor {
+    return {
+      anchorSpace: {},
+      delete: () => undefined,
+      requestPersistentHandle: async () => {
+        if (this.places.size >= this.most) throw new DOMException('full', 'QuotaExceededError')
+        const handle = `place ${this.made++}`
+        this.places.add(handle)
+        return handle
+      },
+    } as unknown as XRAnchor
+  }
+}
+
+const settled = () => new Promise((resolve) => setTimeout(resolve))
+
+describe('the anchor of the scene', () => {
+  let group: Object3D
+  let refusals: string[]
+  let anchor: SceneAnchor
+
+  async function placeAt(headset: Headset, x: number): Promise<void> {
+    anchor.put(new Vector3(x, 0, 0), new Quaternion())
+    anchor.update(headset.frame, floor)
+    await settled()
+  }
+
+  beforeEach(() => {
+    kept.clear()
+    vi.stubGlobal('localStorage', {
+      getItem: (key: string) => kept.get(key) ?? null,
+      setItem: (key: string, value: string) => kept.set(key, value),
+      removeItem: (key: string) => kept.delete(key),
+    })
+    vi.stubGlobal('XRRigidTransform', class {})
+    group = new Object3D()
+    refusals = []
+    anchor = new SceneAnchor(group, (hold) => refusals.push(hold))
+  })
+
+  it('takes one place of the headset however often the scene is moved', async () => {
+    const headset = new Headset(8)
+    await anchor.restore(headset.session)
+    for (let x = 0; x < 12; x++) await placeAt(headset, x)
+    expect(anchor.hold).toBe('kept')
+    expect([...headset.places]).toEqual([kept.get(KEY)])
+    expect(refusals).toEqual([])
+  })
+
+  it('comes back in the next session, though the desktop view had placed the scene before', async () => {
+    const headset = new Headset(8)
+    await anchor.restore(headset.session)
+    await placeAt(headset, 3)
+    const handle = kept.get(KEY)
+    anchor.end()
+    anchor.put(new Vector3(9, 0, 9), new Quaternion())
+    await anchor.restore(headset.session)
+    anchor.update(headset.frame, floor)
+    await settled()
+    expect(kept.get(KEY)).toBe(handle)
+    expect(group.position.toArray()).toEqual([1, 0, 2])
+    expect(anchor.found).toBe(true)
+    // a recentre moves the anchor in the floor space, and the scene with it
+    headset.pose.makeTranslation(4, 0, 5)
+    anchor.update(headset.frame, floor)
+    expect(group.position.toArray()).toEqual([4, 0, 5])
+    // out of view it stands where it was seen last
+    headset.tracked = false
+    headset.pose.makeTranslation(7, 0, 7)
+    anchor.update(headset.frame, floor)
+    expect(group.position.toArray()).toEqual([4, 0, 5])
+  })
+
+  it('is looked for a while, and then given up: another room', async () => {
+    vi.useFakeTimers({ toFake: ['performance'] })
+    const headset = new Headset(8)
+    headset.places.add('elsewhere')
+    kept.set(KEY, 'elsewhere')
+    headset.tracked = false
+    await anchor.restore(headset.session)
+    anchor.update(headset.frame, floor)
+    expect([anchor.waits, anchor.found]).toEqual([true, false])
+    vi.advanceTimersByTime(5000)
+    expect([anchor.waits, anchor.found]).toEqual([false, false])
+    vi.useRealTimers()
+    await placeAt(headset, 1)
+    expect([...headset.places]).toEqual([kept.get(KEY)])
+  })
+
+  it('says so where the headset keeps no more places, and holds for this session', async () => {
+    const headset = new Headset(0)
+    await anchor.restore(headset.session)
+    await placeAt(headset, 1)
+    expect(anchor.hold).toBe('session')
+    expect(refusals).toEqual(['session'])
+    expect(kept.has(KEY)).toBe(false)
+  })
+
+  it('lets an answer about an older place be about nothing', async () => {
+    const headset = new Headset(8)
+    await anchor.restore(headset.session)
+    anchor.put(new Vector3(1, 0, 0), new Quaternion())
+    anchor.update(headset.frame, floor)
+    anchor.put(new Vector3(2, 0, 0), new Quaternion())
+    await settled()
+    expect(anchor.hold).toBe('none')
+    anchor.update(headset.frame, floor)
+    await settled()
+    expect([...headset.places]).toEqual([kept.get(KEY)])
+  })
+})
