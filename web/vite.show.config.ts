@@ -12,7 +12,7 @@ export default mergeConfig(
       emptyOutDir: true,
       cssCodeSplit: false,
       lib: {
-        entry: 'src/report/main.tsx',
+        entry: 'src/show.tsx',
         formats: ['iife'],
         name: 'mrlab',
         fileName: () => 'show.js',

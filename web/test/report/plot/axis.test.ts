@@ -1,6 +1,6 @@
 // @vitest-environment jsdom
 import { describe, expect, it } from 'vitest'
-import { lasting, moments, roundStep, ticks } from '../../src/report/plot/axis'
+import { lasting, moments, roundStep, ticks } from '../../../src/report/plot/axis'
 
 const texts = (begin: number, end: number, most: number) =>
   moments(begin, end, most).map(([, text]) => text)

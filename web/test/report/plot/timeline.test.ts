@@ -1,5 +1,5 @@
 import { expect, it } from 'vitest'
-import { joined } from '../../src/report/plot/timeline'
+import { joined } from '../../../src/report/plot/timeline'
 
 it('draws states that differ in what is loaded alone as one bar, and each run for itself', () => {
   const span = (start: number, label: string, detail = '') => ({

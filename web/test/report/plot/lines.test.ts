@@ -1,7 +1,7 @@
 // @vitest-environment jsdom
 import { describe, expect, it } from 'vitest'
-import { envelope, indexAt, polylines } from '../../src/report/plot/lines'
-import { amount, spanOf } from '../../src/report/plot/strip_plot'
+import { envelope, indexAt, polylines } from '../../../src/report/plot/lines'
+import { amount, spanOf } from '../../../src/report/plot/strip_plot'
 
 const strip = (values: number[], lower: number | null = null, upper: number | null = null) => ({
   label: 'a',
