@@ -42,16 +42,16 @@ bench:
 robots:
 	@python3 scripts/bootstrap.py --dev
 	@$(ENV) uv pip install -q --require-hashes --no-deps -r requirements-robots.txt
-	@$(ENV) python scripts/robots/generate.py $(ARGS)
-	@$(ENV) python scripts/robots/levels.py --stale $(ARGS)
+	@$(ENV) python scripts/bodies/generate.py $(ARGS)
+	@$(ENV) python scripts/bodies/levels.py --stale $(ARGS)
 
 objects:
 	@python3 scripts/bootstrap.py --dev
-	@$(ENV) python scripts/robots/objects.py $(ARGS)
+	@$(ENV) python scripts/bodies/objects.py $(ARGS)
 
 gallery:
 	@python3 scripts/bootstrap.py --dev
-	@$(ENV) python scripts/robots/gallery.py $(ARGS)
+	@$(ENV) python scripts/bodies/gallery.py $(ARGS)
 
 docs:
 	@python3 scripts/bootstrap.py --dev

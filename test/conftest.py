@@ -18,21 +18,21 @@ settings.load_profile("lab")
 
 
 # Folders whose tests need no graph and no launched process of the lab.
-FAST_FOLDERS = ("unit", "fuzz")
+FAST_FOLDERS = ("unit", "fuzz", "bodies")
 
 
 # The labs come last, so that none runs beside tests that do not need it.
-ORDER = ("node", "fuzz", "unit", "browser", "system")
+ORDER = ("node", "fuzz", "unit", "bodies", "browser", "system")
 # What one lab serves whole.
 ONE_LAB = "test/browser/"
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Mark the `fast` tests and put the folders in ORDER."""
-    root = Path(__file__).parent
+    root = Path(__file__).parents[1]
 
     def folder(item: pytest.Item) -> str:
-        return item.path.relative_to(root).parts[0]
+        return item.path.relative_to(root).parts[1]
 
     items.sort(key=lambda item: ORDER.index(folder(item)))
     for item in items:

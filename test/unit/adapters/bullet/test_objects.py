@@ -54,8 +54,8 @@ def test_a_shipped_mesh_is_small_and_as_large_as_what_it_collides_with(path):
 
 @pytest.mark.slow
 def test_the_script_makes_every_shipped_mesh(tmp_path, monkeypatch):
-    monkeypatch.syspath_prepend(ROOT / "scripts" / "robots")
-    path = ROOT / "scripts" / "robots" / "objects.py"
+    monkeypatch.syspath_prepend(ROOT / "scripts" / "bodies")
+    path = ROOT / "scripts" / "bodies" / "objects.py"
     spec = importlib.util.spec_from_file_location("object_bodies", path)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)

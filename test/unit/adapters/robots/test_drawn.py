@@ -19,7 +19,7 @@ from mrlab_ros.adapters.robots.published import published
 
 ROBOTS = Path(__file__).resolve().parents[4] / "robots"
 LIBRARY = RobotLibrary(ROBOTS, ROBOTS / "none")
-DETAILS = ROBOTS.parent / "scripts" / "robots" / "details"
+DETAILS = ROBOTS.parent / "scripts" / "bodies" / "details"
 MODELS = sorted(path.parent for path in ROBOTS.rglob("lod"))
 BUDGETS = {"near": (400_000, 40_000), "far": (100_000, 4_000)}  # bytes, triangles
 SMALL, FEW = 1.4, 15_000  # m of reach; triangles of what is smaller
@@ -97,7 +97,7 @@ def test_levels_keep_their_budgets_and_show_the_same_links(folder: Path) -> None
         accessors = found["accessors"]
         primitives = [p for mesh in found["meshes"] for p in mesh["primitives"]]
         triangles = sum(accessors[p["indices"]]["count"] for p in primitives) // 3
-        # scripts/robots/levels.py makes them anew where meshes change
+        # scripts/bodies/levels.py makes them anew where meshes change
         extras = found["asset"]["extras"]
         assert extras["made_of"] == made_of.hexdigest()
         table = DETAILS / f"{folder.name}.yaml"

@@ -25,7 +25,7 @@ from mrlab_ros.core.robots.reach import reach
 
 ROOT = Path(__file__).resolve().parents[4]
 ROBOTS = ROOT / "robots"
-GENERATOR = ROOT / "scripts" / "robots"
+GENERATOR = ROOT / "scripts" / "bodies"
 LIBRARY = RobotLibrary(ROBOTS, ROBOTS / "none imported")
 IDS = LIBRARY.ids()
 

@@ -93,7 +93,7 @@ def urdf(figures: dict[str, Any], files: dict[str, LinkFiles], uri: str) -> str:
     names += [joint["child"] for joint in joints]
     lines = [
         '<?xml version="1.0"?>',
-        "<!-- Written by scripts/robots/generate.py. -->",
+        "<!-- Written by scripts/bodies/generate.py. -->",
         f"<robot name={quoteattr(figures['id'])}>",
     ]
     boxes: dict[str, Any] = figures.get("boxes", {})

@@ -1,6 +1,6 @@
 """Castings from measured outlines: sections blended along an axis, within three silhouettes.
 
-A table of a link (scripts/robots/sections) holds, in mm and in the link's frame, outlines of the
+A table of a link (scripts/bodies/sections) holds, in mm and in the link's frame, outlines of the
 link in equally spaced planes across one axis, and its outlines seen along all three. Between two
 sections the signed distances to their outlines are blended (blend.py), which gives smooth walls
 also where outlines part or join.

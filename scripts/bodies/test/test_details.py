@@ -1,36 +1,31 @@
-"""What is written, cut and screwed on the bodies of robots: scripts/robots."""
+"""What is written, cut and screwed on the bodies of robots: scripts/bodies."""
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from typing import Any
 
+import body
+import details
+import drawings
+import glb
 import numpy as np
 import pytest
 import yaml
+from atlas import RIM, Atlas, Drawing
+from body import BLACK, ORANGE, STEEL, Material
+from cutting import cut
+from markings import marked, markings, sense
+from mesher import Mesh
+from pieces import Piece
+from relief import grooved, lined, outline, places, screwed
 from scipy.spatial.transform import Rotation
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts" / "robots"))
-pytest.importorskip("embreex", reason="bakes light")
+from mrlab_ros.adapters.robots.hulls import samples
+from mrlab_ros.core.base.geometry import transform_from_xyz_rpy
 
-import body  # noqa: E402
-import details  # noqa: E402
-import drawings  # noqa: E402
-import glb  # noqa: E402
-from atlas import RIM, Atlas, Drawing  # noqa: E402
-from body import BLACK, ORANGE, STEEL, Material  # noqa: E402
-from cutting import cut  # noqa: E402
-from markings import marked, markings, sense  # noqa: E402
-from mesher import Mesh  # noqa: E402
-from pieces import Piece  # noqa: E402
-from relief import grooved, lined, outline, places, screwed  # noqa: E402
-
-from mrlab_ros.adapters.robots.hulls import samples  # noqa: E402
-from mrlab_ros.core.base.geometry import transform_from_xyz_rpy  # noqa: E402
-
-TABLES = sorted((ROOT / "scripts/robots/details").glob("*.yaml"))
+ROOT = Path(__file__).resolve().parents[3]
+TABLES = sorted((ROOT / "scripts/bodies/details").glob("*.yaml"))
 FOLDERS = sorted(path.parent for path in (ROOT / "robots").glob("*/robot.yaml"))
 
 

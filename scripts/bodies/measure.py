@@ -2,7 +2,7 @@
 
 Prints for each robot the overlap of silhouettes (intersection over union, mean over poses and
 views) and for each link the distance between the surfaces, 95th percentile of both ways, mm. The
-shapes are the outlines of scripts/robots/sections. Parts named hose or cable are left out.
+shapes are the outlines of scripts/bodies/sections. Parts named hose or cable are left out.
 """
 
 from __future__ import annotations

@@ -3,33 +3,30 @@
 from __future__ import annotations
 
 import json
-import sys
 from pathlib import Path
 from typing import Any
 
+import casting
+import castings
+import convex
+import cuts
+import drums
+import fairing
+import figure
+import kuka
+import measure
+import measured
+import mesher
 import numpy as np
+import outlines
 import pytest
+import solids
 import trimesh
+from body import BLACK, ORANGE
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts" / "robots"))
+from mrlab_ros.adapters.robots import hulls as fits
 
-import casting  # noqa: E402
-import castings  # noqa: E402
-import convex  # noqa: E402
-import cuts  # noqa: E402
-import drums  # noqa: E402
-import fairing  # noqa: E402
-import figure  # noqa: E402
-import kuka  # noqa: E402
-import measure  # noqa: E402
-import measured  # noqa: E402
-import mesher  # noqa: E402
-import outlines  # noqa: E402
-import solids  # noqa: E402
-from body import BLACK, ORANGE  # noqa: E402
-
-from mrlab_ros.adapters.robots import hulls as fits  # noqa: E402
+ROOT = Path(__file__).resolve().parents[3]
 
 
 def ring(radius: float) -> list[float]:

@@ -1,7 +1,7 @@
 """KUKA's arms as tables: materials of the measured castings, and the parts on top.
 
 Boxes are mm in the link's frame; robots/<id>/robot.yaml names where the frames come from, and
-scripts/robots/sections/<id>.json where the outlines do.
+scripts/bodies/sections/<id>.json where the outlines do.
 """
 
 from __future__ import annotations
