@@ -34,9 +34,11 @@ PATIENCE_S = 60
 MODULES = {
     "mrlab_ros.core.base.clock": ("core/test_clock.py",),
     "mrlab_ros.core.playback.playback": ("core/playback",),
+    "mrlab_ros.core.playback.external": ("core/playback",),
     "mrlab_ros.core.playback.stream": ("core/playback",),
     "mrlab_ros.core.playback.goal": ("core/playback",),
     "mrlab_ros.core.systems.robot_system": ("core/systems",),
+    "mrlab_ros.core.systems.orders": ("core/systems",),
     "mrlab_ros.core.systems.timeline": ("core/systems",),
     "mrlab_ros.core.conversion.frame_rate": ("core/conversion",),
     "mrlab_ros.core.conversion.gripper": ("core/conversion",),

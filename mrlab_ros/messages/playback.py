@@ -8,7 +8,7 @@ from mrlab_msgs import msg
 
 from mrlab_ros.core.base.clock import PlaybackClock
 from mrlab_ros.core.base.geometry import Array
-from mrlab_ros.core.playback.playback import PlaybackStatus
+from mrlab_ros.core.playback.execution import PlaybackStatus
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.messages.poses import transform_to_pose_message
 from mrlab_ros.messages.texts import told

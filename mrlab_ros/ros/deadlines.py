@@ -15,7 +15,8 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from mrlab_ros.core.base.clock import SECOND
-from mrlab_ros.core.playback.playback import Playback, PlaybackStatus
+from mrlab_ros.core.playback.execution import PlaybackStatus
+from mrlab_ros.core.playback.playback import Playback
 from mrlab_ros.core.playback.stream import LOST_AFTER_NS, Sample
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.ros.clock import LabClock

@@ -1,15 +1,78 @@
-"""What a playback host writes into its journal."""
+"""What a playback knows again after its process was restarted, and its journal entry."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from mrlab_ros.core.playback.playback import Kept
+from mrlab_ros.core.base.clock import checked_rate
+from mrlab_ros.core.base.geometry import Array
+from mrlab_ros.core.playback.diagnostics import PLAYBACK_RESTARTED
+from mrlab_ros.core.playback.execution import Execution
+from mrlab_ros.core.playback.states import Event, State
+from mrlab_ros.core.trajectory.trajectory import Trajectory
 
 ROBOTS = "robots"
+
+
+class Kept(NamedTuple):
+    """What a playback knows again after its process was restarted.
+
+    position: s on the trajectory. halted: it stood in COLLISION_HALT. begun: it does not stand
+    READY for the first frame. arm: (J,) rad, as last sent.
+    """
+
+    trajectory_id: str
+    version: int
+    position: float
+    rate: float
+    loop: bool
+    halted: bool
+    begun: bool
+    arm: Array
+
+
+def come_back(execution: Execution, now_ns: int, trajectory: Trajectory, kept: Kept) -> None:
+    """Stand where the arm stood before its process was restarted.
+
+    PAUSED, or READY where it had not begun; in COLLISION_HALT where it was halted, unless
+    physics has reported meanwhile that the arm is clear.
+    """
+    execution.machine.check(Event.RETURNED_PAUSED)
+    execution.check_fits(trajectory)
+    position = min(max(kept.position, 0.0), trajectory.duration)
+    if kept.halted and execution.touching is not False:
+        event = Event.RETURNED_HALTED
+    else:
+        event = Event.RETURNED_PAUSED if kept.begun else Event.LOAD
+    execution.machine.fire(event)
+    execution.stream.trajectory = trajectory
+    execution.stream.rate = checked_rate(kept.rate)
+    execution.loop = kept.loop
+    if event is Event.LOAD:
+        execution.stream.arm = kept.arm
+        execution.stream.stand(now_ns, execution.stream.begin)
+    else:
+        execution.stream.come_back(now_ns, position, kept.arm)
+    execution.announce(PLAYBACK_RESTARTED())
+
+
+def keep(execution: Execution) -> Kept | None:
+    """Return what a restart has to know again; None without a trajectory."""
+    if execution.trajectory is None:
+        return None
+    return Kept(
+        execution.trajectory.id,
+        execution.trajectory.version,
+        execution.stream.position,
+        execution.rate,
+        execution.loop,
+        halted=execution.state is State.COLLISION_HALT,
+        begun=execution.state not in (State.READY, State.COMPLETE),
+        arm=execution.arm,
+    )
 
 
 def plain(model: str, kept: Kept) -> dict[str, Any]:

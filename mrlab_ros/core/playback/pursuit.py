@@ -12,8 +12,8 @@ from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.geometry import Array
 from mrlab_ros.core.playback import diagnostics as say
+from mrlab_ros.core.playback.execution import PlaybackStatus
 from mrlab_ros.core.playback.goal import Code, WrongGoal
-from mrlab_ros.core.playback.playback import PlaybackStatus
 from mrlab_ros.core.playback.states import State
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 

@@ -1,4 +1,7 @@
-"""Which robots obey a system, each with the trajectory that the system gives it."""
+"""Which robots obey a system, each with the trajectory that the system gives it.
+
+A claim is a lease: a robot belongs to a system as long as somebody keeps the system.
+"""
 
 from __future__ import annotations
 
@@ -9,6 +12,10 @@ from mrlab_ros.core.playback.states import State
 from mrlab_ros.core.systems.diagnostics import NO_TRAJECTORY_LOADED, NOT_TAKEN_BACK
 from mrlab_ros.core.systems.members import Command, Fleet, Loaded, Order
 from mrlab_ros.core.systems.timeline import Member, Timeline
+
+# The coordinator names its systems once a second; one that it has not named for this long is
+# kept by nobody, s.
+LEASE_S = 4.0
 
 
 class Claims:
@@ -105,3 +112,23 @@ def _other_trajectories(members: Iterable[Member], loaded: Mapping[str, Loaded])
         for member in members
         if member.trajectory_id not in ("", loaded[member.robot].trajectory_id)
     }
+
+
+class Leases:
+    """When each system was named last. Times are s of any clock that never goes back."""
+
+    def __init__(self, lease: float = LEASE_S) -> None:
+        self._lease = lease
+        self._renewed: dict[str, float] = {}
+
+    def renew(self, systems: Iterable[str], now: float) -> None:
+        """Note that these systems are kept at `now`."""
+        self._renewed |= dict.fromkeys(systems, now)
+
+    def expired(self, claimed: Iterable[str], now: float) -> list[str]:
+        """Return those of the claimed systems that nobody keeps; forget all others.
+
+        One that is seen here first has just been made, and gets its time.
+        """
+        self._renewed = {name: self._renewed.get(name, now) for name in claimed}
+        return [name for name, renewed in self._renewed.items() if now - renewed >= self._lease]

@@ -20,7 +20,8 @@ from mrlab_ros.core.playback import diagnostics as playback
 from mrlab_ros.core.playback.states import MOVING, State
 from mrlab_ros.core.systems import diagnostics as say
 from mrlab_ros.core.systems.claims import Claims
-from mrlab_ros.core.systems.members import Command, Fleet, Order, Reply
+from mrlab_ros.core.systems.members import Command, Fleet, Order
+from mrlab_ros.core.systems.orders import RETRY_TIMEOUT_S, Orders
 from mrlab_ros.core.systems.states import ACTIVE, TABLE, SystemEvent, SystemState, reason
 from mrlab_ros.core.systems.timeline import Member, Mode, Timeline
 
@@ -31,9 +32,6 @@ START_LEAD_S = 0.1
 ORDER_HORIZON_S = 0.3
 # A staging that takes this much longer than planned has failed, s.
 STAGING_TIMEOUT_S = 5.0
-# A member that was not reached is asked again this often, and given this time to answer, s.
-RETRY_PERIOD_S = 1.0
-RETRY_TIMEOUT_S = 0.5
 
 
 class Policy(Enum):
@@ -80,14 +78,12 @@ class RobotSystem:
         self.clock = PlaybackClock()
         self.rate = 1.0
         self._timeline = Timeline(members, mode)
-        self._fleet = fleet
         self._claims = Claims(fleet, self._timeline)
         self._announce = announce
         self._machine = Machine(TABLE, reason)
+        self._orders = Orders(fleet, self._timeline, self._fail)
         self._staged_by_ns = 0
-        self._retry_ns = 0
-        # Members that did not answer when they were to stop, and robots that were lost last.
-        self._stranded: list[Member] = []
+        # Robots that were lost last.
         self._silent: list[str] = []
 
     # what it is -----------------------------------------------------------------------------
@@ -173,7 +169,9 @@ class RobotSystem:
         """
         self._machine.check(SystemEvent.STOP)
         there = [
-            m for m in self._timeline if m.playback_state is not State.IDLE or m in self._stranded
+            m
+            for m in self._timeline
+            if m.playback_state is not State.IDLE or m in self._orders.stranded
         ]
         self._machine.fire(SystemEvent.STOP)
         self.message = playback.STOPPED()
@@ -208,8 +206,8 @@ class RobotSystem:
         if self.state is SystemState.PLAYING:
             since_ns = max(now_ns, self.clock.stamp_ns)
             running, waiting = self._split_ordered(self.clock.at(now_ns))
-            self._withdraw(now_ns, waiting)
-            self._drive(
+            self._orders.withdraw(now_ns, waiting)
+            self._orders.drive(
                 now_ns,
                 [Order(m.robot, Command.SET_RATE, stamp_ns=since_ns, rate=rate) for m in running],
             )
@@ -302,7 +300,7 @@ class RobotSystem:
         """Go on as before after the clock was set by `by_ns`."""
         self.clock = replace(self.clock, stamp_ns=self.clock.stamp_ns + by_ns)
         self._staged_by_ns += by_ns
-        self._retry_ns += by_ns
+        self._orders.shift(by_ns)
         for member in self._timeline:
             member.replied_ns += by_ns
         self._announce()
@@ -336,7 +334,7 @@ class RobotSystem:
             for m in self._timeline
             if not m.done
         ]
-        replies = self._drive(now_ns, orders)
+        replies = self._orders.drive(now_ns, orders)
         longest = max((reply.duration for reply in replies), default=0.0)
         self.message = say.STAGES(duration=longest or None)
         # Members that were loaded first got their orders later than now.
@@ -369,7 +367,7 @@ class RobotSystem:
         self._timeline.seek(position)
         orders = [Order(m.robot, Command.SEEK, position=m.position) for m in self._timeline]
         try:
-            self._drive(now_ns, orders)
+            self._orders.drive(now_ns, orders)
         except Unreached:
             if self.state is not SystemState.READY:
                 self._timeline.seek(self.clock.position)
@@ -392,7 +390,7 @@ class RobotSystem:
             return
         self.message = say.OTHERS_GO_ON(robot=member.robot)
         if self.mode is Mode.SEQUENTIAL:
-            self._withdraw(now_ns, self._split_ordered(self.clock.at(now_ns))[1])
+            self._orders.withdraw(now_ns, self._split_ordered(self.clock.at(now_ns))[1])
 
     def _clear(self) -> None:
         """Leave a halt once no member is halted any more."""
@@ -417,8 +415,14 @@ class RobotSystem:
         self.message = say.MEMBER_LOST(robot=member.robot)
         self._stand(now_ns)
 
-    def _miss(self, now_ns: int, orders: Sequence[Order]) -> None:
-        """Let all stand where they are: members did not answer, and are lost until they do."""
+    def _fail(self, now_ns: int, orders: Sequence[Order], error: LabError) -> None:
+        """Let all stand in place where a member did not answer; where one refused, end the run.
+
+        Members that did not answer are lost until they report themselves.
+        """
+        if not isinstance(error, Unreached) or self._machine.ignores(SystemEvent.LOSE):
+            self._come_to_rest(now_ns, SystemEvent.ABORT, error.diagnostic)
+            return
         self._machine.fire(SystemEvent.LOSE)
         setting_out = {o.robot for o in orders if o.command in (Command.STAGE, Command.PLAY)}
         lost = self._stand(now_ns, setting_out, RETRY_TIMEOUT_S)
@@ -440,15 +444,7 @@ class RobotSystem:
         moving = [
             m for m in self._timeline if m.playback_state in MOVING or m.robot in setting_out
         ]
-        replies = self._fleet.reach([Order(m.robot, Command.PAUSE) for m in moving], timeout)
-        lost = []
-        for member, reply in zip(moving, replies, strict=True):
-            # One that did not answer is lost as well, until it reports itself again.
-            if reply is None:
-                member.playback_state = State.IDLE
-                lost.append(member)
-            else:
-                self._take([reply], [member])
+        lost = self._orders.pause(moving, timeout)
         self._clear()
         return lost
 
@@ -470,44 +466,16 @@ class RobotSystem:
     def _stop_members(
         self, now_ns: int, members: Sequence[Member], timeout: float | None = None
     ) -> None:
-        """Stop all members within one time-out; those that do not answer are asked again."""
-        for member in members:
-            member.ordered = False
-        self._stranded = self._reach_to_stop(members, timeout)
-        if self._stranded:
+        """Stop all members; STOPPING until each has answered."""
+        stranded = self._orders.stop(now_ns, members, timeout)
+        if stranded:
             # In a collision halt the system waits for its members anyway.
             if self._machine.can(SystemEvent.STRAND):
                 self._machine.fire(SystemEvent.STRAND)
-            names = [m.robot for m in self._stranded]
+            names = [m.robot for m in stranded]
             self.message = say.MAY_STILL_MOVE(why=self.message, robots=names)
-            self._retry_ns = now_ns + round(RETRY_PERIOD_S * SECOND)
         elif not self._machine.ignores(SystemEvent.REST):
             self._machine.fire(SystemEvent.REST)
-
-    def _reach_to_stop(
-        self, members: Sequence[Member], timeout: float | None = None
-    ) -> list[Member]:
-        """Stop the members; return those that did not answer."""
-        replies = self._fleet.reach([Order(m.robot, Command.STOP) for m in members], timeout)
-        stranded = []
-        for member, reply in zip(members, replies, strict=True):
-            if reply is None:
-                stranded.append(member)
-                # The next play claims it again.
-                member.playback_state = State.IDLE
-            else:
-                self._take([reply], [member])
-        return stranded
-
-    def _retry(self, now_ns: int) -> None:
-        """Ask the members again that did not answer when they were to stop."""
-        if now_ns < self._retry_ns:
-            return
-        self._retry_ns = now_ns + round(RETRY_PERIOD_S * SECOND)
-        self._stranded = self._reach_to_stop(self._stranded, RETRY_TIMEOUT_S)
-        if not self._stranded:
-            self._machine.fire(SystemEvent.REST)
-            self.message = say.ALL_STAND()
 
     def _finish(self, now_ns: int) -> None:
         """End the run: READY, or the next round where it loops."""
@@ -538,37 +506,13 @@ class RobotSystem:
         """Return the position on the timeline, s; never past its ends."""
         return min(max(self.clock.at(now_ns), 0.0), self.duration)
 
-    def _drive(self, now_ns: int, orders: Sequence[Order]) -> list[Reply]:
-        """Send the orders; where one fails, let all members stand and raise its error.
-
-        They stand in place where a member did not answer; where one refused, the run is over.
-        """
-        if not orders:
-            return []
-        try:
-            replies = self._fleet.drive(orders)
-        except LabError as error:
-            if isinstance(error, Unreached) and not self._machine.ignores(SystemEvent.LOSE):
-                self._miss(now_ns, orders)
-                raise
-            self._come_to_rest(now_ns, SystemEvent.ABORT, error.diagnostic)
-            raise
-        self._take(replies, [self.members[order.robot] for order in orders])
-        return replies
-
-    @staticmethod
-    def _take(replies: Sequence[Reply], members: Sequence[Member]) -> None:
-        for member, reply in zip(members, replies, strict=True):
-            member.playback_state, member.position = reply.state, reply.position
-            member.replied_ns = reply.stamp_ns
-
     def _freeze(self, now_ns: int) -> None:
         """Let the timeline and every moving member stand."""
         self.clock = PlaybackClock(now_ns, self._position(now_ns), 0.0)
         moving = [m for m in self._timeline if m.playback_state in MOVING]
         for member in self._timeline:
             member.ordered = False
-        self._drive(now_ns, [Order(m.robot, Command.PAUSE) for m in moving])
+        self._orders.drive(now_ns, [Order(m.robot, Command.PAUSE) for m in moving])
 
     def _split_ordered(self, position: float) -> tuple[list[Member], list[Member]]:
         """Return the ordered members whose share began by `position` (s), and the others."""
@@ -579,17 +523,13 @@ class RobotSystem:
         running = [m for m, here in zip(ordered, begun, strict=True) if here]
         return running, [m for m, here in zip(ordered, begun, strict=True) if not here]
 
-    def _withdraw(self, now_ns: int, members: Sequence[Member]) -> None:
-        """Take back the PLAY orders of members whose start lies ahead."""
-        self._drive(now_ns, [Order(m.robot, Command.PAUSE) for m in members])
-        for member in members:
-            member.ordered = False
-
     # inside: time ---------------------------------------------------------------------------
 
     def _poll(self, now_ns: int) -> None:
         if self.state is SystemState.STOPPING:
-            self._retry(now_ns)
+            if self._orders.retry(now_ns):
+                self._machine.fire(SystemEvent.REST)
+                self.message = say.ALL_STAND()
             return
         if self.state is SystemState.STAGING and now_ns > self._staged_by_ns:
             late = [m.robot for m in self._timeline if m.playback_state is State.ADJUSTING]
@@ -597,7 +537,7 @@ class RobotSystem:
         if self.state is not SystemState.PLAYING:
             return
         changed = self._timeline.meet_waits(self.clock.at(now_ns))
-        self._drive(now_ns, [Order(m.robot, Command.HOLD, until=m.until) for m in changed])
+        self._orders.drive(now_ns, [Order(m.robot, Command.HOLD, until=m.until) for m in changed])
         self._order_due(now_ns)
         if self._timeline.complete:
             self._finish(now_ns)
@@ -620,4 +560,4 @@ class RobotSystem:
             orders.append(
                 Order(member.robot, Command.PLAY, due_ns, member.position, self.rate, member.until)
             )
-        self._drive(now_ns, orders)
+        self._orders.drive(now_ns, orders)

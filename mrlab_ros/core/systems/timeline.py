@@ -14,8 +14,7 @@ from enum import Enum
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.playback.states import State
 from mrlab_ros.core.systems import diagnostics as say
-from mrlab_ros.core.systems.circles import waiting_circle
-from mrlab_ros.core.systems.waits import AfterFrame, Held, Wait
+from mrlab_ros.core.systems.waits import AfterFrame, Held, Wait, waiting_circle
 
 # A member's own end and the timeline's are the same within this, s.
 SAME_INSTANT = 1e-6

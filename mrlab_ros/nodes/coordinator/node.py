@@ -22,7 +22,7 @@ from mrlab_ros.core.playback import diagnostics as playback
 from mrlab_ros.core.playback.states import State
 from mrlab_ros.core.runtime.identity import Identity
 from mrlab_ros.core.systems import diagnostics as say
-from mrlab_ros.core.systems import journal as entries
+from mrlab_ros.core.systems import registry
 from mrlab_ros.core.systems.members import Command, Order
 from mrlab_ros.core.systems.registry import Systems
 from mrlab_ros.core.systems.robot_system import Policy, RobotSystem
@@ -310,10 +310,10 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
 
     def _restore(self) -> None:
         """Bring back the systems of a coordinator that was killed, each where it stood."""
-        for name, robots, entry in entries.read(self._journal.load()):
+        for name, robots, entry in registry.read(self._journal.load()):
             clients = {robot: MemberClient(self.caller.node, robot, self) for robot in robots}
             fleet = RosFleet(name, clients, self._hosts)
-            system = entries.restore(entry, fleet, self._publish, self._now_ns())
+            system = registry.restore(entry, fleet, self._publish, self._now_ns())
             if system is None:
                 self.lost.append(say.SYSTEM_LOST(system=name))
                 self.get_logger().error(str(self.lost[-1]))
@@ -331,7 +331,7 @@ class CoordinatorNode(ParameterNode[CoordinatorParameters]):
             self._topic.publish(
                 systems_to_message(now_ns, self._systems, self._identity.lab, self._holder)
             )
-            self._journal.save(entries.plain(self._systems, now_ns))
+            self._journal.save(registry.plain(self._systems, now_ns))
 
 
 def _mode(number: int) -> Mode:

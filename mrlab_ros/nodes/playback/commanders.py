@@ -17,8 +17,9 @@ from trajectory_msgs.msg import JointTrajectory
 
 from mrlab_ros.core.base.errors import LabError, Misuse
 from mrlab_ros.core.playback import diagnostics as say
+from mrlab_ros.core.playback.execution import PlaybackStatus
 from mrlab_ros.core.playback.goal import Code, WrongGoal
-from mrlab_ros.core.playback.playback import Playback, PlaybackStatus
+from mrlab_ros.core.playback.playback import Playback
 from mrlab_ros.core.playback.pursuit import Bounds, Outcome, Pursuit
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.messages import qos
@@ -99,7 +100,7 @@ class Commanders:
         """Begin to follow a goal in place of the one before it; raise LabError where it is bad."""
         bounds.check(self._playback.model.joint_names)
         with self._command() as now_ns:
-            trajectory = self._playback.pursue(now_ns, goal_from_message(message))
+            trajectory = self._playback.external.pursue(now_ns, goal_from_message(message))
             start_ns = self._playback.clock.stamp_ns
             # What is announced from here on is of the new goal.
             self._statuses.clear()
@@ -148,7 +149,7 @@ class Commanders:
         with self._command() as now_ns:
             try:
                 _refuse_doubtful()
-                begins = self._playback.command(
+                begins = self._playback.external.command(
                     now_ns, message.name, message.position, message.velocity
                 )
                 trajectory = self._playback.trajectory

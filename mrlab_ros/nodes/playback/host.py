@@ -20,9 +20,9 @@ from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.errors import LabError, Misuse
 from mrlab_ros.core.playback import journal as entries
 from mrlab_ros.core.playback.diagnostics import NOT_PLAYED, OF_ROBOT
-from mrlab_ros.core.playback.playback import Kept
+from mrlab_ros.core.playback.journal import Kept
 from mrlab_ros.core.runtime.identity import Identity
-from mrlab_ros.core.systems.leases import Leases
+from mrlab_ros.core.systems.claims import Leases
 from mrlab_ros.core.systems.members import HALTING
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.messages import qos

@@ -17,8 +17,10 @@ from sensor_msgs.msg import JointState
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.errors import LabError, Misuse
 from mrlab_ros.core.playback import diagnostics as say
+from mrlab_ros.core.playback.execution import PlaybackStatus
+from mrlab_ros.core.playback.journal import Kept, come_back, keep
 from mrlab_ros.core.playback.planner import MotionPlanner
-from mrlab_ros.core.playback.playback import Kept, Playback, PlaybackStatus
+from mrlab_ros.core.playback.playback import Playback
 from mrlab_ros.core.playback.states import State
 from mrlab_ros.core.playback.stream import Sample
 from mrlab_ros.core.robots.model import RobotModel
@@ -149,7 +151,7 @@ class PlaybackNode(Node):
 
         Takes no lock: place and pose of an arm that plays are those of one joint state.
         """
-        kept, last = self.playback.kept(), self.player.last
+        kept, last = keep(self.playback), self.player.last
         if kept is None:
             return self._back
         if last is not None and last.sample.streamed and self.playback.state is State.PLAYING:
@@ -175,7 +177,7 @@ class PlaybackNode(Node):
                     trajectory = self._fetch(f"{kept.trajectory_id}@{kept.version}")
                 with self._command() as now_ns:
                     if self.playback.state is State.IDLE:
-                        self.playback.come_back(now_ns, trajectory, kept)
+                        come_back(self.playback, now_ns, trajectory, kept)
                 self._back = None
                 self._announce_targets(now_ns, trajectory)
                 return None

@@ -9,7 +9,8 @@ import pytest
 from fakes import SECOND, StraightPlanner, make_model, make_trajectory
 
 from mrlab_ros.core.playback import journal
-from mrlab_ros.core.playback.playback import Kept, Playback
+from mrlab_ros.core.playback.journal import Kept, come_back, keep
+from mrlab_ros.core.playback.playback import Playback
 from mrlab_ros.core.playback.states import State
 
 START = 5 * SECOND
@@ -46,10 +47,10 @@ def again(kept: Kept | None) -> Kept:
 
 def test_a_restarted_playback_goes_on_with_the_next_frame():
     before = on_its_way(0.305)
-    kept = again(before.kept())
+    kept = again(keep(before))
     after = make()
     after.stand_at(START, kept.arm)
-    after.come_back(START, before.trajectory, kept)
+    come_back(after, START, before.trajectory, kept)
     assert (after.state, after.rate, after.loop) == (State.PAUSED, 1.0, True)
     assert after.clock.position == before.clock.at(START) or after.frame == before.frame
     assert np.array_equal(after.arm, before.arm)
@@ -69,7 +70,7 @@ def test_a_halt_comes_back_unless_the_arm_was_cleared_meanwhile(reported, state)
     after = make()
     if reported is not None:
         (after.collide if reported else after.clear)(START, *["touches"] * reported)
-    after.come_back(START, before.trajectory, again(before.kept()))
+    come_back(after, START, before.trajectory, again(keep(before)))
     assert after.state is state
 
 
@@ -77,17 +78,17 @@ def test_one_that_had_not_begun_is_ready_for_the_first_frame():
     before = make()
     before.load(START, make_trajectory())
     after = make()
-    after.come_back(START, before.trajectory, again(before.kept()))
+    come_back(after, START, before.trajectory, again(keep(before)))
     assert after.state is State.READY
     assert np.array_equal(after.arm, before.arm)
 
 
 def test_without_a_trajectory_nothing_is_kept():
-    assert make().kept() is None
+    assert keep(make()) is None
 
 
 @pytest.mark.parametrize("broken", [{"rate": "x"}, {"arm": None}, {"arm": "y"}, {"arm": [[1.0]]}])
 def test_an_entry_of_another_form_is_left_out(broken):
-    kept = on_its_way(0.1).kept()
+    kept = keep(on_its_way(0.1))
     assert kept is not None
     assert journal.read({journal.ROBOTS: {"a": journal.plain("m", kept) | broken}}) == {}

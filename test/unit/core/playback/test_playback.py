@@ -14,6 +14,7 @@ from refusals import refused
 from mrlab_ros.core.base.diagnostics import BAD_POSITION, BAD_RATE, ILLEGAL_EVENT
 from mrlab_ros.core.base.errors import BadInput, IllegalEvent, LabError, Misuse
 from mrlab_ros.core.playback import diagnostics as say
+from mrlab_ros.core.playback.journal import come_back, keep
 from mrlab_ros.core.playback.playback import Playback
 from mrlab_ros.core.playback.states import TABLE, Event, State
 from mrlab_ros.core.playback.stream import LOST_AFTER_NS, Sample
@@ -405,7 +406,7 @@ def in_state(state: State) -> Playback:
             playback.collide(START + PERIOD, TOUCHES)
     if state is State.COMPLETE:
         # COMPLETE lasts no longer than its announcement, so no command leads to it.
-        playback._machine.fire(Event.FINISHED)
+        playback.machine.fire(Event.FINISHED)
     assert playback.state is state
     playback.take_statuses()
     return playback
@@ -431,7 +432,7 @@ CALLS = {
 def test_every_event_in_every_state_does_what_the_table_says_or_changes_nothing(state, event):
     playback = in_state(state)
     if event is Event.CLEAR_HALT:
-        playback._touching = False
+        playback.touching = False
     before = playback.status(), playback.due_ns(), playback.arm
     if (state, event) in TABLE.transitions:
         CALLS[event](playback)
@@ -634,5 +635,5 @@ def test_a_ready_playback_that_is_turned_begins_at_its_other_end():
 def test_a_restart_knows_the_direction():
     playback = backwards(-0.5)
     fresh = make()
-    fresh.come_back(START, playback.trajectory, playback.kept())
+    come_back(fresh, START, playback.trajectory, keep(playback))
     assert (fresh.state, fresh.rate, fresh.clock.position) == (State.READY, -0.5, 0.1)

@@ -7,7 +7,7 @@ import json
 import pytest
 from fakes import SECOND
 
-from mrlab_ros.core.systems import journal
+from mrlab_ros.core.systems import registry
 from mrlab_ros.core.systems.robot_system import Policy, RobotSystem
 from mrlab_ros.core.systems.states import SystemState
 from mrlab_ros.core.systems.timeline import Member, Mode
@@ -24,15 +24,15 @@ def make() -> RobotSystem:
 
 
 def again(content: dict) -> RobotSystem | None:
-    ((name, robots, entry),) = journal.read(json.loads(json.dumps(content)))
+    ((name, robots, entry),) = registry.read(json.loads(json.dumps(content)))
     assert (name, robots) == ("cell", ["a", "b"])
-    return journal.restore(entry, None, lambda: None, 9 * SECOND)  # type: ignore[arg-type]
+    return registry.restore(entry, None, lambda: None, 9 * SECOND)  # type: ignore[arg-type]
 
 
 def test_a_standing_system_comes_back_as_it_was():
     before = make()
     before.rate = 0.5
-    after = again(journal.plain([before], SECOND))
+    after = again(registry.plain([before], SECOND))
     assert after is not None
     assert after.state is SystemState.READY
     assert (after.mode, after.policy, after.loop, after.rate) == (
@@ -43,7 +43,7 @@ def test_a_standing_system_comes_back_as_it_was():
 
 @pytest.mark.parametrize("state", ["PLAYING", "STAGING", "PAUSED", "COLLISION_HALT"])
 def test_a_system_that_was_under_way_stands_where_it_was(state):
-    content = journal.plain([make()], SECOND)
+    content = registry.plain([make()], SECOND)
     content["systems"][0] |= {"state": state, "position": 0.75}
     after = again(content)
     assert after is not None
@@ -55,6 +55,6 @@ def test_a_system_that_was_under_way_stands_where_it_was(state):
     "broken", [{"mode": "SIDEWAYS"}, {"rate": "x"}, {"members": [{"robot": 1}]}]
 )
 def test_an_entry_that_cannot_be_read_is_no_system(broken):
-    content = journal.plain([make()], SECOND)
+    content = registry.plain([make()], SECOND)
     entry = content["systems"][0] | broken
-    assert journal.restore(entry, None, lambda: None, SECOND) is None  # type: ignore[arg-type]
+    assert registry.restore(entry, None, lambda: None, SECOND) is None  # type: ignore[arg-type]

@@ -48,7 +48,7 @@ class Stage:
         self.now_ns = end_ns
 
     def command(self, way: float, **changes) -> bool:
-        return self.playback.command(self.now_ns, NAMES, (HOME + way).tolist(), **changes)
+        return self.playback.external.command(self.now_ns, NAMES, (HOME + way).tolist(), **changes)
 
     def stream(self, ways, period=0.02) -> None:
         for way in ways:
@@ -57,7 +57,7 @@ class Stage:
 
     def goal(self, *at: tuple[float, float]):
         goal = Goal(NAMES, [Point(time, (HOME + way).tolist()) for time, way in at])
-        return self.playback.pursue(self.now_ns, goal)
+        return self.playback.external.pursue(self.now_ns, goal)
 
     @property
     def states(self):
@@ -207,14 +207,14 @@ def test_a_bad_set_point_is_refused_and_moves_nothing(
     stage: Stage, names, positions, velocities, code, values
 ) -> None:
     with refused(code, **values):
-        stage.playback.command(stage.now_ns, names, positions, velocities)
+        stage.playback.external.command(stage.now_ns, names, positions, velocities)
     assert stage.playback.state is State.IDLE
     stage.run(0.1)
     assert stage.playback.arm == pytest.approx(HOME)
 
 
 def test_without_names_the_values_are_in_the_robot_s_order(stage: Stage) -> None:
-    stage.playback.command(stage.now_ns, [], (HOME + 0.1).tolist())
+    stage.playback.external.command(stage.now_ns, [], (HOME + 0.1).tolist())
     stage.run(0.4)
     assert stage.playback.arm == pytest.approx(HOME + 0.1)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mrlab_ros.core.systems.leases import Leases
+from mrlab_ros.core.systems.claims import Leases
 
 
 def test_a_claim_lasts_while_its_system_is_named():

@@ -6,10 +6,9 @@ import pytest
 from refusals import refused
 
 from mrlab_ros.core.base.errors import BadInput
-from mrlab_ros.core.systems.circles import waiting_circle
 from mrlab_ros.core.systems.diagnostics import WAITING_CIRCLE
 from mrlab_ros.core.systems.timeline import Member, Mode, Timeline
-from mrlab_ros.core.systems.waits import parse
+from mrlab_ros.core.systems.waits import parse, waiting_circle
 
 
 def members(**waits: list[str]) -> list[Member]:
