@@ -1,5 +1,5 @@
 # make demo   set up and run the lab on a shipped MATLAB file   (ARGS=--once ends by itself)
-# make test   set up and run every test, in two processes   (ARGS passes options to pytest: ARGS='-m fast'
+# make test   set up and run every test, in three processes (ARGS passes options to pytest: ARGS='-m fast'
 #             runs those that need no graph; ARGS='-n 0' runs all in one process, as --pdb needs)
 # make bench  run every benchmark, past one that fails          (ARGS=--quick for a minute each)
 # make robots  generate the robots' bodies anew from their descriptions (tens of minutes)
@@ -25,7 +25,7 @@ demo: setup
 
 test:
 	@python3 scripts/bootstrap.py --dev --test-tools
-	@$(ENV) exec python -m pytest -n 2 --dist loadfile --no-loadscope-reorder $(ARGS)
+	@$(ENV) PYTHONDONTWRITEBYTECODE= exec python -m pytest -n 3 --dist loadfile --no-loadscope-reorder $(ARGS)
 
 dist:
 	@python3 scripts/bootstrap.py

@@ -21,10 +21,21 @@ settings.load_profile("lab")
 FAST_FOLDERS = ("unit", "fuzz", "bodies")
 
 
-# The labs come last, so that none runs beside tests that do not need it.
-ORDER = ("node", "fuzz", "unit", "bodies", "browser", "system")
-# What one lab serves whole.
+# Graphs and labs wait more than they compute: they come first, and the others fill their waits.
+ORDER = ("node", "browser", "system", "fuzz", "unit", "bodies")
+# More labs at once than this take each other's time, and their deadlines pass.
+PROCESSES_WITH_LABS = 2
+# One lab serves it whole.
 ONE_LAB = "test/browser/"
+# Each test starts processes of its own.
+APART = ("test/system/test_bench.py", "test/system/test_examples.py")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Let the processes with labs run before those without."""
+    worker = os.environ.get("PYTEST_XDIST_WORKER", "gw0")
+    if int(worker.removeprefix("gw")) >= PROCESSES_WITH_LABS:
+        os.nice(5)
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
@@ -41,10 +52,29 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 
 class _Files(LoadFileScheduling):
-    """Hands whole files to the processes that share the work, and a folder that shares a lab."""
+    """Hands whole files to the processes that share the work, and labs to the first two alone."""
 
     def _split_scope(self, nodeid: str) -> str:
-        return ONE_LAB if nodeid.startswith(ONE_LAB) else str(super()._split_scope(nodeid))
+        if nodeid.startswith(ONE_LAB):
+            return ONE_LAB
+        return nodeid if nodeid.startswith(APART) else str(super()._split_scope(nodeid))
+
+    def _first_for(self, node: Any) -> str | None:
+        labs = self.nodes.index(node) < PROCESSES_WITH_LABS
+        graphs = ("test/node/", "test/browser/", "test/system/")
+        return next((s for s in self.workqueue if labs or not s.startswith(graphs)), None)
+
+    def _reschedule(self, node: Any) -> None:
+        if self.workqueue and self._first_for(node) is None:
+            node.shutdown()
+        else:
+            super()._reschedule(node)
+
+    def _assign_work_unit(self, node: Any) -> None:
+        first = self._first_for(node)
+        if first is not None:
+            self.workqueue.move_to_end(first, last=False)
+            super()._assign_work_unit(node)
 
 
 def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> _Files | None:

@@ -52,14 +52,14 @@ def plain_browser(chromium: Callable[[Sequence[str]], Browser]) -> Iterator[Brow
     started.close()
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def lab(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ServedLab]:
     """A lab on this machine, for one local user."""
     with served_lab(tmp_path_factory.mktemp("lab")) as lab:
         yield lab
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def gateway(lab: ServedLab, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Gateway]:
     """A second gateway of the same lab, at which people sign in."""
     with gateway_with_people(lab, tmp_path_factory.mktemp("gateway")) as gateway:
