@@ -36,6 +36,7 @@ import functools
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from decimal import ROUND_HALF_UP, Context, Decimal
 from math import degrees, isfinite
 from typing import Any, TypeAlias
 
@@ -129,14 +130,21 @@ def shown(part: Placeholder, values: Mapping[str, Value]) -> str:
     return QUANTITIES[quantity](value, part.words)
 
 
+# Halves are rounded away from zero in decimal, as Intl.NumberFormat rounds: 0.145 s is 0.15 s.
+_HALF_UP = Context(prec=400, rounding=ROUND_HALF_UP)
+
+
 def _digits(value: float, digits: int, unit: str) -> str:
     if not isfinite(value):
         return f"{value:g}{unit}"
-    text = f"{value:.{digits}f}"
-    return (text.lstrip("-") if not text.strip("-0.") else text) + unit
+    rounded = Decimal(repr(float(value))).quantize(Decimal((0, (1,), -digits)), context=_HALF_UP)
+    return f"{rounded if rounded else abs(rounded):f}{unit}"
 
 
 def _significant(value: float, digits: int, unit: str) -> str:
+    if isfinite(value):
+        context = Context(prec=digits, rounding=ROUND_HALF_UP)
+        value = float(context.create_decimal(repr(float(value))))
     text = f"{value:.{digits}g}"
     return (f"{float(text):.0f}" if "e+" in text and abs(value) < 1e15 else text) + unit
 
@@ -148,12 +156,12 @@ def _length(value: float, words: Sequence[str]) -> str:
 
 
 def _duration(value: float, words: Sequence[str]) -> str:
-    if round(value, 2) < 100:
+    if value < 99.995:
         return _digits(value, 2, " s")
-    tenths = round(value * 10)
+    tenths = int(value * 10 + 0.5)
     if tenths < 36_000:
         return f"{tenths // 600}:{tenths % 600 / 10:04.1f} min"
-    whole = round(value)
+    whole = int(value + 0.5)
     return f"{whole // 3600}:{whole // 60 % 60:02d}:{whole % 60:02d} h"
 
 
@@ -166,7 +174,10 @@ def _bytes(value: float, words: Sequence[str]) -> str:
 
 def joined(names: Sequence[object], last: str = "and") -> str:
     """Return `a, b and c`."""
-    texts = [visible(str(name)) for name in names]
+    texts = [
+        _significant(name, 10, "") if isinstance(name, float) else visible(str(name))
+        for name in names
+    ]
     return f" {last} ".join(filter(None, [", ".join(texts[:-1]), texts[-1]])) if texts else ""
 
 
@@ -207,7 +218,7 @@ QUANTITIES: dict[str, Callable[[Any, Sequence[str]], str]] = {
     "time": lambda v, w: _digits(v, 2, " s"),
     "duration": _duration,
     "rate": lambda v, w: _significant(v, 4, " Hz"),
-    "share": lambda v, w: _digits(v * 100, 0, "%"),
+    "share": lambda v, w: _digits(round(v * 100, 9), 0, "%"),
     "mass": lambda v, w: _significant(v, 3, " kg"),
     "force": lambda v, w: _significant(v, 3, " N"),
     "moment": lambda v, w: _significant(v, 3, " N*m"),

@@ -1,5 +1,5 @@
 /** Templates with typed values: `mrlab_ros/core/base/phrase.py` describes them. */
-import { number } from './words'
+import { fixed, percent, significant } from './words'
 
 export type Values = Readonly<Record<string, unknown>>
 
@@ -110,7 +110,7 @@ function typed(value: unknown): unknown {
 }
 
 function digits(value: number, count: number, unit: string): string {
-  return `${number(value, count, count)}${unit}`
+  return `${fixed(value, count)}${unit}`
 }
 
 function length(value: number): string {
@@ -120,12 +120,12 @@ function length(value: number): string {
 
 /** From 100 s on as minutes or hours: 2:05.3 min, 1:02:05 h. */
 function duration(value: number): string {
-  if (Number(value.toFixed(2)) < 100) return digits(value, 2, ' s')
+  if (value < 99.995) return digits(value, 2, ' s')
   const tenths = Math.round(value * 10)
   const two = (count: number): string => String(count).padStart(2, '0')
   if (tenths < 36_000) {
     const seconds = (tenths % 600) / 10
-    return `${Math.floor(tenths / 600)}:${seconds < 10 ? '0' : ''}${number(seconds, 1, 1)} min`
+    return `${Math.floor(tenths / 600)}:${seconds < 10 ? '0' : ''}${fixed(seconds, 1)} min`
   }
   const whole = Math.round(value)
   return `${Math.floor(whole / 3600)}:${two(Math.floor(whole / 60) % 60)}:${two(whole % 60)} h`
@@ -137,13 +137,13 @@ function bytes(value: number): string {
     [1e6, ' MB'],
     [1e3, ' kB'],
   ] as const) {
-    if (Math.abs(value) >= scale) return significant(value / scale, 3, unit)
+    if (Math.abs(value) >= scale) return measured(value / scale, 3, unit)
   }
   return digits(value, 0, ' B')
 }
 
-function significant(value: number, count: number, unit: string): string {
-  return `${number(Number(value.toPrecision(count)), 12)}${unit}`
+function measured(value: number, count: number, unit: string): string {
+  return `${significant(value, count)}${unit}`
 }
 
 function chosen(value: unknown, words: readonly string[]): string {
@@ -152,10 +152,15 @@ function chosen(value: unknown, words: readonly string[]): string {
 }
 
 function joined(names: unknown, words: readonly string[], last: string): string {
-  const texts = (Array.isArray(names) ? names : [names]).map((name) => chosen(name, words))
+  const list: readonly unknown[] = Array.isArray(names) ? names : [names]
+  const texts = list.map((name) =>
+    typeof name === 'number' ? significant(name, 10) : chosen(name, words),
+  )
+  // after numbers with a decimal comma a comma would not part them
+  const comma = list.some((name, i) => typeof name === 'number' && texts[i]?.includes(','))
   return texts.length < 2
     ? texts.join('')
-    : `${texts.slice(0, -1).join(', ')} ${last} ${texts[texts.length - 1]}`
+    : `${texts.slice(0, -1).join(comma ? '; ' : ', ')} ${last} ${texts[texts.length - 1]}`
 }
 
 function shown(
@@ -172,9 +177,9 @@ function shown(
     case 'integer':
       return digits(figure, 0, '')
     case 'number':
-      return significant(figure, 4, '')
+      return measured(figure, 4, '')
     case 'exact':
-      return significant(figure, 10, '')
+      return measured(figure, 10, '')
     case 'angle':
       return digits(figure * DEGREES, 1, '°')
     case 'fine_angle':
@@ -194,15 +199,15 @@ function shown(
     case 'duration':
       return duration(figure)
     case 'rate':
-      return significant(figure, 4, ' Hz')
+      return measured(figure, 4, ' Hz')
     case 'share':
-      return digits(figure * 100, 0, '%')
+      return percent(figure)
     case 'mass':
-      return significant(figure, 3, ' kg')
+      return measured(figure, 3, ' kg')
     case 'force':
-      return significant(figure, 3, ' N')
+      return measured(figure, 3, ' N')
     case 'moment':
-      return significant(figure, 3, ' N*m')
+      return measured(figure, 3, ' N*m')
     case 'bytes':
       return bytes(figure)
     case 'position': {

@@ -85,6 +85,19 @@ export function number(value: number, digits = 2, least = 0): string {
   })
 }
 
+/** Return a number with so many digits that count, without groups of thousands. */
+export function significant(value: number, digits: number): string {
+  return value.toLocaleString(locale.value, {
+    maximumSignificantDigits: digits,
+    useGrouping: false,
+  })
+}
+
+/** Return a share, 0 to 1, with the sign of percent as the language sets it: 63% or 63\u00a0%. */
+export function percent(share: number): string {
+  return share.toLocaleString(locale.value, { style: 'percent' })
+}
+
 /** Return a date and time, s since the epoch, in the language's own way. */
 export function dateTime(seconds: number): string {
   return new Date(seconds * 1000).toLocaleString(locale.value, {
