@@ -105,9 +105,10 @@ TABLE: Table[State, Event] = Table(
             State.IDLE, State.READY, State.PAUSED, State.COLLISION_HALT, State.COMPLETE,
         ),
     },
-    # CLEAR_HALT is missing on purpose: physics ends a halt as soon as the arm is clear, so what
-    # helps in a halt is to move the arm.
-    commands=(Event.LOAD, Event.UNLOAD, Event.PLAY, Event.PAUSE, Event.STOP, Event.SEEK),
+    commands=(
+        Event.LOAD, Event.UNLOAD, Event.PLAY, Event.PAUSE, Event.STOP, Event.SEEK,
+        Event.CLEAR_HALT,
+    ),
 )  # fmt: skip
 
 # The states in which the arm moves.

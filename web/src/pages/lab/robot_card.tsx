@@ -73,6 +73,7 @@ export function RobotCard({ view, catalogue, idle }: RobotCardProps) {
   const w = words.value.lab
   const loaded = playback !== null && playback.frame_count > 0
   const independent = !playback?.system
+  const halted = state === 'COLLISION_HALT'
   const check = useCheck(view, may.commands && idle)
   const seeks = may.commands && independent
   const found = check.check.value
@@ -110,10 +111,12 @@ export function RobotCard({ view, catalogue, idle }: RobotCardProps) {
           {robot.end_effector && ` + ${robot.end_effector}`}
           {playback?.system && ` · ${w.inSystem(playback.system)}`}
         </p>
-        {playback?.message && <p class="small">{spoken(playback)}</p>}
-        {touching && <p class="lab-halt small">{touching}</p>}
+        {playback?.message && (
+          <p class={halted ? 'lab-halt small' : 'small'}>{spoken(playback)}</p>
+        )}
+        {touching && !halted && <p class="lab-halt small">{touching}</p>}
         {holding && <p class="small">{w.holds(holding)}</p>}
-        {state === 'COLLISION_HALT' && may.commands && (
+        {halted && may.commands && (
           <Button onClick={() => trigger(link, `${robot.name}/clear_halt`)}>{w.clearHalt}</Button>
         )}
       </div>
