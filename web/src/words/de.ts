@@ -90,8 +90,8 @@ export const words: Words = {
   qrCode: (url) => `QR-Code von ${url}`,
   plots: {
     title: 'Kurven',
-    channels: { angles: 'Winkel', velocities: 'Geschwindigkeiten', proxies: 'Moment-Proxys' },
-    proxyNote: 'Nominelle Werte zur Anzeige, ein Proxy und kein Drehmoment.',
+    channels: { angles: 'Winkel', velocities: 'Geschwindigkeiten', proxies: 'Ersatzmomente' },
+    proxyNote: 'Nominelle Werte zur Anzeige: eine Ersatzgröße, kein Drehmoment.',
     hint: 'Zeige auf eine Kurve für ihre Zahlen; ein Klick springt dorthin.',
     at: (time, row) => `${time} s · Zeile ${row}`,
     limit: (value) => `Grenze ${value}`,
@@ -427,6 +427,7 @@ export const words: Words = {
     keys: 'Schlüssel',
     key: 'Schlüssel',
     type: 'Typ',
+    rate: 'Rate',
     age: 'Alter',
     copyLine: 'Die ros2-Zeile kopieren',
     connected: 'verbunden',

@@ -429,6 +429,7 @@ export const en = {
     keys: 'Keys',
     key: 'Key',
     type: 'Type',
+    rate: 'Rate',
     age: 'Age',
     copyLine: 'Copy the ros2 line',
     connected: 'connected',

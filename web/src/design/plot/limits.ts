@@ -102,33 +102,3 @@ export function drawForbidden(plot: uPlot, line: Limits, theme: Theme, words: Li
   }
   ctx.restore()
 }
-
-/** Say by an arrow at the edge where a limit is that the axis does not reach. */
-export function drawFarLimits(plot: uPlot, line: Limits, theme: Theme): void {
-  const { ctx, bbox } = plot
-  const ratio = devicePixelRatio
-  const bottom = bbox.top + bbox.height
-  ctx.save()
-  ctx.font = FONT.replace('13', String(12 * ratio))
-  ctx.textAlign = 'right'
-  ctx.textBaseline = 'middle'
-  for (const [limit, arrow] of [
-    [line.upper, '↑'],
-    [line.lower, '↓'],
-  ] as const) {
-    if (limit === null) continue
-    const y = plot.valToPos(limit, 'y', true)
-    if (y > bbox.top && y < bottom) continue
-    const text = `${arrow} ${fixed(limit, 0)}${line.unit === '°' ? '°' : ''}`
-    const width = ctx.measureText(text).width
-    const right = bbox.left + bbox.width - 4 * ratio
-    const middle = arrow === '↑' ? bbox.top + 8 * ratio : bottom - 8 * ratio
-    ctx.globalAlpha = 0.85
-    ctx.fillStyle = theme.colours.card
-    ctx.fillRect(right - width - 3 * ratio, middle - 7 * ratio, width + 6 * ratio, 14 * ratio)
-    ctx.globalAlpha = 1
-    ctx.fillStyle = theme.colours.second
-    ctx.fillText(text, right, middle)
-  }
-  ctx.restore()
-}

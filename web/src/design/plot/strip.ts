@@ -1,7 +1,8 @@
 import uPlot from 'uplot'
 import 'uplot/dist/uPlot.min.css'
+import { number } from '../../words/words'
 import type { Theme } from '../theme'
-import { drawFarLimits, drawForbidden, FONT, type Limits, type LimitWords } from './limits'
+import { drawForbidden, FONT, type Limits, type LimitWords } from './limits'
 
 /** One line over time with its limits, in the unit that is shown. */
 export interface Strip extends Limits {
@@ -151,7 +152,7 @@ export function createStrip(parent: HTMLElement, width: number, options: StripOp
           font: FONT,
           grid,
           ticks,
-          values: (_, splits) => splits.map((split) => `${split} s`),
+          values: (_, splits) => splits.map((split) => `${number(split, 6)} s`),
         },
         {
           size: AXIS_WIDTH,
@@ -160,18 +161,14 @@ export function createStrip(parent: HTMLElement, width: number, options: StripOp
           grid,
           ticks,
           space: 26,
-          values: (_, splits) => splits.map((split) => `${split}${degrees}`),
+          values: (_, splits) => splits.map((split) => `${number(split, 6)}${degrees}`),
         },
       ],
       series,
       hooks: {
         drawClear: [(drawn) => drawForbidden(drawn, strip, theme, options.words)],
         // A new or resized plot has its scales when it is drawn, not before.
-        draw: [
-          (drawn) => drawFarLimits(drawn, strip, theme),
-          (drawn) => drawMarks(drawn, options),
-          place,
-        ],
+        draw: [(drawn) => drawMarks(drawn, options), place],
         setCursor: [(drawn) => options.onCursor(drawn.cursor.idx ?? null)],
       },
     },

@@ -2,7 +2,7 @@ import type { ReadonlySignal } from '@preact/signals'
 import { useEffect, useRef, useState } from 'preact/hooks'
 import { fixed, words } from '../../words/words'
 import { theme } from '../theme'
-import { createStrip, type Mark, type Strip, type StripPlot } from './strip'
+import { createStrip, type Mark, rangeOf, type Strip, type StripPlot } from './strip'
 import './plot.css'
 
 interface StripsProps {
@@ -25,15 +25,34 @@ function summary(strip: Strip): string {
   let low = Number.POSITIVE_INFINITY
   let high = Number.NEGATIVE_INFINITY
   for (const value of strip.values) {
-    low = Math.min(low, value)
-    high = Math.max(high, value)
+    if (value < low) low = value
+    if (value > high) high = value
   }
   const w = words.value.plots
+  if (low > high) return strip.label
   const limits =
     strip.lower === null || strip.upper === null
       ? ''
       : w.between(fixed(strip.lower, 0), fixed(strip.upper, 0))
   return `${strip.label}: ${w.from(fixed(low, 1), fixed(high, 1), strip.unit)}${limits}`
+}
+
+/** Return the limits that the axis does not reach, such as `↓ -360° ↑ 360°`. */
+function farLimits(strip: Strip): string {
+  const [low, high] = rangeOf(strip)
+  const { lower, upper } = strip
+  const unit = strip.unit === '°' ? '°' : ''
+  const far = [
+    lower !== null && lower < low ? `↓ ${fixed(lower, 0)}${unit}` : '',
+    upper !== null && upper > high ? `↑ ${fixed(upper, 0)}${unit}` : '',
+  ]
+  return far.filter(Boolean).join('  ')
+}
+
+/** Return a number of a strip with its unit; nothing at a gap. */
+function valueAt(strip: Strip, index: number): string {
+  const value = strip.values[index] ?? Number.NaN
+  return Number.isNaN(value) ? '' : `${fixed(value, 1)} ${strip.unit}`
 }
 
 let nextSync = 1
@@ -98,7 +117,7 @@ export function Strips({ times, strips, marks, rowOf, time, onSeek }: StripsProp
             <span class={`strip-dot joint-${(strip.colour % 7) + 1}`} />
             <span class="strip-name">{strip.label}</span>
             <span class="strip-value">
-              {under === null ? '' : `${fixed(strip.values[under] ?? 0, 1)} ${strip.unit}`}
+              {under === null ? farLimits(strip) : valueAt(strip, under)}
             </span>
           </figcaption>
           <div class="strip-plot" role="img" aria-label={summary(strip)} data-strip={index} />

@@ -61,7 +61,7 @@ export function KeyTable({ follower }: { follower: LabFollower }) {
           <tr>
             <th>{w.key}</th>
             <th>{w.type}</th>
-            <th class="lab-number">Hz</th>
+            <th class="lab-number">{w.rate}</th>
             <th class="lab-number">{w.age}</th>
             <th />
           </tr>
@@ -74,7 +74,7 @@ export function KeyTable({ follower }: { follower: LabFollower }) {
               </td>
               <td class="second small">{type.replace('/msg/', '/')}</td>
               <td class="lab-number">
-                {Number.isNaN(rate) ? '' : fixed(rate, rate < 10 ? 1 : 0)}
+                {Number.isNaN(rate) ? '' : `${fixed(rate, rate < 10 ? 1 : 0)} Hz`}
               </td>
               <td class="lab-number">{Number.isNaN(age) ? '' : `${fixed(age, 1)} s`}</td>
               <td>
