@@ -1,4 +1,8 @@
-"""The message types as TypeScript: interfaces, constants and CDR codecs, a file a package."""
+"""The message types as TypeScript: interfaces, constants and CDR codecs, a file a package.
+
+Only what `web/` imports is generated: `robotsReader` decodes, `presenceWriter` encodes, `seekType`
+is a service, whose request is encoded and whose response is decoded.
+"""
 
 from __future__ import annotations
 
@@ -38,6 +42,45 @@ ARRAYS = {
 BASES = {"octet": "uint8", "byte": "uint8", "char": "uint8"}
 
 
+IMPORTERS = ("web/src", "web/test", "web/bench")
+IMPORT = re.compile(r"import (type )?\{([^}]*)\} from '[^']*/protocol/(\w+_(?:msgs|interfaces))'")
+# Names that pages import, and the part of a message or service that each is.
+NAMES = (
+    (re.compile("create(.+)"), "create"),
+    (re.compile("(.+)Reader"), "reader"),
+    (re.compile("(.+)Writer"), "writer"),
+    (re.compile("(.+)Type"), "service"),
+)
+# The parts of a message that another part of it uses.
+USES = {
+    "interface": (),
+    "constants": ("interface",),
+    "create": ("interface",),
+    "read": ("create",),
+    "write": ("interface",),
+    "reader": ("read",),
+    "writer": ("write",),
+}
+# The parts that the file of another package may use, by how their names begin.
+SHARED = {"interface": "type ", "create": "create", "read": "read", "write": "write"}
+HELPERS = [
+    "type MessageReader",
+    "type MessageWriter",
+    "messageReader",
+    "messageWriter",
+    "type ServiceType",
+    "serviceType",
+]
+
+
+@dataclass(frozen=True)
+class Need:
+    """A part of a message that a page uses. what: a key of USES; of: the message's name."""
+
+    what: str
+    of: str
+
+
 @dataclass(frozen=True)
 class Field:
     """A field as TypeScript has it. default, read and write are expressions."""
@@ -68,6 +111,11 @@ class Type:
         return short(self.name)
 
     @property
+    def is_half(self) -> bool:
+        """Whether it is the request or the response of a service."""
+        return self.name.endswith(("_Request", "_Response"))
+
+    @property
     def ros_name(self) -> str:
         """Its name in ROS: a half of a service is in srv/."""
         return re.sub(r"/msg/(.*_(?:Request|Response))$", r"/srv/\1", self.name)
@@ -82,15 +130,18 @@ def _lower(name: str) -> str:
 
 
 def files(root: Path) -> dict[str, str]:
-    """Return path -> content of every generated file."""
-    found = types(root)
-    services = sorted(
-        each.ros_name.removesuffix("_Request")
-        for each in found.values()
-        if each.ros_name.endswith("_Request")
-    )
-    packages = sorted({each.package for each in found.values()})
-    return {f"{FOLDER}/{package}.ts": _file(package, found, services) for package in packages}
+    """Return path -> content of every generated file: what `web/` imports, and what that uses."""
+    known = types(root)
+    needs = _closed(_imported(root, known), known)
+    packages = sorted({known[need.of].package for need in needs})
+    return {f"{FOLDER}/{package}.ts": _file(package, known, needs) for package in packages}
+
+
+def codecs(root: Path) -> list[str]:
+    """Return the names of the messages that the pages receive or send, without those in others."""
+    known = types(root)
+    needs = _imported(root, known)
+    return sorted({need.of for need in needs if need.what in ("reader", "writer")})
 
 
 def types(root: Path) -> dict[str, Type]:
@@ -118,88 +169,169 @@ def types(root: Path) -> dict[str, Type]:
     return found
 
 
-def _file(package: str, types: dict[str, Type], services: list[str]) -> str:
-    own = sorted((each for each in types.values() if each.package == package), key=_order)
-    foreign: dict[str, set[str]] = {}
-    for each in own:
-        for field in each.fields:
-            for used in field.uses:
-                if types[used].package != package:
-                    name = short(used)
-                    foreign.setdefault(types[used].package, set()).update(
-                        (f"type {name}", f"create{name}", f"read{name}", f"write{name}")
-                    )
-    mine = [name for name in services if name.startswith(f"{package}/")]
-    lines = [NOTE]
-    links = "MessageType, ServiceType" if mine else "MessageType"
-    lines.append(f"import type {{ {links} }} from '../link/link'")
-    lines.append("import { type CdrReader, type CdrWriter, messageType } from './cdr'")
-    for other, names in sorted(foreign.items()):
-        listed = ", ".join(sorted(names, key=lambda name: name.removeprefix("type ")))
-        lines.append(f"import {{ {listed} }} from './{other}'")
-    for each in own:
-        lines += ["", *_type(each)]
-    for name in mine:
-        lines += ["", *_service(name)]
-    return "\n".join(lines) + "\n"
+def _imported(root: Path, known: dict[str, Type]) -> set[Need]:
+    """Return the needs of every import of a generated name in `web/`."""
+    by_short = {(each.package, each.short): each.name for each in known.values()}
+    found: set[Need] = set()
+    for folder in IMPORTERS:
+        for path in sorted((root / folder).rglob("*.ts*")):
+            for all_types, names, package in IMPORT.findall(path.read_text()):
+                for name in filter(None, (each.strip() for each in names.split(","))):
+                    needs = _named(name, package, by_short)
+                    if needs is None:
+                        raise SystemExit(f"{path} imports {name}, which {package} does not have")
+                    found |= {each for each in needs if each.what != "constants" or not all_types}
+    return found
 
 
-def _order(each: Type) -> str:
-    return each.name
+def _named(name: str, package: str, by_short: dict[tuple[str, str], str]) -> set[Need] | None:
+    """Return the needs of an imported name such as `Robot` or `robotReader`; None: unknown."""
+    plain = name.removeprefix("type ")
+    found = by_short.get((package, plain))
+    if found is not None:
+        kinds = ["interface"] if plain != name else ["interface", "constants"]
+        return {Need(kind, found) for kind in kinds}
+    for pattern, kind in NAMES:
+        match = pattern.fullmatch(plain)
+        if match is None:
+            continue
+        short_name = match[1][0].upper() + match[1][1:]
+        if kind == "service":
+            request = by_short.get((package, f"{short_name}Request"))
+            response = by_short.get((package, f"{short_name}Response"))
+            if request is not None and response is not None:
+                return {Need("writer", request), Need("reader", response)}
+        elif (found := by_short.get((package, short_name))) is not None:
+            return {Need(kind, found)}
+    return None
 
 
-def _type(each: Type) -> Iterator[str]:
-    name = each.short
+def _closed(needs: set[Need], known: dict[str, Type]) -> set[Need]:
+    """Return the needs with all that they use."""
+    found: set[Need] = set()
+    wanted = list(needs)
+    while wanted:
+        need = wanted.pop()
+        if need in found:
+            continue
+        found.add(need)
+        wanted += [Need(what, need.of) for what in USES[need.what]]
+        for field in known[need.of].fields:
+            made = need.what == "create" and "create" in field.default
+            if made or need.what in ("interface", "read", "write"):
+                wanted += [Need(need.what, used) for used in field.uses]
+    return found
+
+
+def _file(package: str, known: dict[str, Type], needs: set[Need]) -> str:
+    own = sorted({need.of for need in needs if known[need.of].package == package})
+    blocks = [_type(known[name], {need.what for need in needs if need.of == name}) for name in own]
+    services = sorted(
+        known[name].ros_name.removesuffix("_Request")
+        for name in own
+        if name.endswith("_Request") and Need("writer", name) in needs
+    )
+    body = "\n".join(
+        line for block in [*blocks, *map(_service, services)] for line in ("", *block)
+    )
+    return NOTE + "\n" + "".join(_imports(package, known, needs, body)) + body + "\n"
+
+
+def _imports(package: str, known: dict[str, Type], needs: set[Need], body: str) -> Iterator[str]:
+    """Return the imports of a file that has `body`."""
+    groups = {"./cdr": ["type CdrReader", "type CdrWriter"], "./message_type": HELPERS}
+    for need in needs:
+        each = known[need.of]
+        if each.package != package and need.what in SHARED:
+            name = SHARED[need.what] + each.short
+            groups.setdefault(f"./{each.package}", []).append(name)
+    for path, names in sorted(groups.items()):
+        used = [name for name in names if re.search(rf"\b{name.split()[-1]}\b", body)]
+        if used:
+            listed = ", ".join(sorted(used, key=lambda name: name.removeprefix("type ")))
+            head = "import"
+            if all(name.startswith("type ") for name in used):
+                head, listed = "import type", listed.replace("type ", "")
+            yield f"{head} {{ {listed} }} from '{path}'\n"
+
+
+def _type(each: Type, needs: set[str]) -> list[str]:
+    """Return the lines of a message, or of half of a service."""
+    makers = (_interface, _constants, _create, _read, _write)
+    if not each.is_half:
+        makers += (_reader, _writer)
+    parts = [list(make(each)) for make in makers if make.__name__.removeprefix("_") in needs]
     head = each.comments.get("")
-    yield f"/** {each.ros_name}{f': {head}' if head else ''} */"
-    if each.fields:
-        yield f"export interface {name} {{"
-        for field in each.fields:
-            comment = each.comments.get(field.name)
-            if comment:
-                yield f"  /** {comment} */"
-            yield f"  {field.name}: {field.type}"
-        yield "}"
-    else:
-        yield f"export type {name} = Record<string, never>"
-    if each.constants:
-        yield ""
-        yield f"export const {name} = {{"
-        for constant, value in each.constants:
-            comment = each.comments.get(constant)
-            if comment:
-                yield f"  /** {comment} */"
-            yield f"  {constant}: {_literal(value)},"
-        yield "} as const"
-    yield ""
-    yield f"export function create{name}(): {name} {{"
-    if each.fields:
-        yield "  return {"
-        yield from (f"    {field.name}: {field.default}," for field in each.fields)
-        yield "  }"
-    else:
-        yield "  return {}"
+    lines = [f"/** {each.ros_name}{f': {head}' if head else ''} */"]
+    for number, part in enumerate(parts):
+        lines += ["", *part] if number else part
+    return lines
+
+
+def _interface(each: Type) -> Iterator[str]:
+    if not each.fields:
+        yield f"export type {each.short} = Record<string, never>"
+        return
+    yield f"export interface {each.short} {{"
+    for field in each.fields:
+        if comment := each.comments.get(field.name):
+            yield f"  /** {comment} */"
+        yield f"  {field.name}: {field.type}"
     yield "}"
-    yield ""
+
+
+def _constants(each: Type) -> Iterator[str]:
+    yield f"export const {each.short} = {{"
+    for constant, value in each.constants:
+        if comment := each.comments.get(constant):
+            yield f"  /** {comment} */"
+        yield f"  {constant}: {_literal(value)},"
+    yield "} as const"
+
+
+def _create(each: Type) -> Iterator[str]:
+    yield f"export function create{each.short}(): {each.short} {{"
+    yield "  return {" if each.fields else "  return {}"
+    yield from (f"    {field.name}: {field.default}," for field in each.fields)
+    if each.fields:
+        yield "  }"
+    yield "}"
+
+
+def _read(each: Type) -> Iterator[str]:
     into = "into" if each.fields else "_"
-    yield f"export function read{name}(from: CdrReader, {into}: {name}): void {{"
+    yield f"export function read{each.short}(from: CdrReader, {into}: {each.short}): void {{"
     yield from (f"  {field.read}" for field in each.fields)
     if not each.fields:
         # ROS puts a byte into a message without fields.
         yield "  from.uint8()"
     yield "}"
-    yield ""
+
+
+def _write(each: Type) -> Iterator[str]:
     message = "message" if each.fields else "_"
-    yield f"export function write{name}(to: CdrWriter, {message}: {name}): void {{"
+    yield f"export function write{each.short}(to: CdrWriter, {message}: {each.short}): void {{"
     yield from (f"  {field.write}" for field in each.fields)
     if not each.fields:
         yield "  to.uint8(0)"
     yield "}"
-    yield ""
-    yield f"export const {_lower(name)}Type: MessageType<{name}> = /* @__PURE__ */ messageType("
+
+
+def _reader(each: Type) -> Iterator[str]:
+    name = each.short
+    head = f"export const {_lower(name)}Reader: MessageReader<{name}>"
+    yield f"{head} = /* @__PURE__ */ messageReader("
     yield f"  '{each.ros_name}',"
     yield f"  create{name},"
     yield f"  read{name},"
+    yield ")"
+
+
+def _writer(each: Type) -> Iterator[str]:
+    name = each.short
+    head = f"export const {_lower(name)}Writer: MessageWriter<{name}>"
+    yield f"{head} = /* @__PURE__ */ messageWriter("
+    yield f"  '{each.ros_name}',"
     yield f"  write{name},"
     yield ")"
 
@@ -207,11 +339,12 @@ def _type(each: Type) -> Iterator[str]:
 def _service(name: str) -> Iterator[str]:
     kind = name.split("/")[-1]
     generic = f"ServiceType<{kind}Request, {kind}Response>"
-    yield f"export const {_lower(kind)}Type: {generic} = {{"
-    yield f"  name: '{name}',"
-    yield f"  request: {_lower(kind)}RequestType,"
-    yield f"  response: {_lower(kind)}ResponseType,"
-    yield "}"
+    yield f"export const {_lower(kind)}Type: {generic} = /* @__PURE__ */ serviceType("
+    yield f"  '{name}',"
+    yield f"  write{kind}Request,"
+    yield f"  create{kind}Response,"
+    yield f"  read{kind}Response,"
+    yield ")"
 
 
 def _field(name: str, kind: Any) -> Field:

@@ -1,15 +1,15 @@
-import { FakeLink } from '../src/link/fake'
 import type { Link } from '../src/link/link'
 import {
   PlaybackState,
-  playbackStateType,
-  robotSystemsType,
-  robotsType,
-  sceneObjectsType,
+  playbackStateReader,
+  robotSystemsReader,
+  robotsReader,
+  sceneObjectsReader,
   triggerType,
 } from '../src/protocol/mrlab_msgs'
-import { jointStateType } from '../src/protocol/sensor_msgs'
-import { stringType } from '../src/protocol/std_msgs'
+import { jointStateReader } from '../src/protocol/sensor_msgs'
+import { stringReader } from '../src/protocol/std_msgs'
+import { FakeLink } from './fake_link'
 
 const ROBOTS = [
   { name: 'ur5e_1', model: 'ur5e', x: 0, home: [0, -1.57, 1.57, -1.57, -1.57, 0] },
@@ -39,15 +39,15 @@ export async function fakeLab(): Promise<Link> {
     pose: { position: { x, y: 0, z: 0 }, orientation: upright },
     joint_names: [...JOINTS[model as keyof typeof JOINTS]],
   }))
-  link.deliver('robots', robotsType, { robots }, { latched: true })
+  link.deliver('robots', robotsReader, { robots }, { latched: true })
   for (const { name, model } of ROBOTS) {
     const urdf = await (await fetch(`/assets/mrlab_ros/robots/${model}/robot.urdf`)).text()
-    link.deliver(`${name}/robot_description`, stringType, { data: urdf }, { latched: true })
+    link.deliver(`${name}/robot_description`, stringReader, { data: urdf }, { latched: true })
     const stamp = { sec: Math.floor(began), nanosec: 0 }
     const say = (state: number, rate: number) =>
       link.deliver(
         `${name}/playback_state`,
-        playbackStateType,
+        playbackStateReader,
         {
           state,
           trajectory_id: 'wave',
@@ -66,9 +66,9 @@ export async function fakeLab(): Promise<Link> {
       return { success: true, message: 'paused' }
     })
   }
-  link.deliver('systems', robotSystemsType, { systems: [] }, { latched: true })
+  link.deliver('systems', robotSystemsReader, { systems: [] }, { latched: true })
   const cube = { x: 0.05, y: 0.05, z: 0.05 }
-  const objects = sceneObjectsType.create().objects
+  const objects = sceneObjectsReader.create().objects
   objects.push({
     name: 'cube_1',
     type: 'cube',
@@ -86,12 +86,12 @@ export async function fakeLab(): Promise<Link> {
     const time = link.labTime() - began
     for (const { name, model, home } of ROBOTS) {
       if (standing.has(name)) continue
-      link.deliver(`${name}/joint_states`, jointStateType, {
+      link.deliver(`${name}/joint_states`, jointStateReader, {
         name: [...JOINTS[model as keyof typeof JOINTS]],
         position: Float64Array.from(home, (q, j) => q + 0.4 * Math.sin(time * 0.8 + j)),
       })
     }
-    if (standing.size < ROBOTS.length) link.deliver('objects', sceneObjectsType, { objects })
+    if (standing.size < ROBOTS.length) link.deliver('objects', sceneObjectsReader, { objects })
   }, PERIOD_MS)
   return link
 }

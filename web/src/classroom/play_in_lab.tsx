@@ -4,7 +4,7 @@ import { Button, ButtonLink } from '../design/button'
 import { LabCatalogue } from '../lab/catalogue'
 import { ask } from '../lab/commands'
 import { useLink } from '../link/use_link'
-import { loadTrajectoryType, type Robot, robotsType } from '../protocol/mrlab_msgs'
+import { loadTrajectoryType, type Robot, robotsReader } from '../protocol/mrlab_msgs'
 import { useApi } from '../shell/session'
 import { sentence } from '../words/diagnostic'
 import { words } from '../words/words'
@@ -33,7 +33,7 @@ function Chooser({ submission }: { readonly submission: Submission }) {
   const w = words.value.grades
   const { key, robot: model, tool } = submission
   useEffect(
-    () => link?.subscribe('robots', robotsType, (message) => setRobots(message.robots)),
+    () => link?.subscribe('robots', robotsReader, (message) => setRobots(message.robots)),
     [link],
   )
   const load = async (robot: string) => {

@@ -1,6 +1,7 @@
 import { showToast } from '../design/toast'
-import { type Link, LinkError, type ServiceType } from '../link/link'
+import { type Link, LinkError } from '../link/link'
 import type { Commands } from '../playback/player'
+import type { ServiceType } from '../protocol/message_type'
 import {
   listBagsType,
   seekType,

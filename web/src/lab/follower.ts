@@ -1,29 +1,30 @@
 import { signal } from '@preact/signals'
 import type { StateName } from '../design/tokens'
-import type { Link, LinkStatus, MessageType, Sample } from '../link/link'
+import type { Link, LinkStatus, Sample } from '../link/link'
 import type { PoseSource } from '../playback/clocked_arm'
 import type { Course } from '../playback/course'
 import type { Commands } from '../playback/player'
 import { RemotePlayer } from '../playback/player'
+import type { MessageReader } from '../protocol/message_type'
 import {
-  collisionType,
-  contactsType,
+  collisionReader,
+  contactsReader,
   Grasp,
-  graspTargetsType,
-  graspType,
-  playbackStateType,
+  graspReader,
+  graspTargetsReader,
+  playbackStateReader,
   type RecorderState,
   type Robot,
   type RobotSystem,
-  recorderStateType,
-  robotSystemsType,
-  robotsType,
+  recorderStateReader,
+  robotSystemsReader,
+  robotsReader,
   type Surface,
-  sceneObjectsType,
-  surfacesType,
+  sceneObjectsReader,
+  surfacesReader,
 } from '../protocol/mrlab_msgs'
-import { jointStateType } from '../protocol/sensor_msgs'
-import { stringType } from '../protocol/std_msgs'
+import { jointStateReader } from '../protocol/sensor_msgs'
+import { stringReader } from '../protocol/std_msgs'
 import type { LabScene } from '../scene/lab/lab_scene'
 import {
   type CourseOf,
@@ -113,32 +114,32 @@ export class LabFollower {
         this.status.value = status
         this.hold()
       }),
-      this.on('robots', robotsType, (message) => this.takeRobots(message.robots)),
-      this.on('*/robot_description', stringType, (message, { key }) => {
+      this.on('robots', robotsReader, (message) => this.takeRobots(message.robots)),
+      this.on('*/robot_description', stringReader, (message, { key }) => {
         const name = owner(key)
         // Links are named as their frames; the scene and the contacts know them by the plain name.
         this.of(name).urdf = message.data.replaceAll(`="${name}/`, '="')
         this.show()
       }),
-      this.on('*/joint_states', jointStateType, (message, { key }) => {
+      this.on('*/joint_states', jointStateReader, (message, { key }) => {
         const name = owner(key)
         const drawn = this.scene?.robot(name)
         if (this.of(name).takeJoints(message, drawn, link.labTime())) options.stir()
       }),
-      this.on('*/finger_states', jointStateType, (message, { key }) => {
+      this.on('*/finger_states', jointStateReader, (message, { key }) => {
         const drawn = this.scene?.robot(owner(key))
         if (drawn !== undefined && setJoints(drawn, message)) options.stir()
       }),
-      this.on('*/playback_state', playbackStateType, (message, { key }) => {
+      this.on('*/playback_state', playbackStateReader, (message, { key }) => {
         this.of(owner(key)).takePlayback(message)
         options.stir()
         this.show()
       }),
-      this.on('*/targets', graspTargetsType, (message, { key }) => {
+      this.on('*/targets', graspTargetsReader, (message, { key }) => {
         this.of(owner(key)).targets = message.targets
         this.show()
       }),
-      this.on('*/grasp', graspType, (message, { key }) => {
+      this.on('*/grasp', graspReader, (message, { key }) => {
         const name = owner(key)
         const drawn = this.scene?.robot(name)
         for (let i = 0; i < message.fingers.length; i++) {
@@ -147,21 +148,21 @@ export class LabFollower {
         this.of(name).holding = message.state === Grasp.HOLDING ? message.object : ''
         this.show()
       }),
-      this.on('*/collision', collisionType, (message, { key }) => {
+      this.on('*/collision', collisionReader, (message, { key }) => {
         this.of(owner(key)).collision = message
         this.show()
       }),
-      this.on('objects', sceneObjectsType, (message) => this.scene?.setObjects(message.objects)),
-      this.on('surfaces', surfacesType, (message) => {
+      this.on('objects', sceneObjectsReader, (message) => this.scene?.setObjects(message.objects)),
+      this.on('surfaces', surfacesReader, (message) => {
         this.surfaces = message.surfaces
         this.scene?.setSurfaces(message.surfaces)
       }),
-      this.on('contacts', contactsType, ({ contacts }) => {
+      this.on('contacts', contactsReader, ({ contacts }) => {
         this.contactAt = link.labTime()
         this.scene?.setContacts(contacts)
       }),
-      this.on('systems', robotSystemsType, (message) => this.takeSystems(message.systems)),
-      this.on('recorder/state', recorderStateType, (message) => this.takeRecorder(message)),
+      this.on('systems', robotSystemsReader, (message) => this.takeSystems(message.systems)),
+      this.on('recorder/state', recorderStateReader, (message) => this.takeRecorder(message)),
     ]
   }
 
@@ -220,7 +221,7 @@ export class LabFollower {
 
   private on<T>(
     key: string,
-    type: MessageType<T>,
+    type: MessageReader<T>,
     listener: (message: T, sample: Sample) => void,
   ): () => void {
     return this.link.subscribe(key, type, (message, sample) => {

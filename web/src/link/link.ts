@@ -1,3 +1,4 @@
+import type { MessageReader, MessageWriter, ServiceType } from '../protocol/message_type'
 import { type Told, ToldError } from '../words/diagnostic'
 
 /** What the pages need of the lab, wherever it comes from: the gateway's socket, or a fake in tests. */
@@ -9,7 +10,7 @@ export interface Link {
    * is reused by the next one: copy what is kept. Those of latched keys and events are yours. */
   subscribe<T>(
     key: string,
-    type: MessageType<T>,
+    type: MessageReader<T>,
     listener: (message: T, sample: Sample) => void,
   ): Unsubscribe
   /** Call a service, such as `ur5e_1/play`. Rejects with a LinkError. */
@@ -20,7 +21,7 @@ export interface Link {
     timeoutS?: number,
   ): Promise<Response>
   /** Publish a message on a topic that comes in, such as `latency/clients`; dropped while lost. */
-  publish<T>(key: string, type: MessageType<T>, message: T): void
+  publish<T>(key: string, type: MessageWriter<T>, message: T): void
   /** What the lab offers now; empty while it is not there. */
   readonly offer: LabOffer
   onOffer(listener: (offer: LabOffer) => void): Unsubscribe
@@ -58,25 +59,6 @@ export interface Sample {
   readonly key: string
   /** Lab time at which it was published, s; NaN: unknown. */
   readonly stamp: number
-}
-
-/** A generated codec of a message type (src/protocol/). */
-export interface MessageType<T> {
-  readonly name: string
-  /** Return a message of zeros and empty texts, with `values` in it. */
-  create(values?: Partial<T>): T
-  /** Return the message; `into` is filled and returned where it is given, and what it holds is
-   * reused. Numbers of a message without `into` may be views of the payload. start, end: of the
-   * message in `payload`, where that holds more. */
-  decode(payload: Uint8Array, into?: T, start?: number, end?: number): T
-  encode(message: T): Uint8Array
-}
-
-/** A generated pair of codecs of a service type (src/protocol/). */
-export interface ServiceType<Request, Response> {
-  readonly name: string
-  readonly request: MessageType<Request>
-  readonly response: MessageType<Response>
 }
 
 export class LinkError extends ToldError {

@@ -1,7 +1,8 @@
+import type { MessageReader, MessageWriter } from '../protocol/message_type'
 import { own, type Told } from '../words/diagnostic'
 import { words } from '../words/words'
 import { callFrame } from './frames'
-import { LinkError, type MessageType } from './link'
+import { LinkError } from './link'
 
 /** s that the page waits beyond the time-out, in which the gateway answers it itself. */
 const GRACE_S = 2
@@ -33,8 +34,8 @@ export class Services {
   /** Send a request and return its response. Rejects with a LinkError. */
   call<Request, Response>(
     service: string,
-    request: MessageType<Request>,
-    response: MessageType<Response>,
+    request: MessageWriter<Request>,
+    response: MessageReader<Response>,
     message: Request,
     timeoutS: number,
   ): Promise<Response> {

@@ -1,3 +1,4 @@
+import type { MessageReader, MessageWriter, ServiceType } from '../protocol/message_type'
 import { own, spoken, type Told } from '../words/diagnostic'
 import { words } from '../words/words'
 import { ClockOffset, exchange } from './clock_offset'
@@ -18,9 +19,7 @@ import {
   type Link,
   LinkError,
   type LinkStatus,
-  type MessageType,
   type Sample,
-  type ServiceType,
   type Unsubscribe,
 } from './link'
 import { ReliableReceiver } from './reliable'
@@ -129,7 +128,7 @@ class SocketLink implements Link {
 
   subscribe<T>(
     key: string,
-    type: MessageType<T>,
+    type: MessageReader<T>,
     listener: (message: T, sample: Sample) => void,
   ): Unsubscribe {
     return this.topics.subscribe(key, type, listener)
@@ -147,7 +146,7 @@ class SocketLink implements Link {
     return this.services.call(service, type.request, type.response, request, timeoutS)
   }
 
-  publish<T>(key: string, type: MessageType<T>, message: T): void {
+  publish<T>(key: string, type: MessageWriter<T>, message: T): void {
     this.send(putFrame(key, type.encode(message)))
   }
 

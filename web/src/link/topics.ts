@@ -1,10 +1,11 @@
-import type { MessageType, Sample, Unsubscribe } from './link'
+import type { MessageReader } from '../protocol/message_type'
+import type { Sample, Unsubscribe } from './link'
 
 interface Subscription {
   readonly number: number
   readonly expression: string
   readonly pattern: RegExp
-  readonly type: MessageType<unknown>
+  readonly type: MessageReader<unknown>
   readonly listener: (message: unknown, sample: Sample) => void
 }
 
@@ -19,7 +20,7 @@ interface Topic {
 
 /** The listeners of a topic that want one type: a message is decoded once for them. */
 interface Kind {
-  readonly type: MessageType<unknown>
+  readonly type: MessageReader<unknown>
   message: unknown
   readonly listeners: Subscription['listener'][]
 }
@@ -38,7 +39,7 @@ export class Topics {
 
   subscribe<T>(
     expression: string,
-    type: MessageType<T>,
+    type: MessageReader<T>,
     listener: (message: T, sample: Sample) => void,
   ): Unsubscribe {
     const number = this.next++
@@ -46,7 +47,7 @@ export class Topics {
       number,
       expression,
       pattern: patternOf(expression),
-      type: type as MessageType<unknown>,
+      type: type as MessageReader<unknown>,
       listener: listener as Subscription['listener'],
     })
     this.route()

@@ -1,7 +1,6 @@
 // Generated from the message definitions by `make docs`.
 
-import type { MessageType } from '../link/link'
-import { type CdrReader, type CdrWriter, messageType } from './cdr'
+import type { CdrReader, CdrWriter } from './cdr'
 
 /** builtin_interfaces/msg/Time */
 export interface Time {
@@ -25,10 +24,3 @@ export function writeTime(to: CdrWriter, message: Time): void {
   to.int32(message.sec)
   to.uint32(message.nanosec)
 }
-
-export const timeType: MessageType<Time> = /* @__PURE__ */ messageType(
-  'builtin_interfaces/msg/Time',
-  createTime,
-  readTime,
-  writeTime,
-)

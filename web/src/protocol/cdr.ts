@@ -1,7 +1,5 @@
 /** Reads and writes CDR as ROS does: a 4-byte header, then values aligned from behind it. */
 
-import type { MessageType } from '../link/link'
-
 /** A payload that is not the message it should be. */
 export class CdrError extends Error {
   override readonly name = 'CdrError'
@@ -435,34 +433,5 @@ export class CdrWriter {
     }
     this.at = end
     return at
-  }
-}
-
-const reader = new CdrReader()
-const writer = new CdrWriter()
-
-/** Return the codec of a message type; `read` fills every field of `into`. */
-export function messageType<T extends object>(
-  name: string,
-  create: () => T,
-  read: (from: CdrReader, into: T) => void,
-  write: (to: CdrWriter, message: T) => void,
-): MessageType<T> {
-  return {
-    name,
-    create: (values) => (values === undefined ? create() : Object.assign(create(), values)),
-    decode(payload, into = create(), start = 0, end = payload.byteLength) {
-      try {
-        read(reader.open(payload, start, end), into)
-      } catch (error) {
-        if (!(error instanceof CdrError)) throw error
-        throw new CdrError(`${end - start} bytes are no ${name}: ${error.message}`)
-      }
-      return into
-    },
-    encode(message) {
-      write(writer.open(), message)
-      return writer.payload()
-    },
   }
 }

@@ -1,12 +1,12 @@
 // Generated from the message definitions by `make docs`.
 
-import type { MessageType, ServiceType } from '../link/link'
-import { type CdrReader, type CdrWriter, messageType } from './cdr'
-import { type Time, createTime, readTime, writeTime } from './builtin_interfaces'
-import { type KeyValue, createKeyValue, readKeyValue, writeKeyValue } from './diagnostic_msgs'
-import { type Point, type Pose, type Twist, type Vector3, createPoint, createPose, createTwist, createVector3, readPoint, readPose, readTwist, readVector3, writePoint, writePose, writeTwist, writeVector3 } from './geometry_msgs'
-import { type SolidPrimitive, createSolidPrimitive, readSolidPrimitive, writeSolidPrimitive } from './shape_msgs'
-import { type ColorRGBA, type Header, createColorRGBA, createHeader, readColorRGBA, readHeader, writeColorRGBA, writeHeader } from './std_msgs'
+import { type Time, createTime, readTime } from './builtin_interfaces'
+import type { CdrReader, CdrWriter } from './cdr'
+import { type KeyValue, createKeyValue, readKeyValue } from './diagnostic_msgs'
+import { type Point, type Pose, type Twist, type Vector3, createPoint, createPose, createTwist, createVector3, readPoint, readPose, readTwist, readVector3, writePoint, writePose, writeTwist } from './geometry_msgs'
+import { type MessageReader, type MessageWriter, type ServiceType, messageReader, messageWriter, serviceType } from './message_type'
+import { type SolidPrimitive, createSolidPrimitive, readSolidPrimitive } from './shape_msgs'
+import { type ColorRGBA, type Header, createColorRGBA, createHeader, readColorRGBA, readHeader, writeHeader } from './std_msgs'
 
 /** mrlab_msgs/srv/Attach_Request: Fix an object to a robot's gripper by hand. */
 export interface AttachRequest {
@@ -14,29 +14,10 @@ export interface AttachRequest {
   object: string
 }
 
-export function createAttachRequest(): AttachRequest {
-  return {
-    robot: '',
-    object: '',
-  }
-}
-
-export function readAttachRequest(from: CdrReader, into: AttachRequest): void {
-  into.robot = from.string(into.robot)
-  into.object = from.string(into.object)
-}
-
 export function writeAttachRequest(to: CdrWriter, message: AttachRequest): void {
   to.string(message.robot)
   to.string(message.object)
 }
-
-export const attachRequestType: MessageType<AttachRequest> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/Attach_Request',
-  createAttachRequest,
-  readAttachRequest,
-  writeAttachRequest,
-)
 
 /** mrlab_msgs/srv/Attach_Response */
 export interface AttachResponse {
@@ -65,20 +46,6 @@ export function readAttachResponse(from: CdrReader, into: AttachResponse): void 
   into.code = from.string(into.code)
   into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
-
-export function writeAttachResponse(to: CdrWriter, message: AttachResponse): void {
-  to.bool(message.success)
-  to.string(message.message)
-  to.string(message.code)
-  to.messages(message.values, writeKeyValue)
-}
-
-export const attachResponseType: MessageType<AttachResponse> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/Attach_Response',
-  createAttachResponse,
-  readAttachResponse,
-  writeAttachResponse,
-)
 
 /** mrlab_msgs/msg/Candidate: A matrix in a workspace file that could be the trajectory. */
 export interface Candidate {
@@ -123,24 +90,6 @@ export function readCandidate(from: CdrReader, into: Candidate): void {
   readPreview(from, into.preview)
 }
 
-export function writeCandidate(to: CdrWriter, message: Candidate): void {
-  to.string(message.variable)
-  to.uint32(message.rows)
-  to.uint32(message.columns)
-  to.float64(message.minimum)
-  to.float64(message.maximum)
-  to.float64(message.score)
-  to.string(message.why)
-  writePreview(to, message.preview)
-}
-
-export const candidateType: MessageType<Candidate> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/msg/Candidate',
-  createCandidate,
-  readCandidate,
-  writeCandidate,
-)
-
 /** mrlab_msgs/msg/Collision: Whether a robot's arm touches something it should not. Latched; sent at each change. */
 export interface Collision {
   /** frame_id is world */
@@ -169,101 +118,10 @@ export function readCollision(from: CdrReader, into: Collision): void {
   into.clearance = from.float64()
 }
 
-export function writeCollision(to: CdrWriter, message: Collision): void {
-  writeHeader(to, message.header)
-  to.bool(message.colliding)
-  writeContact(to, message.contact)
-  to.float64(message.clearance)
-}
-
-export const collisionType: MessageType<Collision> = /* @__PURE__ */ messageType(
+export const collisionReader: MessageReader<Collision> = /* @__PURE__ */ messageReader(
   'mrlab_msgs/msg/Collision',
   createCollision,
   readCollision,
-  writeCollision,
-)
-
-/** mrlab_msgs/srv/CommandMembers_Request: How a robot system commands those of its members that one playback host plays: all orders at one instant, in order, up to the first that is refused. */
-export interface CommandMembersRequest {
-  /** name of the system; a member obeys only its own */
-  system: string
-  orders: DriveOrder[]
-}
-
-export function createCommandMembersRequest(): CommandMembersRequest {
-  return {
-    system: '',
-    orders: [],
-  }
-}
-
-export function readCommandMembersRequest(from: CdrReader, into: CommandMembersRequest): void {
-  into.system = from.string(into.system)
-  into.orders = from.messages(into.orders, createDriveOrder, readDriveOrder)
-}
-
-export function writeCommandMembersRequest(to: CdrWriter, message: CommandMembersRequest): void {
-  to.string(message.system)
-  to.messages(message.orders, writeDriveOrder)
-}
-
-export const commandMembersRequestType: MessageType<CommandMembersRequest> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/CommandMembers_Request',
-  createCommandMembersRequest,
-  readCommandMembersRequest,
-  writeCommandMembersRequest,
-)
-
-/** mrlab_msgs/srv/CommandMembers_Response */
-export interface CommandMembersResponse {
-  /** false: replies ends before the order that was refused */
-  success: boolean
-  /** why not */
-  message: string
-  /** what it is, for programs; docs/diagnostics.md lists the codes */
-  code: string
-  /** values of that text by name; a text as it is, all else as JSON */
-  values: KeyValue[]
-  /** when the orders were carried out */
-  stamp: Time
-  /** one for each order that was carried out */
-  replies: DriveReply[]
-}
-
-export function createCommandMembersResponse(): CommandMembersResponse {
-  return {
-    success: false,
-    message: '',
-    code: '',
-    values: [],
-    stamp: createTime(),
-    replies: [],
-  }
-}
-
-export function readCommandMembersResponse(from: CdrReader, into: CommandMembersResponse): void {
-  into.success = from.bool()
-  into.message = from.string(into.message)
-  into.code = from.string(into.code)
-  into.values = from.messages(into.values, createKeyValue, readKeyValue)
-  readTime(from, into.stamp)
-  into.replies = from.messages(into.replies, createDriveReply, readDriveReply)
-}
-
-export function writeCommandMembersResponse(to: CdrWriter, message: CommandMembersResponse): void {
-  to.bool(message.success)
-  to.string(message.message)
-  to.string(message.code)
-  to.messages(message.values, writeKeyValue)
-  writeTime(to, message.stamp)
-  to.messages(message.replies, writeDriveReply)
-}
-
-export const commandMembersResponseType: MessageType<CommandMembersResponse> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/CommandMembers_Response',
-  createCommandMembersResponse,
-  readCommandMembersResponse,
-  writeCommandMembersResponse,
 )
 
 /** mrlab_msgs/msg/Contact: One contact between a robot and something else. */
@@ -292,17 +150,6 @@ export interface Contact {
   /** source frame of the robot's trajectory */
   frame: number
 }
-
-export const Contact = {
-  /** a scene object */
-  OBJECT: 0,
-  /** the floor, or a surface of the room */
-  SURFACE: 1,
-  /** another robot */
-  ROBOT: 2,
-  /** a link of the same robot that is not its neighbour */
-  SELF: 3,
-} as const
 
 export function createContact(): Contact {
   return {
@@ -336,28 +183,6 @@ export function readContact(from: CdrReader, into: Contact): void {
   into.frame = from.uint32()
 }
 
-export function writeContact(to: CdrWriter, message: Contact): void {
-  writeTime(to, message.stamp)
-  to.string(message.robot)
-  to.string(message.link)
-  to.string(message.held)
-  to.uint8(message.kind)
-  to.string(message.other)
-  to.string(message.other_link)
-  writePoint(to, message.point)
-  writeVector3(to, message.normal)
-  to.float64(message.depth)
-  to.float64(message.impulse)
-  to.uint32(message.frame)
-}
-
-export const contactType: MessageType<Contact> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/msg/Contact',
-  createContact,
-  readContact,
-  writeContact,
-)
-
 /** mrlab_msgs/msg/Contacts: All contacts of one physics step. */
 export interface Contacts {
   /** frame_id is world */
@@ -377,16 +202,10 @@ export function readContacts(from: CdrReader, into: Contacts): void {
   into.contacts = from.messages(into.contacts, createContact, readContact)
 }
 
-export function writeContacts(to: CdrWriter, message: Contacts): void {
-  writeHeader(to, message.header)
-  to.messages(message.contacts, writeContact)
-}
-
-export const contactsType: MessageType<Contacts> = /* @__PURE__ */ messageType(
+export const contactsReader: MessageReader<Contacts> = /* @__PURE__ */ messageReader(
   'mrlab_msgs/msg/Contacts',
   createContacts,
   readContacts,
-  writeContacts,
 )
 
 /** mrlab_msgs/srv/ConvertTrajectory_Request: Read a workspace file, find and check the trajectory, put it in the catalogue. */
@@ -435,56 +254,6 @@ export interface ConvertTrajectoryRequest {
   shared: boolean
 }
 
-export function createConvertTrajectoryRequest(): ConvertTrajectoryRequest {
-  return {
-    path: '',
-    upload: '',
-    data: new Uint8Array(0),
-    file_name: '',
-    robot_model: '',
-    end_effector: '',
-    frame_rate: 0,
-    variable: '',
-    columns: '',
-    transpose: false,
-    degrees: false,
-    unwrap: false,
-    resample: false,
-    join: '',
-    gripper: '',
-    invert: false,
-    units: '',
-    id: '',
-    owner: '',
-    draft: '',
-    shared: false,
-  }
-}
-
-export function readConvertTrajectoryRequest(from: CdrReader, into: ConvertTrajectoryRequest): void {
-  into.path = from.string(into.path)
-  into.upload = from.string(into.upload)
-  into.data = from.uint8s(into.data)
-  into.file_name = from.string(into.file_name)
-  into.robot_model = from.string(into.robot_model)
-  into.end_effector = from.string(into.end_effector)
-  into.frame_rate = from.float64()
-  into.variable = from.string(into.variable)
-  into.columns = from.string(into.columns)
-  into.transpose = from.bool()
-  into.degrees = from.bool()
-  into.unwrap = from.bool()
-  into.resample = from.bool()
-  into.join = from.string(into.join)
-  into.gripper = from.string(into.gripper)
-  into.invert = from.bool()
-  into.units = from.string(into.units)
-  into.id = from.string(into.id)
-  into.owner = from.string(into.owner)
-  into.draft = from.string(into.draft)
-  into.shared = from.bool()
-}
-
 export function writeConvertTrajectoryRequest(to: CdrWriter, message: ConvertTrajectoryRequest): void {
   to.string(message.path)
   to.string(message.upload)
@@ -509,13 +278,6 @@ export function writeConvertTrajectoryRequest(to: CdrWriter, message: ConvertTra
   to.bool(message.shared)
 }
 
-export const convertTrajectoryRequestType: MessageType<ConvertTrajectoryRequest> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/ConvertTrajectory_Request',
-  createConvertTrajectoryRequest,
-  readConvertTrajectoryRequest,
-  writeConvertTrajectoryRequest,
-)
-
 /** mrlab_msgs/srv/ConvertTrajectory_Response */
 export interface ConvertTrajectoryResponse {
   /** true: ACCEPTED */
@@ -537,13 +299,6 @@ export interface ConvertTrajectoryResponse {
   /** of the matrix that was refused, where one was found */
   preview: Preview
 }
-
-export const ConvertTrajectoryResponse = {
-  REJECTED: 0,
-  ACCEPTED: 1,
-  /** choose one of candidates and ask again with variable */
-  AMBIGUOUS: 2,
-} as const
 
 export function createConvertTrajectoryResponse(): ConvertTrajectoryResponse {
   return {
@@ -571,25 +326,6 @@ export function readConvertTrajectoryResponse(from: CdrReader, into: ConvertTraj
   readPreview(from, into.preview)
 }
 
-export function writeConvertTrajectoryResponse(to: CdrWriter, message: ConvertTrajectoryResponse): void {
-  to.bool(message.success)
-  to.string(message.message)
-  to.string(message.code)
-  to.messages(message.values, writeKeyValue)
-  to.uint8(message.outcome)
-  writeTrajectoryInfo(to, message.trajectory)
-  to.messages(message.candidates, writeCandidate)
-  to.messages(message.diagnostics, writeDiagnostic)
-  writePreview(to, message.preview)
-}
-
-export const convertTrajectoryResponseType: MessageType<ConvertTrajectoryResponse> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/ConvertTrajectory_Response',
-  createConvertTrajectoryResponse,
-  readConvertTrajectoryResponse,
-  writeConvertTrajectoryResponse,
-)
-
 /** mrlab_msgs/srv/CreateSystem_Request: Make a robot system. */
 export interface CreateSystemRequest {
   /** wanted name; empty: system and a number */
@@ -613,14 +349,6 @@ export function createCreateSystemRequest(): CreateSystemRequest {
   }
 }
 
-export function readCreateSystemRequest(from: CdrReader, into: CreateSystemRequest): void {
-  into.name = from.string(into.name)
-  into.members = from.messages(into.members, createSystemMember, readSystemMember)
-  into.mode = from.uint8()
-  into.policy = from.uint8()
-  into.loop = from.bool()
-}
-
 export function writeCreateSystemRequest(to: CdrWriter, message: CreateSystemRequest): void {
   to.string(message.name)
   to.messages(message.members, writeSystemMember)
@@ -628,13 +356,6 @@ export function writeCreateSystemRequest(to: CdrWriter, message: CreateSystemReq
   to.uint8(message.policy)
   to.bool(message.loop)
 }
-
-export const createSystemRequestType: MessageType<CreateSystemRequest> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/CreateSystem_Request',
-  createCreateSystemRequest,
-  readCreateSystemRequest,
-  writeCreateSystemRequest,
-)
 
 /** mrlab_msgs/srv/CreateSystem_Response */
 export interface CreateSystemResponse {
@@ -668,46 +389,14 @@ export function readCreateSystemResponse(from: CdrReader, into: CreateSystemResp
   readRobotSystem(from, into.system)
 }
 
-export function writeCreateSystemResponse(to: CdrWriter, message: CreateSystemResponse): void {
-  to.bool(message.success)
-  to.string(message.message)
-  to.string(message.code)
-  to.messages(message.values, writeKeyValue)
-  writeRobotSystem(to, message.system)
-}
-
-export const createSystemResponseType: MessageType<CreateSystemResponse> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/CreateSystem_Response',
-  createCreateSystemResponse,
-  readCreateSystemResponse,
-  writeCreateSystemResponse,
-)
-
 /** mrlab_msgs/srv/Detach_Request: Let a robot's gripper lose what it holds. */
 export interface DetachRequest {
   robot: string
 }
 
-export function createDetachRequest(): DetachRequest {
-  return {
-    robot: '',
-  }
-}
-
-export function readDetachRequest(from: CdrReader, into: DetachRequest): void {
-  into.robot = from.string(into.robot)
-}
-
 export function writeDetachRequest(to: CdrWriter, message: DetachRequest): void {
   to.string(message.robot)
 }
-
-export const detachRequestType: MessageType<DetachRequest> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/Detach_Request',
-  createDetachRequest,
-  readDetachRequest,
-  writeDetachRequest,
-)
 
 /** mrlab_msgs/srv/Detach_Response */
 export interface DetachResponse {
@@ -736,20 +425,6 @@ export function readDetachResponse(from: CdrReader, into: DetachResponse): void 
   into.code = from.string(into.code)
   into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
-
-export function writeDetachResponse(to: CdrWriter, message: DetachResponse): void {
-  to.bool(message.success)
-  to.string(message.message)
-  to.string(message.code)
-  to.messages(message.values, writeKeyValue)
-}
-
-export const detachResponseType: MessageType<DetachResponse> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/Detach_Response',
-  createDetachResponse,
-  readDetachResponse,
-  writeDetachResponse,
-)
 
 /** mrlab_msgs/msg/Diagnostic: One finding about a workspace file, a trajectory or a robot, for a person to act on. docs/diagnostics.md lists every code. */
 export interface Diagnostic {
@@ -782,15 +457,6 @@ export interface Diagnostic {
   /** ways to mend it, the likeliest first; may be empty */
   fixes: Fix[]
 }
-
-export const Diagnostic = {
-  /** good to know, nothing to do */
-  INFO: 0,
-  /** accepted, but doubtful */
-  WARNING: 1,
-  /** refused */
-  ERROR: 2,
-} as const
 
 export function createDiagnostic(): Diagnostic {
   return {
@@ -828,158 +494,6 @@ export function readDiagnostic(from: CdrReader, into: Diagnostic): void {
   into.fixes = from.messages(into.fixes, createFix, readFix)
 }
 
-export function writeDiagnostic(to: CdrWriter, message: Diagnostic): void {
-  to.uint8(message.severity)
-  to.string(message.code)
-  to.string(message.message)
-  to.string(message.remedy)
-  to.string(message.variable)
-  to.string(message.where)
-  to.uint32(message.first_row)
-  to.uint32(message.last_row)
-  to.string(message.joint)
-  to.float64(message.value)
-  to.float64(message.limit)
-  to.string(message.unit)
-  to.messages(message.values, writeKeyValue)
-  to.messages(message.fixes, writeFix)
-}
-
-export const diagnosticType: MessageType<Diagnostic> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/msg/Diagnostic',
-  createDiagnostic,
-  readDiagnostic,
-  writeDiagnostic,
-)
-
-/** mrlab_msgs/msg/DriveOrder: One command of a robot system to one of its members. */
-export interface DriveOrder {
-  robot: string
-  /** one of the constants above */
-  command: number
-  /** of PLAY and SET_RATE: when, on the lab's clock; zero: at once */
-  stamp: Time
-  /** of STAGE and SEEK: s on the member's trajectory */
-  position: number
-  /** of PLAY and SET_RATE: 0.1 to 4; negative: backwards */
-  rate: number
-  /** of PLAY and HOLD: s at which to wait in PAUSED; 0: play to the end */
-  until: number
-}
-
-export const DriveOrder = {
-  /** from now on only this system commands the robot */
-  CLAIM: 0,
-  /** the robot is independent again, paused where it is */
-  RELEASE: 1,
-  /** move to the place position on the trajectory, then wait */
-  STAGE: 2,
-  /** play with the clock pair (stamp, position) */
-  PLAY: 3,
-  /** stand still */
-  PAUSE: 4,
-  /** end the run: READY to play from the first frame */
-  STOP: 5,
-  /** stand at position */
-  SEEK: 6,
-  /** play at rate from stamp on, which may lie a little in the past */
-  SET_RATE: 7,
-  /** wait at until instead of where PLAY said */
-  HOLD: 8,
-} as const
-
-export function createDriveOrder(): DriveOrder {
-  return {
-    robot: '',
-    command: 0,
-    stamp: createTime(),
-    position: 0,
-    rate: 0,
-    until: 0,
-  }
-}
-
-export function readDriveOrder(from: CdrReader, into: DriveOrder): void {
-  into.robot = from.string(into.robot)
-  into.command = from.uint8()
-  readTime(from, into.stamp)
-  into.position = from.float64()
-  into.rate = from.float64()
-  into.until = from.float64()
-}
-
-export function writeDriveOrder(to: CdrWriter, message: DriveOrder): void {
-  to.string(message.robot)
-  to.uint8(message.command)
-  writeTime(to, message.stamp)
-  to.float64(message.position)
-  to.float64(message.rate)
-  to.float64(message.until)
-}
-
-export const driveOrderType: MessageType<DriveOrder> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/msg/DriveOrder',
-  createDriveOrder,
-  readDriveOrder,
-  writeDriveOrder,
-)
-
-/** mrlab_msgs/msg/DriveReply: What a member of a robot system says after an order. */
-export interface DriveReply {
-  robot: string
-  /** a state of PlaybackState */
-  state: number
-  /** s on its trajectory */
-  position: number
-  /** s that STAGE will take */
-  duration: number
-  /** loaded trajectory; empty: none */
-  trajectory_id: string
-  /** s */
-  trajectory_duration: number
-  /** Hz */
-  frame_rate: number
-}
-
-export function createDriveReply(): DriveReply {
-  return {
-    robot: '',
-    state: 0,
-    position: 0,
-    duration: 0,
-    trajectory_id: '',
-    trajectory_duration: 0,
-    frame_rate: 0,
-  }
-}
-
-export function readDriveReply(from: CdrReader, into: DriveReply): void {
-  into.robot = from.string(into.robot)
-  into.state = from.uint8()
-  into.position = from.float64()
-  into.duration = from.float64()
-  into.trajectory_id = from.string(into.trajectory_id)
-  into.trajectory_duration = from.float64()
-  into.frame_rate = from.float64()
-}
-
-export function writeDriveReply(to: CdrWriter, message: DriveReply): void {
-  to.string(message.robot)
-  to.uint8(message.state)
-  to.float64(message.position)
-  to.float64(message.duration)
-  to.string(message.trajectory_id)
-  to.float64(message.trajectory_duration)
-  to.float64(message.frame_rate)
-}
-
-export const driveReplyType: MessageType<DriveReply> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/msg/DriveReply',
-  createDriveReply,
-  readDriveReply,
-  writeDriveReply,
-)
-
 /** mrlab_msgs/msg/Fix: One way to mend what a Diagnostic found: an option of ConvertTrajectory, a line of MATLAB, or either of them. A button sets the option and converts again. */
 export interface Fix {
   /** field of the request of ConvertTrajectory, such as columns; empty: only MATLAB mends it */
@@ -1007,165 +521,6 @@ export function readFix(from: CdrReader, into: Fix): void {
   into.matlab = from.string(into.matlab)
   into.command = from.string(into.command)
 }
-
-export function writeFix(to: CdrWriter, message: Fix): void {
-  to.string(message.option)
-  to.string(message.value)
-  to.string(message.matlab)
-  to.string(message.command)
-}
-
-export const fixType: MessageType<Fix> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/msg/Fix',
-  createFix,
-  readFix,
-  writeFix,
-)
-
-/** mrlab_msgs/srv/GetObjects_Request: Read all objects and surfaces at one instant, as set_objects takes them. */
-export type GetObjectsRequest = Record<string, never>
-
-export function createGetObjectsRequest(): GetObjectsRequest {
-  return {}
-}
-
-export function readGetObjectsRequest(from: CdrReader, _: GetObjectsRequest): void {
-  from.uint8()
-}
-
-export function writeGetObjectsRequest(to: CdrWriter, _: GetObjectsRequest): void {
-  to.uint8(0)
-}
-
-export const getObjectsRequestType: MessageType<GetObjectsRequest> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/GetObjects_Request',
-  createGetObjectsRequest,
-  readGetObjectsRequest,
-  writeGetObjectsRequest,
-)
-
-/** mrlab_msgs/srv/GetObjects_Response */
-export interface GetObjectsResponse {
-  objects: ObjectPlacement[]
-  surfaces: Surface[]
-}
-
-export function createGetObjectsResponse(): GetObjectsResponse {
-  return {
-    objects: [],
-    surfaces: [],
-  }
-}
-
-export function readGetObjectsResponse(from: CdrReader, into: GetObjectsResponse): void {
-  into.objects = from.messages(into.objects, createObjectPlacement, readObjectPlacement)
-  into.surfaces = from.messages(into.surfaces, createSurface, readSurface)
-}
-
-export function writeGetObjectsResponse(to: CdrWriter, message: GetObjectsResponse): void {
-  to.messages(message.objects, writeObjectPlacement)
-  to.messages(message.surfaces, writeSurface)
-}
-
-export const getObjectsResponseType: MessageType<GetObjectsResponse> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/GetObjects_Response',
-  createGetObjectsResponse,
-  readGetObjectsResponse,
-  writeGetObjectsResponse,
-)
-
-/** mrlab_msgs/srv/GetTrajectory_Request: Fetch a trajectory: all of its frames, some of them, or the name of the file that holds them. */
-export interface GetTrajectoryRequest {
-  /** name in the catalogue; NAME@3 is its third version */
-  id: string
-  /** true: frames are left out of the answer where it names a file */
-  file_only: boolean
-  /** first frame of the answer, from 0 */
-  begin: number
-  /** number of frames in the answer, at most; 0: all from begin on */
-  count: number
-}
-
-export function createGetTrajectoryRequest(): GetTrajectoryRequest {
-  return {
-    id: '',
-    file_only: false,
-    begin: 0,
-    count: 0,
-  }
-}
-
-export function readGetTrajectoryRequest(from: CdrReader, into: GetTrajectoryRequest): void {
-  into.id = from.string(into.id)
-  into.file_only = from.bool()
-  into.begin = from.uint32()
-  into.count = from.uint32()
-}
-
-export function writeGetTrajectoryRequest(to: CdrWriter, message: GetTrajectoryRequest): void {
-  to.string(message.id)
-  to.bool(message.file_only)
-  to.uint32(message.begin)
-  to.uint32(message.count)
-}
-
-export const getTrajectoryRequestType: MessageType<GetTrajectoryRequest> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/GetTrajectory_Request',
-  createGetTrajectoryRequest,
-  readGetTrajectoryRequest,
-  writeGetTrajectoryRequest,
-)
-
-/** mrlab_msgs/srv/GetTrajectory_Response */
-export interface GetTrajectoryResponse {
-  success: boolean
-  /** why not */
-  message: string
-  /** what it is, for programs; docs/diagnostics.md lists the codes */
-  code: string
-  /** values of that text by name; a text as it is, all else as JSON */
-  values: KeyValue[]
-  /** meaningful only on success; info describes the whole trajectory */
-  trajectory: Trajectory
-  /** path on the lab's machine, numpy's npz with the matrices; empty: none */
-  file: string
-}
-
-export function createGetTrajectoryResponse(): GetTrajectoryResponse {
-  return {
-    success: false,
-    message: '',
-    code: '',
-    values: [],
-    trajectory: createTrajectory(),
-    file: '',
-  }
-}
-
-export function readGetTrajectoryResponse(from: CdrReader, into: GetTrajectoryResponse): void {
-  into.success = from.bool()
-  into.message = from.string(into.message)
-  into.code = from.string(into.code)
-  into.values = from.messages(into.values, createKeyValue, readKeyValue)
-  readTrajectory(from, into.trajectory)
-  into.file = from.string(into.file)
-}
-
-export function writeGetTrajectoryResponse(to: CdrWriter, message: GetTrajectoryResponse): void {
-  to.bool(message.success)
-  to.string(message.message)
-  to.string(message.code)
-  to.messages(message.values, writeKeyValue)
-  writeTrajectory(to, message.trajectory)
-  to.string(message.file)
-}
-
-export const getTrajectoryResponseType: MessageType<GetTrajectoryResponse> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/GetTrajectory_Response',
-  createGetTrajectoryResponse,
-  readGetTrajectoryResponse,
-  writeGetTrajectoryResponse,
-)
 
 /** mrlab_msgs/msg/Grasp: What a robot's gripper does. Latched; sent at each change. */
 export interface Grasp {
@@ -1250,29 +605,10 @@ export function readGrasp(from: CdrReader, into: Grasp): void {
   into.wrist_moment = from.float64()
 }
 
-export function writeGrasp(to: CdrWriter, message: Grasp): void {
-  writeHeader(to, message.header)
-  to.uint8(message.state)
-  to.string(message.object)
-  to.strings(message.fingers)
-  to.float64s(message.finger_positions)
-  to.float64s(message.finger_forces)
-  to.string(message.reason)
-  to.string(message.code)
-  to.messages(message.values, writeKeyValue)
-  to.float64(message.mass)
-  to.float64(message.payload)
-  to.float64(message.friction)
-  to.float64(message.friction_needed)
-  to.float64(message.slip_margin)
-  to.float64(message.wrist_moment)
-}
-
-export const graspType: MessageType<Grasp> = /* @__PURE__ */ messageType(
+export const graspReader: MessageReader<Grasp> = /* @__PURE__ */ messageReader(
   'mrlab_msgs/msg/Grasp',
   createGrasp,
   readGrasp,
-  writeGrasp,
 )
 
 /** mrlab_msgs/msg/GraspTarget: A frame at which the trajectory opens or closes the gripper. */
@@ -1303,20 +639,6 @@ export function readGraspTarget(from: CdrReader, into: GraspTarget): void {
   readPose(from, into.tool0)
 }
 
-export function writeGraspTarget(to: CdrWriter, message: GraspTarget): void {
-  to.uint32(message.frame)
-  to.float64(message.time)
-  to.bool(message.close)
-  writePose(to, message.tool0)
-}
-
-export const graspTargetType: MessageType<GraspTarget> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/msg/GraspTarget',
-  createGraspTarget,
-  readGraspTarget,
-  writeGraspTarget,
-)
-
 /** mrlab_msgs/msg/GraspTargets: Where the loaded trajectory grasps and releases. Latched; empty without a gripper. */
 export interface GraspTargets {
   /** frame_id is the robot's base_link */
@@ -1340,17 +662,10 @@ export function readGraspTargets(from: CdrReader, into: GraspTargets): void {
   into.targets = from.messages(into.targets, createGraspTarget, readGraspTarget)
 }
 
-export function writeGraspTargets(to: CdrWriter, message: GraspTargets): void {
-  writeHeader(to, message.header)
-  to.string(message.trajectory_id)
-  to.messages(message.targets, writeGraspTarget)
-}
-
-export const graspTargetsType: MessageType<GraspTargets> = /* @__PURE__ */ messageType(
+export const graspTargetsReader: MessageReader<GraspTargets> = /* @__PURE__ */ messageReader(
   'mrlab_msgs/msg/GraspTargets',
   createGraspTargets,
   readGraspTargets,
-  writeGraspTargets,
 )
 
 /** mrlab_msgs/msg/Latency: How long messages take on their way, as one observer measured it. Sent about once a second. */
@@ -1366,24 +681,6 @@ export interface Latency {
   hops: LatencyHop[]
 }
 
-export function createLatency(): Latency {
-  return {
-    header: createHeader(),
-    observer: '',
-    window: 0,
-    clock_error: 0,
-    hops: [],
-  }
-}
-
-export function readLatency(from: CdrReader, into: Latency): void {
-  readHeader(from, into.header)
-  into.observer = from.string(into.observer)
-  into.window = from.float64()
-  into.clock_error = from.float64()
-  into.hops = from.messages(into.hops, createLatencyHop, readLatencyHop)
-}
-
 export function writeLatency(to: CdrWriter, message: Latency): void {
   writeHeader(to, message.header)
   to.string(message.observer)
@@ -1392,10 +689,8 @@ export function writeLatency(to: CdrWriter, message: Latency): void {
   to.messages(message.hops, writeLatencyHop)
 }
 
-export const latencyType: MessageType<Latency> = /* @__PURE__ */ messageType(
+export const latencyWriter: MessageWriter<Latency> = /* @__PURE__ */ messageWriter(
   'mrlab_msgs/msg/Latency',
-  createLatency,
-  readLatency,
   writeLatency,
 )
 
@@ -1424,26 +719,6 @@ export const LatencyHop = {
   PUBLISHED_TO_RECEIVED: 2,
 } as const
 
-export function createLatencyHop(): LatencyHop {
-  return {
-    hop: 0,
-    topic: '',
-    count: 0,
-    p50: 0,
-    p95: 0,
-    max: 0,
-  }
-}
-
-export function readLatencyHop(from: CdrReader, into: LatencyHop): void {
-  into.hop = from.uint8()
-  into.topic = from.string(into.topic)
-  into.count = from.uint32()
-  into.p50 = from.float64()
-  into.p95 = from.float64()
-  into.max = from.float64()
-}
-
 export function writeLatencyHop(to: CdrWriter, message: LatencyHop): void {
   to.uint8(message.hop)
   to.string(message.topic)
@@ -1453,34 +728,12 @@ export function writeLatencyHop(to: CdrWriter, message: LatencyHop): void {
   to.float64(message.max)
 }
 
-export const latencyHopType: MessageType<LatencyHop> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/msg/LatencyHop',
-  createLatencyHop,
-  readLatencyHop,
-  writeLatencyHop,
-)
-
 /** mrlab_msgs/srv/ListBags_Request: List the bags that replay finds by name. */
 export type ListBagsRequest = Record<string, never>
-
-export function createListBagsRequest(): ListBagsRequest {
-  return {}
-}
-
-export function readListBagsRequest(from: CdrReader, _: ListBagsRequest): void {
-  from.uint8()
-}
 
 export function writeListBagsRequest(to: CdrWriter, _: ListBagsRequest): void {
   to.uint8(0)
 }
-
-export const listBagsRequestType: MessageType<ListBagsRequest> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/ListBags_Request',
-  createListBagsRequest,
-  readListBagsRequest,
-  writeListBagsRequest,
-)
 
 /** mrlab_msgs/srv/ListBags_Response */
 export interface ListBagsResponse {
@@ -1513,42 +766,12 @@ export function readListBagsResponse(from: CdrReader, into: ListBagsResponse): v
   into.bags = from.strings(into.bags)
 }
 
-export function writeListBagsResponse(to: CdrWriter, message: ListBagsResponse): void {
-  to.bool(message.success)
-  to.string(message.message)
-  to.string(message.code)
-  to.messages(message.values, writeKeyValue)
-  to.strings(message.bags)
-}
-
-export const listBagsResponseType: MessageType<ListBagsResponse> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/ListBags_Response',
-  createListBagsResponse,
-  readListBagsResponse,
-  writeListBagsResponse,
-)
-
 /** mrlab_msgs/srv/ListCatalogue_Request: List the types of objects that spawn_object takes. */
 export type ListCatalogueRequest = Record<string, never>
-
-export function createListCatalogueRequest(): ListCatalogueRequest {
-  return {}
-}
-
-export function readListCatalogueRequest(from: CdrReader, _: ListCatalogueRequest): void {
-  from.uint8()
-}
 
 export function writeListCatalogueRequest(to: CdrWriter, _: ListCatalogueRequest): void {
   to.uint8(0)
 }
-
-export const listCatalogueRequestType: MessageType<ListCatalogueRequest> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/ListCatalogue_Request',
-  createListCatalogueRequest,
-  readListCatalogueRequest,
-  writeListCatalogueRequest,
-)
 
 /** mrlab_msgs/srv/ListCatalogue_Response */
 export interface ListCatalogueResponse {
@@ -1570,39 +793,12 @@ export function readListCatalogueResponse(from: CdrReader, into: ListCatalogueRe
   into.limit = from.uint32()
 }
 
-export function writeListCatalogueResponse(to: CdrWriter, message: ListCatalogueResponse): void {
-  to.messages(message.types, writeObjectType)
-  to.uint32(message.limit)
-}
-
-export const listCatalogueResponseType: MessageType<ListCatalogueResponse> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/ListCatalogue_Response',
-  createListCatalogueResponse,
-  readListCatalogueResponse,
-  writeListCatalogueResponse,
-)
-
 /** mrlab_msgs/srv/ListScenes_Request: List the scenes that load_scene takes. */
 export type ListScenesRequest = Record<string, never>
-
-export function createListScenesRequest(): ListScenesRequest {
-  return {}
-}
-
-export function readListScenesRequest(from: CdrReader, _: ListScenesRequest): void {
-  from.uint8()
-}
 
 export function writeListScenesRequest(to: CdrWriter, _: ListScenesRequest): void {
   to.uint8(0)
 }
-
-export const listScenesRequestType: MessageType<ListScenesRequest> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/ListScenes_Request',
-  createListScenesRequest,
-  readListScenesRequest,
-  writeListScenesRequest,
-)
 
 /** mrlab_msgs/srv/ListScenes_Response */
 export interface ListScenesResponse {
@@ -1620,116 +816,15 @@ export function readListScenesResponse(from: CdrReader, into: ListScenesResponse
   into.scenes = from.strings(into.scenes)
 }
 
-export function writeListScenesResponse(to: CdrWriter, message: ListScenesResponse): void {
-  to.strings(message.scenes)
-}
-
-export const listScenesResponseType: MessageType<ListScenesResponse> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/ListScenes_Response',
-  createListScenesResponse,
-  readListScenesResponse,
-  writeListScenesResponse,
-)
-
-/** mrlab_msgs/srv/ListTrajectories_Request: List the trajectories that fit a robot, ordered by id: all, or one page of them. */
-export interface ListTrajectoriesRequest {
-  /** empty: any */
-  robot_model: string
-  /** only meaningful with robot_model: empty means none is fitted */
-  end_effector: string
-  /** first one of the answer, from 0 */
-  begin: number
-  /** how many of them, at most; 0: all from begin on */
-  count: number
-}
-
-export function createListTrajectoriesRequest(): ListTrajectoriesRequest {
-  return {
-    robot_model: '',
-    end_effector: '',
-    begin: 0,
-    count: 0,
-  }
-}
-
-export function readListTrajectoriesRequest(from: CdrReader, into: ListTrajectoriesRequest): void {
-  into.robot_model = from.string(into.robot_model)
-  into.end_effector = from.string(into.end_effector)
-  into.begin = from.uint32()
-  into.count = from.uint32()
-}
-
-export function writeListTrajectoriesRequest(to: CdrWriter, message: ListTrajectoriesRequest): void {
-  to.string(message.robot_model)
-  to.string(message.end_effector)
-  to.uint32(message.begin)
-  to.uint32(message.count)
-}
-
-export const listTrajectoriesRequestType: MessageType<ListTrajectoriesRequest> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/ListTrajectories_Request',
-  createListTrajectoriesRequest,
-  readListTrajectoriesRequest,
-  writeListTrajectoriesRequest,
-)
-
-/** mrlab_msgs/srv/ListTrajectories_Response */
-export interface ListTrajectoriesResponse {
-  trajectories: TrajectoryInfo[]
-  /** how many fit */
-  total: number
-}
-
-export function createListTrajectoriesResponse(): ListTrajectoriesResponse {
-  return {
-    trajectories: [],
-    total: 0,
-  }
-}
-
-export function readListTrajectoriesResponse(from: CdrReader, into: ListTrajectoriesResponse): void {
-  into.trajectories = from.messages(into.trajectories, createTrajectoryInfo, readTrajectoryInfo)
-  into.total = from.uint32()
-}
-
-export function writeListTrajectoriesResponse(to: CdrWriter, message: ListTrajectoriesResponse): void {
-  to.messages(message.trajectories, writeTrajectoryInfo)
-  to.uint32(message.total)
-}
-
-export const listTrajectoriesResponseType: MessageType<ListTrajectoriesResponse> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/ListTrajectories_Response',
-  createListTrajectoriesResponse,
-  readListTrajectoriesResponse,
-  writeListTrajectoriesResponse,
-)
-
 /** mrlab_msgs/srv/LoadTrajectory_Request: Load a trajectory from the catalogue into a robot's playback. */
 export interface LoadTrajectoryRequest {
   /** name in the catalogue, NAME@3 for its third version; empty: unload */
   id: string
 }
 
-export function createLoadTrajectoryRequest(): LoadTrajectoryRequest {
-  return {
-    id: '',
-  }
-}
-
-export function readLoadTrajectoryRequest(from: CdrReader, into: LoadTrajectoryRequest): void {
-  into.id = from.string(into.id)
-}
-
 export function writeLoadTrajectoryRequest(to: CdrWriter, message: LoadTrajectoryRequest): void {
   to.string(message.id)
 }
-
-export const loadTrajectoryRequestType: MessageType<LoadTrajectoryRequest> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/LoadTrajectory_Request',
-  createLoadTrajectoryRequest,
-  readLoadTrajectoryRequest,
-  writeLoadTrajectoryRequest,
-)
 
 /** mrlab_msgs/srv/LoadTrajectory_Response */
 export interface LoadTrajectoryResponse {
@@ -1759,20 +854,6 @@ export function readLoadTrajectoryResponse(from: CdrReader, into: LoadTrajectory
   into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
-export function writeLoadTrajectoryResponse(to: CdrWriter, message: LoadTrajectoryResponse): void {
-  to.bool(message.success)
-  to.string(message.message)
-  to.string(message.code)
-  to.messages(message.values, writeKeyValue)
-}
-
-export const loadTrajectoryResponseType: MessageType<LoadTrajectoryResponse> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/LoadTrajectory_Response',
-  createLoadTrajectoryResponse,
-  readLoadTrajectoryResponse,
-  writeLoadTrajectoryResponse,
-)
-
 /** mrlab_msgs/srv/MoveObject_Request: Move an object by hand. */
 export interface MoveObjectRequest {
   name: string
@@ -1784,35 +865,12 @@ export interface MoveObjectRequest {
   held: boolean
 }
 
-export function createMoveObjectRequest(): MoveObjectRequest {
-  return {
-    name: '',
-    pose: createPose(),
-    twist: createTwist(),
-    held: false,
-  }
-}
-
-export function readMoveObjectRequest(from: CdrReader, into: MoveObjectRequest): void {
-  into.name = from.string(into.name)
-  readPose(from, into.pose)
-  readTwist(from, into.twist)
-  into.held = from.bool()
-}
-
 export function writeMoveObjectRequest(to: CdrWriter, message: MoveObjectRequest): void {
   to.string(message.name)
   writePose(to, message.pose)
   writeTwist(to, message.twist)
   to.bool(message.held)
 }
-
-export const moveObjectRequestType: MessageType<MoveObjectRequest> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/MoveObject_Request',
-  createMoveObjectRequest,
-  readMoveObjectRequest,
-  writeMoveObjectRequest,
-)
 
 /** mrlab_msgs/srv/MoveObject_Response */
 export interface MoveObjectResponse {
@@ -1842,72 +900,6 @@ export function readMoveObjectResponse(from: CdrReader, into: MoveObjectResponse
   into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
-export function writeMoveObjectResponse(to: CdrWriter, message: MoveObjectResponse): void {
-  to.bool(message.success)
-  to.string(message.message)
-  to.string(message.code)
-  to.messages(message.values, writeKeyValue)
-}
-
-export const moveObjectResponseType: MessageType<MoveObjectResponse> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/MoveObject_Response',
-  createMoveObjectResponse,
-  readMoveObjectResponse,
-  writeMoveObjectResponse,
-)
-
-/** mrlab_msgs/msg/ObjectPlacement: Where an object is put, and in which gripper. */
-export interface ObjectPlacement {
-  /** unique in the scene, such as cube_1 */
-  name: string
-  /** id in the catalogue config/objects.yaml */
-  type: string
-  /** in world, m */
-  pose: Pose
-  /** true: on the nearest surface below pose, free of others */
-  automatic: boolean
-  /** robot whose gripper holds it; empty: free */
-  held_by: string
-  /** only with held_by: in the frame of the link that holds it, m */
-  in_hand: Pose
-}
-
-export function createObjectPlacement(): ObjectPlacement {
-  return {
-    name: '',
-    type: '',
-    pose: createPose(),
-    automatic: false,
-    held_by: '',
-    in_hand: createPose(),
-  }
-}
-
-export function readObjectPlacement(from: CdrReader, into: ObjectPlacement): void {
-  into.name = from.string(into.name)
-  into.type = from.string(into.type)
-  readPose(from, into.pose)
-  into.automatic = from.bool()
-  into.held_by = from.string(into.held_by)
-  readPose(from, into.in_hand)
-}
-
-export function writeObjectPlacement(to: CdrWriter, message: ObjectPlacement): void {
-  to.string(message.name)
-  to.string(message.type)
-  writePose(to, message.pose)
-  to.bool(message.automatic)
-  to.string(message.held_by)
-  writePose(to, message.in_hand)
-}
-
-export const objectPlacementType: MessageType<ObjectPlacement> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/msg/ObjectPlacement',
-  createObjectPlacement,
-  readObjectPlacement,
-  writeObjectPlacement,
-)
-
 /** mrlab_msgs/msg/ObjectRemoved: An object that the lab itself took out of the scene. Removals by request are not announced. */
 export interface ObjectRemoved {
   header: Header
@@ -1935,18 +927,10 @@ export function readObjectRemoved(from: CdrReader, into: ObjectRemoved): void {
   into.reason = from.string(into.reason)
 }
 
-export function writeObjectRemoved(to: CdrWriter, message: ObjectRemoved): void {
-  writeHeader(to, message.header)
-  to.string(message.name)
-  to.string(message.type)
-  to.string(message.reason)
-}
-
-export const objectRemovedType: MessageType<ObjectRemoved> = /* @__PURE__ */ messageType(
+export const objectRemovedReader: MessageReader<ObjectRemoved> = /* @__PURE__ */ messageReader(
   'mrlab_msgs/msg/ObjectRemoved',
   createObjectRemoved,
   readObjectRemoved,
-  writeObjectRemoved,
 )
 
 /** mrlab_msgs/msg/ObjectType: One entry of the catalogue of objects. */
@@ -1988,23 +972,6 @@ export function readObjectType(from: CdrReader, into: ObjectType): void {
   readSolidPrimitive(from, into.primitive)
 }
 
-export function writeObjectType(to: CdrWriter, message: ObjectType): void {
-  to.string(message.id)
-  to.string(message.about)
-  writeVector3(to, message.size)
-  to.float64(message.mass)
-  writeColorRGBA(to, message.color)
-  to.string(message.mesh)
-  writeSolidPrimitive(to, message.primitive)
-}
-
-export const objectTypeType: MessageType<ObjectType> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/msg/ObjectType',
-  createObjectType,
-  readObjectType,
-  writeObjectType,
-)
-
 /** mrlab_msgs/srv/PlaceRobot_Request: Move a robot's base. */
 export interface PlaceRobotRequest {
   robot: string
@@ -2012,29 +979,10 @@ export interface PlaceRobotRequest {
   pose: Pose
 }
 
-export function createPlaceRobotRequest(): PlaceRobotRequest {
-  return {
-    robot: '',
-    pose: createPose(),
-  }
-}
-
-export function readPlaceRobotRequest(from: CdrReader, into: PlaceRobotRequest): void {
-  into.robot = from.string(into.robot)
-  readPose(from, into.pose)
-}
-
 export function writePlaceRobotRequest(to: CdrWriter, message: PlaceRobotRequest): void {
   to.string(message.robot)
   writePose(to, message.pose)
 }
-
-export const placeRobotRequestType: MessageType<PlaceRobotRequest> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/PlaceRobot_Request',
-  createPlaceRobotRequest,
-  readPlaceRobotRequest,
-  writePlaceRobotRequest,
-)
 
 /** mrlab_msgs/srv/PlaceRobot_Response */
 export interface PlaceRobotResponse {
@@ -2064,20 +1012,6 @@ export function readPlaceRobotResponse(from: CdrReader, into: PlaceRobotResponse
   into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
-export function writePlaceRobotResponse(to: CdrWriter, message: PlaceRobotResponse): void {
-  to.bool(message.success)
-  to.string(message.message)
-  to.string(message.code)
-  to.messages(message.values, writeKeyValue)
-}
-
-export const placeRobotResponseType: MessageType<PlaceRobotResponse> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/PlaceRobot_Response',
-  createPlaceRobotResponse,
-  readPlaceRobotResponse,
-  writePlaceRobotResponse,
-)
-
 /** mrlab_msgs/msg/PlaybackClock: The clock of a trajectory: position(t) = position + rate * (t - stamp). A client that holds the trajectory computes the pose at any instant from it. */
 export interface PlaybackClock {
   /** time on the lab's clock at which position held; may lie ahead */
@@ -2101,19 +1035,6 @@ export function readPlaybackClock(from: CdrReader, into: PlaybackClock): void {
   into.position = from.float64()
   into.rate = from.float64()
 }
-
-export function writePlaybackClock(to: CdrWriter, message: PlaybackClock): void {
-  writeTime(to, message.stamp)
-  to.float64(message.position)
-  to.float64(message.rate)
-}
-
-export const playbackClockType: MessageType<PlaybackClock> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/msg/PlaybackClock',
-  createPlaybackClock,
-  readPlaybackClock,
-  writePlaybackClock,
-)
 
 /** mrlab_msgs/msg/PlaybackState: The state of one robot's playback. Latched; sent at each change and once a second while moving. */
 export interface PlaybackState {
@@ -2216,32 +1137,10 @@ export function readPlaybackState(from: CdrReader, into: PlaybackState): void {
   into.lab = from.string(into.lab)
 }
 
-export function writePlaybackState(to: CdrWriter, message: PlaybackState): void {
-  writeHeader(to, message.header)
-  to.uint8(message.state)
-  to.string(message.label)
-  to.string(message.message)
-  to.string(message.code)
-  to.messages(message.values, writeKeyValue)
-  to.string(message.trajectory_id)
-  to.uint32(message.trajectory_version)
-  writePlaybackClock(to, message.clock)
-  to.uint32(message.frame)
-  to.uint32(message.frame_count)
-  to.float64(message.frame_rate)
-  to.float64(message.duration)
-  to.float64(message.rate)
-  to.bool(message.loop)
-  to.string(message.host)
-  to.string(message.system)
-  to.string(message.lab)
-}
-
-export const playbackStateType: MessageType<PlaybackState> = /* @__PURE__ */ messageType(
+export const playbackStateReader: MessageReader<PlaybackState> = /* @__PURE__ */ messageReader(
   'mrlab_msgs/msg/PlaybackState',
   createPlaybackState,
   readPlaybackState,
-  writePlaybackState,
 )
 
 /** mrlab_msgs/msg/Presence: Where somebody in the room is. A display sends it at most 20 times a second while it is in the lab. */
@@ -2317,10 +1216,14 @@ export function writePresence(to: CdrWriter, message: Presence): void {
   to.bool(message.away)
 }
 
-export const presenceType: MessageType<Presence> = /* @__PURE__ */ messageType(
+export const presenceReader: MessageReader<Presence> = /* @__PURE__ */ messageReader(
   'mrlab_msgs/msg/Presence',
   createPresence,
   readPresence,
+)
+
+export const presenceWriter: MessageWriter<Presence> = /* @__PURE__ */ messageWriter(
+  'mrlab_msgs/msg/Presence',
   writePresence,
 )
 
@@ -2351,109 +1254,6 @@ export function readPreview(from: CdrReader, into: Preview): void {
   into.columns = from.uint32()
   into.values = from.float32s(into.values)
 }
-
-export function writePreview(to: CdrWriter, message: Preview): void {
-  to.string(message.variable)
-  to.uint32s(message.rows)
-  to.uint32(message.columns)
-  to.float32s(message.values)
-}
-
-export const previewType: MessageType<Preview> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/msg/Preview',
-  createPreview,
-  readPreview,
-  writePreview,
-)
-
-/** mrlab_msgs/srv/PublishTrajectory_Request: Put a draft into the catalogue as the next version of a trajectory. */
-export interface PublishTrajectoryRequest {
-  /** key of the draft in the store, as ConvertTrajectory was given it */
-  draft: string
-  /** name in the catalogue; empty: the draft's own */
-  id: string
-  /** user whose trajectory it becomes; empty: the lab's */
-  owner: string
-  /** with an owner: true: everybody may see and load it */
-  shared: boolean
-}
-
-export function createPublishTrajectoryRequest(): PublishTrajectoryRequest {
-  return {
-    draft: '',
-    id: '',
-    owner: '',
-    shared: false,
-  }
-}
-
-export function readPublishTrajectoryRequest(from: CdrReader, into: PublishTrajectoryRequest): void {
-  into.draft = from.string(into.draft)
-  into.id = from.string(into.id)
-  into.owner = from.string(into.owner)
-  into.shared = from.bool()
-}
-
-export function writePublishTrajectoryRequest(to: CdrWriter, message: PublishTrajectoryRequest): void {
-  to.string(message.draft)
-  to.string(message.id)
-  to.string(message.owner)
-  to.bool(message.shared)
-}
-
-export const publishTrajectoryRequestType: MessageType<PublishTrajectoryRequest> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/PublishTrajectory_Request',
-  createPublishTrajectoryRequest,
-  readPublishTrajectoryRequest,
-  writePublishTrajectoryRequest,
-)
-
-/** mrlab_msgs/srv/PublishTrajectory_Response */
-export interface PublishTrajectoryResponse {
-  /** false: nothing was changed */
-  success: boolean
-  /** why not, or what was done */
-  message: string
-  /** what it is, for programs; docs/diagnostics.md lists the codes */
-  code: string
-  /** values of that text by name; a text as it is, all else as JSON */
-  values: KeyValue[]
-  /** meaningful only on success */
-  trajectory: TrajectoryInfo
-}
-
-export function createPublishTrajectoryResponse(): PublishTrajectoryResponse {
-  return {
-    success: false,
-    message: '',
-    code: '',
-    values: [],
-    trajectory: createTrajectoryInfo(),
-  }
-}
-
-export function readPublishTrajectoryResponse(from: CdrReader, into: PublishTrajectoryResponse): void {
-  into.success = from.bool()
-  into.message = from.string(into.message)
-  into.code = from.string(into.code)
-  into.values = from.messages(into.values, createKeyValue, readKeyValue)
-  readTrajectoryInfo(from, into.trajectory)
-}
-
-export function writePublishTrajectoryResponse(to: CdrWriter, message: PublishTrajectoryResponse): void {
-  to.bool(message.success)
-  to.string(message.message)
-  to.string(message.code)
-  to.messages(message.values, writeKeyValue)
-  writeTrajectoryInfo(to, message.trajectory)
-}
-
-export const publishTrajectoryResponseType: MessageType<PublishTrajectoryResponse> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/PublishTrajectory_Response',
-  createPublishTrajectoryResponse,
-  readPublishTrajectoryResponse,
-  writePublishTrajectoryResponse,
-)
 
 /** mrlab_msgs/msg/RecorderState: What the recorder does. Latched; sent at each change and once a second while it works. */
 export interface RecorderState {
@@ -2518,25 +1318,10 @@ export function readRecorderState(from: CdrReader, into: RecorderState): void {
   into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
-export function writeRecorderState(to: CdrWriter, message: RecorderState): void {
-  writeHeader(to, message.header)
-  to.uint8(message.state)
-  to.string(message.bag)
-  to.float64(message.position)
-  to.float64(message.duration)
-  to.float64(message.rate)
-  to.uint64(message.messages)
-  to.uint64(message.bytes)
-  to.string(message.message)
-  to.string(message.code)
-  to.messages(message.values, writeKeyValue)
-}
-
-export const recorderStateType: MessageType<RecorderState> = /* @__PURE__ */ messageType(
+export const recorderStateReader: MessageReader<RecorderState> = /* @__PURE__ */ messageReader(
   'mrlab_msgs/msg/RecorderState',
   createRecorderState,
   readRecorderState,
-  writeRecorderState,
 )
 
 /** mrlab_msgs/srv/Remove_Request: Remove something by its name: a robot, an object, a trajectory or a robot system. */
@@ -2544,26 +1329,9 @@ export interface RemoveRequest {
   name: string
 }
 
-export function createRemoveRequest(): RemoveRequest {
-  return {
-    name: '',
-  }
-}
-
-export function readRemoveRequest(from: CdrReader, into: RemoveRequest): void {
-  into.name = from.string(into.name)
-}
-
 export function writeRemoveRequest(to: CdrWriter, message: RemoveRequest): void {
   to.string(message.name)
 }
-
-export const removeRequestType: MessageType<RemoveRequest> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/Remove_Request',
-  createRemoveRequest,
-  readRemoveRequest,
-  writeRemoveRequest,
-)
 
 /** mrlab_msgs/srv/Remove_Response */
 export interface RemoveResponse {
@@ -2593,20 +1361,6 @@ export function readRemoveResponse(from: CdrReader, into: RemoveResponse): void 
   into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
-export function writeRemoveResponse(to: CdrWriter, message: RemoveResponse): void {
-  to.bool(message.success)
-  to.string(message.message)
-  to.string(message.code)
-  to.messages(message.values, writeKeyValue)
-}
-
-export const removeResponseType: MessageType<RemoveResponse> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/Remove_Response',
-  createRemoveResponse,
-  readRemoveResponse,
-  writeRemoveResponse,
-)
-
 /** mrlab_msgs/srv/Replay_Request: Replay a bag into the graph. */
 export interface ReplayRequest {
   /** folder of the bag */
@@ -2618,35 +1372,12 @@ export interface ReplayRequest {
   loop: boolean
 }
 
-export function createReplayRequest(): ReplayRequest {
-  return {
-    bag: '',
-    rate: 0,
-    start: 0,
-    loop: false,
-  }
-}
-
-export function readReplayRequest(from: CdrReader, into: ReplayRequest): void {
-  into.bag = from.string(into.bag)
-  into.rate = from.float64()
-  into.start = from.float64()
-  into.loop = from.bool()
-}
-
 export function writeReplayRequest(to: CdrWriter, message: ReplayRequest): void {
   to.string(message.bag)
   to.float64(message.rate)
   to.float64(message.start)
   to.bool(message.loop)
 }
-
-export const replayRequestType: MessageType<ReplayRequest> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/Replay_Request',
-  createReplayRequest,
-  readReplayRequest,
-  writeReplayRequest,
-)
 
 /** mrlab_msgs/srv/Replay_Response */
 export interface ReplayResponse {
@@ -2675,99 +1406,6 @@ export function readReplayResponse(from: CdrReader, into: ReplayResponse): void 
   into.code = from.string(into.code)
   into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
-
-export function writeReplayResponse(to: CdrWriter, message: ReplayResponse): void {
-  to.bool(message.success)
-  to.string(message.message)
-  to.string(message.code)
-  to.messages(message.values, writeKeyValue)
-}
-
-export const replayResponseType: MessageType<ReplayResponse> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/Replay_Response',
-  createReplayResponse,
-  readReplayResponse,
-  writeReplayResponse,
-)
-
-/** mrlab_msgs/srv/RestoreTrajectory_Request: Bring a trajectory of the catalogue back: one that was deleted, or an older version. */
-export interface RestoreTrajectoryRequest {
-  /** name in the catalogue */
-  id: string
-  /** 0: the newest one; an older version becomes the next one */
-  version: number
-}
-
-export function createRestoreTrajectoryRequest(): RestoreTrajectoryRequest {
-  return {
-    id: '',
-    version: 0,
-  }
-}
-
-export function readRestoreTrajectoryRequest(from: CdrReader, into: RestoreTrajectoryRequest): void {
-  into.id = from.string(into.id)
-  into.version = from.uint32()
-}
-
-export function writeRestoreTrajectoryRequest(to: CdrWriter, message: RestoreTrajectoryRequest): void {
-  to.string(message.id)
-  to.uint32(message.version)
-}
-
-export const restoreTrajectoryRequestType: MessageType<RestoreTrajectoryRequest> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/RestoreTrajectory_Request',
-  createRestoreTrajectoryRequest,
-  readRestoreTrajectoryRequest,
-  writeRestoreTrajectoryRequest,
-)
-
-/** mrlab_msgs/srv/RestoreTrajectory_Response */
-export interface RestoreTrajectoryResponse {
-  /** false: nothing was changed */
-  success: boolean
-  /** why not, or what was done */
-  message: string
-  /** what it is, for programs; docs/diagnostics.md lists the codes */
-  code: string
-  /** values of that text by name; a text as it is, all else as JSON */
-  values: KeyValue[]
-  /** meaningful only on success */
-  trajectory: TrajectoryInfo
-}
-
-export function createRestoreTrajectoryResponse(): RestoreTrajectoryResponse {
-  return {
-    success: false,
-    message: '',
-    code: '',
-    values: [],
-    trajectory: createTrajectoryInfo(),
-  }
-}
-
-export function readRestoreTrajectoryResponse(from: CdrReader, into: RestoreTrajectoryResponse): void {
-  into.success = from.bool()
-  into.message = from.string(into.message)
-  into.code = from.string(into.code)
-  into.values = from.messages(into.values, createKeyValue, readKeyValue)
-  readTrajectoryInfo(from, into.trajectory)
-}
-
-export function writeRestoreTrajectoryResponse(to: CdrWriter, message: RestoreTrajectoryResponse): void {
-  to.bool(message.success)
-  to.string(message.message)
-  to.string(message.code)
-  to.messages(message.values, writeKeyValue)
-  writeTrajectoryInfo(to, message.trajectory)
-}
-
-export const restoreTrajectoryResponseType: MessageType<RestoreTrajectoryResponse> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/RestoreTrajectory_Response',
-  createRestoreTrajectoryResponse,
-  readRestoreTrajectoryResponse,
-  writeRestoreTrajectoryResponse,
-)
 
 /** mrlab_msgs/msg/Robot: One robot in the scene. */
 export interface Robot {
@@ -2800,21 +1438,6 @@ export function readRobot(from: CdrReader, into: Robot): void {
   readPose(from, into.pose)
   into.joint_names = from.strings(into.joint_names)
 }
-
-export function writeRobot(to: CdrWriter, message: Robot): void {
-  to.string(message.name)
-  to.string(message.model)
-  to.string(message.end_effector)
-  writePose(to, message.pose)
-  to.strings(message.joint_names)
-}
-
-export const robotType: MessageType<Robot> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/msg/Robot',
-  createRobot,
-  readRobot,
-  writeRobot,
-)
 
 /** mrlab_msgs/msg/RobotSystem: Robots that play as one, on one timeline. */
 export interface RobotSystem {
@@ -2900,29 +1523,6 @@ export function readRobotSystem(from: CdrReader, into: RobotSystem): void {
   into.loop = from.bool()
 }
 
-export function writeRobotSystem(to: CdrWriter, message: RobotSystem): void {
-  to.string(message.name)
-  to.messages(message.members, writeSystemMember)
-  to.uint8(message.mode)
-  to.uint8(message.policy)
-  to.uint8(message.state)
-  to.string(message.label)
-  to.string(message.message)
-  to.string(message.code)
-  to.messages(message.values, writeKeyValue)
-  writePlaybackClock(to, message.clock)
-  to.float64(message.duration)
-  to.float64(message.rate)
-  to.bool(message.loop)
-}
-
-export const robotSystemType: MessageType<RobotSystem> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/msg/RobotSystem',
-  createRobotSystem,
-  readRobotSystem,
-  writeRobotSystem,
-)
-
 /** mrlab_msgs/msg/RobotSystems: All robot systems. Latched. */
 export interface RobotSystems {
   header: Header
@@ -2949,18 +1549,10 @@ export function readRobotSystems(from: CdrReader, into: RobotSystems): void {
   into.holder = from.string(into.holder)
 }
 
-export function writeRobotSystems(to: CdrWriter, message: RobotSystems): void {
-  writeHeader(to, message.header)
-  to.messages(message.systems, writeRobotSystem)
-  to.string(message.lab)
-  to.string(message.holder)
-}
-
-export const robotSystemsType: MessageType<RobotSystems> = /* @__PURE__ */ messageType(
+export const robotSystemsReader: MessageReader<RobotSystems> = /* @__PURE__ */ messageReader(
   'mrlab_msgs/msg/RobotSystems',
   createRobotSystems,
   readRobotSystems,
-  writeRobotSystems,
 )
 
 /** mrlab_msgs/msg/Robots: All robots in the scene, in order of arrival. Latched. */
@@ -2986,17 +1578,10 @@ export function readRobots(from: CdrReader, into: Robots): void {
   into.lab = from.string(into.lab)
 }
 
-export function writeRobots(to: CdrWriter, message: Robots): void {
-  writeHeader(to, message.header)
-  to.messages(message.robots, writeRobot)
-  to.string(message.lab)
-}
-
-export const robotsType: MessageType<Robots> = /* @__PURE__ */ messageType(
+export const robotsReader: MessageReader<Robots> = /* @__PURE__ */ messageReader(
   'mrlab_msgs/msg/Robots',
   createRobots,
   readRobots,
-  writeRobots,
 )
 
 /** mrlab_msgs/srv/SceneFile_Request: Save the scene to, or load it from, a file in the lab's scene folder. */
@@ -3005,26 +1590,9 @@ export interface SceneFileRequest {
   name: string
 }
 
-export function createSceneFileRequest(): SceneFileRequest {
-  return {
-    name: '',
-  }
-}
-
-export function readSceneFileRequest(from: CdrReader, into: SceneFileRequest): void {
-  into.name = from.string(into.name)
-}
-
 export function writeSceneFileRequest(to: CdrWriter, message: SceneFileRequest): void {
   to.string(message.name)
 }
-
-export const sceneFileRequestType: MessageType<SceneFileRequest> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/SceneFile_Request',
-  createSceneFileRequest,
-  readSceneFileRequest,
-  writeSceneFileRequest,
-)
 
 /** mrlab_msgs/srv/SceneFile_Response */
 export interface SceneFileResponse {
@@ -3053,20 +1621,6 @@ export function readSceneFileResponse(from: CdrReader, into: SceneFileResponse):
   into.code = from.string(into.code)
   into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
-
-export function writeSceneFileResponse(to: CdrWriter, message: SceneFileResponse): void {
-  to.bool(message.success)
-  to.string(message.message)
-  to.string(message.code)
-  to.messages(message.values, writeKeyValue)
-}
-
-export const sceneFileResponseType: MessageType<SceneFileResponse> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/SceneFile_Response',
-  createSceneFileResponse,
-  readSceneFileResponse,
-  writeSceneFileResponse,
-)
 
 /** mrlab_msgs/msg/SceneObject: One movable or fixed thing in the scene. */
 export interface SceneObject {
@@ -3123,27 +1677,6 @@ export function readSceneObject(from: CdrReader, into: SceneObject): void {
   readPose(from, into.in_tool)
 }
 
-export function writeSceneObject(to: CdrWriter, message: SceneObject): void {
-  to.string(message.name)
-  to.string(message.type)
-  writePose(to, message.pose)
-  writeTwist(to, message.twist)
-  writeVector3(to, message.size)
-  to.float64(message.mass)
-  writeColorRGBA(to, message.color)
-  to.string(message.mesh)
-  writeSolidPrimitive(to, message.primitive)
-  to.string(message.held_by)
-  writePose(to, message.in_tool)
-}
-
-export const sceneObjectType: MessageType<SceneObject> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/msg/SceneObject',
-  createSceneObject,
-  readSceneObject,
-  writeSceneObject,
-)
-
 /** mrlab_msgs/msg/SceneObjects: All objects in the scene. */
 export interface SceneObjects {
   /** frame_id is world */
@@ -3163,16 +1696,10 @@ export function readSceneObjects(from: CdrReader, into: SceneObjects): void {
   into.objects = from.messages(into.objects, createSceneObject, readSceneObject)
 }
 
-export function writeSceneObjects(to: CdrWriter, message: SceneObjects): void {
-  writeHeader(to, message.header)
-  to.messages(message.objects, writeSceneObject)
-}
-
-export const sceneObjectsType: MessageType<SceneObjects> = /* @__PURE__ */ messageType(
+export const sceneObjectsReader: MessageReader<SceneObjects> = /* @__PURE__ */ messageReader(
   'mrlab_msgs/msg/SceneObjects',
   createSceneObjects,
   readSceneObjects,
-  writeSceneObjects,
 )
 
 /** mrlab_msgs/srv/Seek_Request: Go to a place on the timeline. */
@@ -3181,26 +1708,9 @@ export interface SeekRequest {
   position: number
 }
 
-export function createSeekRequest(): SeekRequest {
-  return {
-    position: 0,
-  }
-}
-
-export function readSeekRequest(from: CdrReader, into: SeekRequest): void {
-  into.position = from.float64()
-}
-
 export function writeSeekRequest(to: CdrWriter, message: SeekRequest): void {
   to.float64(message.position)
 }
-
-export const seekRequestType: MessageType<SeekRequest> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/Seek_Request',
-  createSeekRequest,
-  readSeekRequest,
-  writeSeekRequest,
-)
 
 /** mrlab_msgs/srv/Seek_Response */
 export interface SeekResponse {
@@ -3230,20 +1740,6 @@ export function readSeekResponse(from: CdrReader, into: SeekResponse): void {
   into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
-export function writeSeekResponse(to: CdrWriter, message: SeekResponse): void {
-  to.bool(message.success)
-  to.string(message.message)
-  to.string(message.code)
-  to.messages(message.values, writeKeyValue)
-}
-
-export const seekResponseType: MessageType<SeekResponse> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/Seek_Response',
-  createSeekResponse,
-  readSeekResponse,
-  writeSeekResponse,
-)
-
 /** mrlab_msgs/srv/SetEndEffector_Request: Exchange a robot's end effector. */
 export interface SetEndEffectorRequest {
   robot: string
@@ -3251,29 +1747,10 @@ export interface SetEndEffectorRequest {
   end_effector: string
 }
 
-export function createSetEndEffectorRequest(): SetEndEffectorRequest {
-  return {
-    robot: '',
-    end_effector: '',
-  }
-}
-
-export function readSetEndEffectorRequest(from: CdrReader, into: SetEndEffectorRequest): void {
-  into.robot = from.string(into.robot)
-  into.end_effector = from.string(into.end_effector)
-}
-
 export function writeSetEndEffectorRequest(to: CdrWriter, message: SetEndEffectorRequest): void {
   to.string(message.robot)
   to.string(message.end_effector)
 }
-
-export const setEndEffectorRequestType: MessageType<SetEndEffectorRequest> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/SetEndEffector_Request',
-  createSetEndEffectorRequest,
-  readSetEndEffectorRequest,
-  writeSetEndEffectorRequest,
-)
 
 /** mrlab_msgs/srv/SetEndEffector_Response */
 export interface SetEndEffectorResponse {
@@ -3303,46 +1780,15 @@ export function readSetEndEffectorResponse(from: CdrReader, into: SetEndEffector
   into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
-export function writeSetEndEffectorResponse(to: CdrWriter, message: SetEndEffectorResponse): void {
-  to.bool(message.success)
-  to.string(message.message)
-  to.string(message.code)
-  to.messages(message.values, writeKeyValue)
-}
-
-export const setEndEffectorResponseType: MessageType<SetEndEffectorResponse> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/SetEndEffector_Response',
-  createSetEndEffectorResponse,
-  readSetEndEffectorResponse,
-  writeSetEndEffectorResponse,
-)
-
 /** mrlab_msgs/srv/SetLoop_Request: Play or replay again and again, or once. */
 export interface SetLoopRequest {
   /** true: starts over after the last frame */
   loop: boolean
 }
 
-export function createSetLoopRequest(): SetLoopRequest {
-  return {
-    loop: false,
-  }
-}
-
-export function readSetLoopRequest(from: CdrReader, into: SetLoopRequest): void {
-  into.loop = from.bool()
-}
-
 export function writeSetLoopRequest(to: CdrWriter, message: SetLoopRequest): void {
   to.bool(message.loop)
 }
-
-export const setLoopRequestType: MessageType<SetLoopRequest> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/SetLoop_Request',
-  createSetLoopRequest,
-  readSetLoopRequest,
-  writeSetLoopRequest,
-)
 
 /** mrlab_msgs/srv/SetLoop_Response */
 export interface SetLoopResponse {
@@ -3372,46 +1818,15 @@ export function readSetLoopResponse(from: CdrReader, into: SetLoopResponse): voi
   into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
-export function writeSetLoopResponse(to: CdrWriter, message: SetLoopResponse): void {
-  to.bool(message.success)
-  to.string(message.message)
-  to.string(message.code)
-  to.messages(message.values, writeKeyValue)
-}
-
-export const setLoopResponseType: MessageType<SetLoopResponse> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/SetLoop_Response',
-  createSetLoopResponse,
-  readSetLoopResponse,
-  writeSetLoopResponse,
-)
-
 /** mrlab_msgs/srv/SetMode_Request: Set how a robot system plays. */
 export interface SetModeRequest {
   /** as in RobotSystem */
   mode: number
 }
 
-export function createSetModeRequest(): SetModeRequest {
-  return {
-    mode: 0,
-  }
-}
-
-export function readSetModeRequest(from: CdrReader, into: SetModeRequest): void {
-  into.mode = from.uint8()
-}
-
 export function writeSetModeRequest(to: CdrWriter, message: SetModeRequest): void {
   to.uint8(message.mode)
 }
-
-export const setModeRequestType: MessageType<SetModeRequest> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/SetMode_Request',
-  createSetModeRequest,
-  readSetModeRequest,
-  writeSetModeRequest,
-)
 
 /** mrlab_msgs/srv/SetMode_Response */
 export interface SetModeResponse {
@@ -3441,130 +1856,15 @@ export function readSetModeResponse(from: CdrReader, into: SetModeResponse): voi
   into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
-export function writeSetModeResponse(to: CdrWriter, message: SetModeResponse): void {
-  to.bool(message.success)
-  to.string(message.message)
-  to.string(message.code)
-  to.messages(message.values, writeKeyValue)
-}
-
-export const setModeResponseType: MessageType<SetModeResponse> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/SetMode_Response',
-  createSetModeResponse,
-  readSetModeResponse,
-  writeSetModeResponse,
-)
-
-/** mrlab_msgs/srv/SetObjects_Request: Replace all objects and all surfaces of the room. All are checked before anything changes. */
-export interface SetObjectsRequest {
-  /** one with held_by is gripped as soon as that robot is there */
-  objects: ObjectPlacement[]
-  /** without one labelled floor there is an endless floor */
-  surfaces: Surface[]
-  /** true: check only, change nothing */
-  dry_run: boolean
-}
-
-export function createSetObjectsRequest(): SetObjectsRequest {
-  return {
-    objects: [],
-    surfaces: [],
-    dry_run: false,
-  }
-}
-
-export function readSetObjectsRequest(from: CdrReader, into: SetObjectsRequest): void {
-  into.objects = from.messages(into.objects, createObjectPlacement, readObjectPlacement)
-  into.surfaces = from.messages(into.surfaces, createSurface, readSurface)
-  into.dry_run = from.bool()
-}
-
-export function writeSetObjectsRequest(to: CdrWriter, message: SetObjectsRequest): void {
-  to.messages(message.objects, writeObjectPlacement)
-  to.messages(message.surfaces, writeSurface)
-  to.bool(message.dry_run)
-}
-
-export const setObjectsRequestType: MessageType<SetObjectsRequest> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/SetObjects_Request',
-  createSetObjectsRequest,
-  readSetObjectsRequest,
-  writeSetObjectsRequest,
-)
-
-/** mrlab_msgs/srv/SetObjects_Response */
-export interface SetObjectsResponse {
-  /** false: nothing was changed */
-  success: boolean
-  /** why not, or what was done */
-  message: string
-  /** what it is, for programs; docs/diagnostics.md lists the codes */
-  code: string
-  /** values of that text by name; a text as it is, all else as JSON */
-  values: KeyValue[]
-  /** meaningful only on success: as in the request, where they are put */
-  objects: ObjectPlacement[]
-}
-
-export function createSetObjectsResponse(): SetObjectsResponse {
-  return {
-    success: false,
-    message: '',
-    code: '',
-    values: [],
-    objects: [],
-  }
-}
-
-export function readSetObjectsResponse(from: CdrReader, into: SetObjectsResponse): void {
-  into.success = from.bool()
-  into.message = from.string(into.message)
-  into.code = from.string(into.code)
-  into.values = from.messages(into.values, createKeyValue, readKeyValue)
-  into.objects = from.messages(into.objects, createObjectPlacement, readObjectPlacement)
-}
-
-export function writeSetObjectsResponse(to: CdrWriter, message: SetObjectsResponse): void {
-  to.bool(message.success)
-  to.string(message.message)
-  to.string(message.code)
-  to.messages(message.values, writeKeyValue)
-  to.messages(message.objects, writeObjectPlacement)
-}
-
-export const setObjectsResponseType: MessageType<SetObjectsResponse> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/SetObjects_Response',
-  createSetObjectsResponse,
-  readSetObjectsResponse,
-  writeSetObjectsResponse,
-)
-
 /** mrlab_msgs/srv/SetRate_Request: Set the speed of playback. */
 export interface SetRateRequest {
   /** 0.1 to 4, or -0.1 to -4: backwards; 1 is the declared speed */
   rate: number
 }
 
-export function createSetRateRequest(): SetRateRequest {
-  return {
-    rate: 0,
-  }
-}
-
-export function readSetRateRequest(from: CdrReader, into: SetRateRequest): void {
-  into.rate = from.float64()
-}
-
 export function writeSetRateRequest(to: CdrWriter, message: SetRateRequest): void {
   to.float64(message.rate)
 }
-
-export const setRateRequestType: MessageType<SetRateRequest> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/SetRate_Request',
-  createSetRateRequest,
-  readSetRateRequest,
-  writeSetRateRequest,
-)
 
 /** mrlab_msgs/srv/SetRate_Response */
 export interface SetRateResponse {
@@ -3594,20 +1894,6 @@ export function readSetRateResponse(from: CdrReader, into: SetRateResponse): voi
   into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
-export function writeSetRateResponse(to: CdrWriter, message: SetRateResponse): void {
-  to.bool(message.success)
-  to.string(message.message)
-  to.string(message.code)
-  to.messages(message.values, writeKeyValue)
-}
-
-export const setRateResponseType: MessageType<SetRateResponse> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/SetRate_Response',
-  createSetRateResponse,
-  readSetRateResponse,
-  writeSetRateResponse,
-)
-
 /** mrlab_msgs/srv/SetSurfaces_Request: Replace the surfaces of the room, or those of one source. */
 export interface SetSurfacesRequest {
   /** who measured them, such as a headset: only its own are replaced; empty: all */
@@ -3615,29 +1901,10 @@ export interface SetSurfacesRequest {
   surfaces: Surface[]
 }
 
-export function createSetSurfacesRequest(): SetSurfacesRequest {
-  return {
-    source: '',
-    surfaces: [],
-  }
-}
-
-export function readSetSurfacesRequest(from: CdrReader, into: SetSurfacesRequest): void {
-  into.source = from.string(into.source)
-  into.surfaces = from.messages(into.surfaces, createSurface, readSurface)
-}
-
 export function writeSetSurfacesRequest(to: CdrWriter, message: SetSurfacesRequest): void {
   to.string(message.source)
   to.messages(message.surfaces, writeSurface)
 }
-
-export const setSurfacesRequestType: MessageType<SetSurfacesRequest> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/SetSurfaces_Request',
-  createSetSurfacesRequest,
-  readSetSurfacesRequest,
-  writeSetSurfacesRequest,
-)
 
 /** mrlab_msgs/srv/SetSurfaces_Response */
 export interface SetSurfacesResponse {
@@ -3667,93 +1934,6 @@ export function readSetSurfacesResponse(from: CdrReader, into: SetSurfacesRespon
   into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
-export function writeSetSurfacesResponse(to: CdrWriter, message: SetSurfacesResponse): void {
-  to.bool(message.success)
-  to.string(message.message)
-  to.string(message.code)
-  to.messages(message.values, writeKeyValue)
-}
-
-export const setSurfacesResponseType: MessageType<SetSurfacesResponse> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/SetSurfaces_Response',
-  createSetSurfacesResponse,
-  readSetSurfacesResponse,
-  writeSetSurfacesResponse,
-)
-
-/** mrlab_msgs/srv/ShareTrajectory_Request: Let everybody see a trajectory of the catalogue, or its owner and instructors alone. */
-export interface ShareTrajectoryRequest {
-  /** name in the catalogue */
-  id: string
-  shared: boolean
-}
-
-export function createShareTrajectoryRequest(): ShareTrajectoryRequest {
-  return {
-    id: '',
-    shared: false,
-  }
-}
-
-export function readShareTrajectoryRequest(from: CdrReader, into: ShareTrajectoryRequest): void {
-  into.id = from.string(into.id)
-  into.shared = from.bool()
-}
-
-export function writeShareTrajectoryRequest(to: CdrWriter, message: ShareTrajectoryRequest): void {
-  to.string(message.id)
-  to.bool(message.shared)
-}
-
-export const shareTrajectoryRequestType: MessageType<ShareTrajectoryRequest> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/ShareTrajectory_Request',
-  createShareTrajectoryRequest,
-  readShareTrajectoryRequest,
-  writeShareTrajectoryRequest,
-)
-
-/** mrlab_msgs/srv/ShareTrajectory_Response */
-export interface ShareTrajectoryResponse {
-  /** false: nothing was changed */
-  success: boolean
-  /** why not, or what was done */
-  message: string
-  /** what it is, for programs; docs/diagnostics.md lists the codes */
-  code: string
-  /** values of that text by name; a text as it is, all else as JSON */
-  values: KeyValue[]
-}
-
-export function createShareTrajectoryResponse(): ShareTrajectoryResponse {
-  return {
-    success: false,
-    message: '',
-    code: '',
-    values: [],
-  }
-}
-
-export function readShareTrajectoryResponse(from: CdrReader, into: ShareTrajectoryResponse): void {
-  into.success = from.bool()
-  into.message = from.string(into.message)
-  into.code = from.string(into.code)
-  into.values = from.messages(into.values, createKeyValue, readKeyValue)
-}
-
-export function writeShareTrajectoryResponse(to: CdrWriter, message: ShareTrajectoryResponse): void {
-  to.bool(message.success)
-  to.string(message.message)
-  to.string(message.code)
-  to.messages(message.values, writeKeyValue)
-}
-
-export const shareTrajectoryResponseType: MessageType<ShareTrajectoryResponse> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/ShareTrajectory_Response',
-  createShareTrajectoryResponse,
-  readShareTrajectoryResponse,
-  writeShareTrajectoryResponse,
-)
-
 /** mrlab_msgs/srv/SpawnObject_Request: Put an object into the scene. */
 export interface SpawnObjectRequest {
   /** id in the catalogue */
@@ -3766,35 +1946,12 @@ export interface SpawnObjectRequest {
   pose: Pose
 }
 
-export function createSpawnObjectRequest(): SpawnObjectRequest {
-  return {
-    type: '',
-    name: '',
-    automatic: false,
-    pose: createPose(),
-  }
-}
-
-export function readSpawnObjectRequest(from: CdrReader, into: SpawnObjectRequest): void {
-  into.type = from.string(into.type)
-  into.name = from.string(into.name)
-  into.automatic = from.bool()
-  readPose(from, into.pose)
-}
-
 export function writeSpawnObjectRequest(to: CdrWriter, message: SpawnObjectRequest): void {
   to.string(message.type)
   to.string(message.name)
   to.bool(message.automatic)
   writePose(to, message.pose)
 }
-
-export const spawnObjectRequestType: MessageType<SpawnObjectRequest> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/SpawnObject_Request',
-  createSpawnObjectRequest,
-  readSpawnObjectRequest,
-  writeSpawnObjectRequest,
-)
 
 /** mrlab_msgs/srv/SpawnObject_Response */
 export interface SpawnObjectResponse {
@@ -3827,21 +1984,6 @@ export function readSpawnObjectResponse(from: CdrReader, into: SpawnObjectRespon
   into.values = from.messages(into.values, createKeyValue, readKeyValue)
   readSceneObject(from, into.object)
 }
-
-export function writeSpawnObjectResponse(to: CdrWriter, message: SpawnObjectResponse): void {
-  to.bool(message.success)
-  to.string(message.message)
-  to.string(message.code)
-  to.messages(message.values, writeKeyValue)
-  writeSceneObject(to, message.object)
-}
-
-export const spawnObjectResponseType: MessageType<SpawnObjectResponse> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/SpawnObject_Response',
-  createSpawnObjectResponse,
-  readSpawnObjectResponse,
-  writeSpawnObjectResponse,
-)
 
 /** mrlab_msgs/srv/SpawnRobot_Request: Put a robot into the scene. */
 export interface SpawnRobotRequest {
@@ -3876,17 +2018,6 @@ export function createSpawnRobotRequest(): SpawnRobotRequest {
   }
 }
 
-export function readSpawnRobotRequest(from: CdrReader, into: SpawnRobotRequest): void {
-  into.model = from.string(into.model)
-  into.end_effector = from.string(into.end_effector)
-  into.name = from.string(into.name)
-  into.automatic = from.bool()
-  readPose(from, into.pose)
-  into.surface = from.string(into.surface)
-  into.has_viewer = from.bool()
-  readPose(from, into.viewer)
-}
-
 export function writeSpawnRobotRequest(to: CdrWriter, message: SpawnRobotRequest): void {
   to.string(message.model)
   to.string(message.end_effector)
@@ -3897,13 +2028,6 @@ export function writeSpawnRobotRequest(to: CdrWriter, message: SpawnRobotRequest
   to.bool(message.has_viewer)
   writePose(to, message.viewer)
 }
-
-export const spawnRobotRequestType: MessageType<SpawnRobotRequest> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/SpawnRobot_Request',
-  createSpawnRobotRequest,
-  readSpawnRobotRequest,
-  writeSpawnRobotRequest,
-)
 
 /** mrlab_msgs/srv/SpawnRobot_Response */
 export interface SpawnRobotResponse {
@@ -3937,21 +2061,6 @@ export function readSpawnRobotResponse(from: CdrReader, into: SpawnRobotResponse
   readRobot(from, into.robot)
 }
 
-export function writeSpawnRobotResponse(to: CdrWriter, message: SpawnRobotResponse): void {
-  to.bool(message.success)
-  to.string(message.message)
-  to.string(message.code)
-  to.messages(message.values, writeKeyValue)
-  writeRobot(to, message.robot)
-}
-
-export const spawnRobotResponseType: MessageType<SpawnRobotResponse> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/SpawnRobot_Response',
-  createSpawnRobotResponse,
-  readSpawnRobotResponse,
-  writeSpawnRobotResponse,
-)
-
 /** mrlab_msgs/srv/StartRecording_Request: Start writing a bag. */
 export interface StartRecordingRequest {
   /** folder to make; empty: named by date and time */
@@ -3962,32 +2071,11 @@ export interface StartRecordingRequest {
   split_duration: number
 }
 
-export function createStartRecordingRequest(): StartRecordingRequest {
-  return {
-    bag: '',
-    topics: [],
-    split_duration: 0,
-  }
-}
-
-export function readStartRecordingRequest(from: CdrReader, into: StartRecordingRequest): void {
-  into.bag = from.string(into.bag)
-  into.topics = from.strings(into.topics)
-  into.split_duration = from.float64()
-}
-
 export function writeStartRecordingRequest(to: CdrWriter, message: StartRecordingRequest): void {
   to.string(message.bag)
   to.strings(message.topics)
   to.float64(message.split_duration)
 }
-
-export const startRecordingRequestType: MessageType<StartRecordingRequest> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/StartRecording_Request',
-  createStartRecordingRequest,
-  readStartRecordingRequest,
-  writeStartRecordingRequest,
-)
 
 /** mrlab_msgs/srv/StartRecording_Response */
 export interface StartRecordingResponse {
@@ -4019,90 +2107,6 @@ export function readStartRecordingResponse(from: CdrReader, into: StartRecording
   into.values = from.messages(into.values, createKeyValue, readKeyValue)
   into.bag = from.string(into.bag)
 }
-
-export function writeStartRecordingResponse(to: CdrWriter, message: StartRecordingResponse): void {
-  to.bool(message.success)
-  to.string(message.message)
-  to.string(message.code)
-  to.messages(message.values, writeKeyValue)
-  to.string(message.bag)
-}
-
-export const startRecordingResponseType: MessageType<StartRecordingResponse> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/StartRecording_Response',
-  createStartRecordingResponse,
-  readStartRecordingResponse,
-  writeStartRecordingResponse,
-)
-
-/** mrlab_msgs/srv/Step_Request: Step a standing robot system frame by frame. */
-export interface StepRequest {
-  /** of the member with the highest frame rate; negative: backwards */
-  frames: number
-}
-
-export function createStepRequest(): StepRequest {
-  return {
-    frames: 0,
-  }
-}
-
-export function readStepRequest(from: CdrReader, into: StepRequest): void {
-  into.frames = from.int32()
-}
-
-export function writeStepRequest(to: CdrWriter, message: StepRequest): void {
-  to.int32(message.frames)
-}
-
-export const stepRequestType: MessageType<StepRequest> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/Step_Request',
-  createStepRequest,
-  readStepRequest,
-  writeStepRequest,
-)
-
-/** mrlab_msgs/srv/Step_Response */
-export interface StepResponse {
-  /** false: nothing was changed */
-  success: boolean
-  /** why not, or what was done */
-  message: string
-  /** what it is, for programs; docs/diagnostics.md lists the codes */
-  code: string
-  /** values of that text by name; a text as it is, all else as JSON */
-  values: KeyValue[]
-}
-
-export function createStepResponse(): StepResponse {
-  return {
-    success: false,
-    message: '',
-    code: '',
-    values: [],
-  }
-}
-
-export function readStepResponse(from: CdrReader, into: StepResponse): void {
-  into.success = from.bool()
-  into.message = from.string(into.message)
-  into.code = from.string(into.code)
-  into.values = from.messages(into.values, createKeyValue, readKeyValue)
-}
-
-export function writeStepResponse(to: CdrWriter, message: StepResponse): void {
-  to.bool(message.success)
-  to.string(message.message)
-  to.string(message.code)
-  to.messages(message.values, writeKeyValue)
-}
-
-export const stepResponseType: MessageType<StepResponse> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/Step_Response',
-  createStepResponse,
-  readStepResponse,
-  writeStepResponse,
-)
 
 /** mrlab_msgs/msg/Surface: A static surface of the room: the floor, a table, a wall, or a mesh the headset detected. */
 export interface Surface {
@@ -4149,13 +2153,6 @@ export function writeSurface(to: CdrWriter, message: Surface): void {
   to.uint32s(message.triangles)
 }
 
-export const surfaceType: MessageType<Surface> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/msg/Surface',
-  createSurface,
-  readSurface,
-  writeSurface,
-)
-
 /** mrlab_msgs/msg/Surfaces: All surfaces of the room. Latched. */
 export interface Surfaces {
   /** frame_id is world */
@@ -4175,16 +2172,10 @@ export function readSurfaces(from: CdrReader, into: Surfaces): void {
   into.surfaces = from.messages(into.surfaces, createSurface, readSurface)
 }
 
-export function writeSurfaces(to: CdrWriter, message: Surfaces): void {
-  writeHeader(to, message.header)
-  to.messages(message.surfaces, writeSurface)
-}
-
-export const surfacesType: MessageType<Surfaces> = /* @__PURE__ */ messageType(
+export const surfacesReader: MessageReader<Surfaces> = /* @__PURE__ */ messageReader(
   'mrlab_msgs/msg/Surfaces',
   createSurfaces,
   readSurfaces,
-  writeSurfaces,
 )
 
 /** mrlab_msgs/msg/SystemMember: One robot of a robot system and its share of the timeline. */
@@ -4245,13 +2236,6 @@ export function writeSystemMember(to: CdrWriter, message: SystemMember): void {
   to.strings(message.waits)
   to.string(message.waiting_for)
 }
-
-export const systemMemberType: MessageType<SystemMember> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/msg/SystemMember',
-  createSystemMember,
-  readSystemMember,
-  writeSystemMember,
-)
 
 /** mrlab_msgs/msg/Telemetry: What a display shows beside the robot, at a bounded rate. joint_states is the motion itself. */
 export interface Telemetry {
@@ -4336,83 +2320,10 @@ export function readTelemetry(from: CdrReader, into: Telemetry): void {
   into.frames_lost = from.uint32()
 }
 
-export function writeTelemetry(to: CdrWriter, message: Telemetry): void {
-  writeHeader(to, message.header)
-  to.strings(message.joint_names)
-  to.float64s(message.velocities)
-  to.float64s(message.effort_proxy)
-  to.uint32(message.frame)
-  to.float64(message.position)
-  to.bool(message.has_gripper)
-  to.bool(message.gripper_closed)
-  writePose(to, message.tool0)
-  to.string(message.held_object)
-  to.float64(message.held_mass)
-  to.float64(message.payload)
-  to.float64(message.slip_margin)
-  to.float64(message.wrist_moment)
-  to.float64(message.deadline_error)
-  to.float64(message.deadline_error_max)
-  to.uint32(message.frames_sent)
-  to.uint32(message.frames_lost)
-}
-
-export const telemetryType: MessageType<Telemetry> = /* @__PURE__ */ messageType(
+export const telemetryReader: MessageReader<Telemetry> = /* @__PURE__ */ messageReader(
   'mrlab_msgs/msg/Telemetry',
   createTelemetry,
   readTelemetry,
-  writeTelemetry,
-)
-
-/** mrlab_msgs/msg/Trajectory: A checked trajectory with its frames. Matrices are row by row: frame i of joint j is at index i * size(joint_names) + j. */
-export interface Trajectory {
-  info: TrajectoryInfo
-  /** column order of the matrices */
-  joint_names: string[]
-  /** rad, exactly the workspace's values */
-  positions: Float64Array
-  /** rad/s, derived */
-  velocities: Float64Array
-  /** N*m nominal, derived, for display only: not a torque */
-  effort_proxy: Float64Array
-  /** one a frame, 0 open, 1 closed; empty: no gripper */
-  gripper: Uint8Array
-}
-
-export function createTrajectory(): Trajectory {
-  return {
-    info: createTrajectoryInfo(),
-    joint_names: [],
-    positions: new Float64Array(0),
-    velocities: new Float64Array(0),
-    effort_proxy: new Float64Array(0),
-    gripper: new Uint8Array(0),
-  }
-}
-
-export function readTrajectory(from: CdrReader, into: Trajectory): void {
-  readTrajectoryInfo(from, into.info)
-  into.joint_names = from.strings(into.joint_names)
-  into.positions = from.float64s(into.positions)
-  into.velocities = from.float64s(into.velocities)
-  into.effort_proxy = from.float64s(into.effort_proxy)
-  into.gripper = from.uint8s(into.gripper)
-}
-
-export function writeTrajectory(to: CdrWriter, message: Trajectory): void {
-  writeTrajectoryInfo(to, message.info)
-  to.strings(message.joint_names)
-  to.float64s(message.positions)
-  to.float64s(message.velocities)
-  to.float64s(message.effort_proxy)
-  to.uint8s(message.gripper)
-}
-
-export const trajectoryType: MessageType<Trajectory> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/msg/Trajectory',
-  createTrajectory,
-  readTrajectory,
-  writeTrajectory,
 )
 
 /** mrlab_msgs/msg/TrajectoryCatalogue: The trajectories that everybody may load: the lab's own and those that are shared, ordered by id. Latched. */
@@ -4435,16 +2346,10 @@ export function readTrajectoryCatalogue(from: CdrReader, into: TrajectoryCatalog
   into.total = from.uint32()
 }
 
-export function writeTrajectoryCatalogue(to: CdrWriter, message: TrajectoryCatalogue): void {
-  to.messages(message.trajectories, writeTrajectoryInfo)
-  to.uint32(message.total)
-}
-
-export const trajectoryCatalogueType: MessageType<TrajectoryCatalogue> = /* @__PURE__ */ messageType(
+export const trajectoryCatalogueReader: MessageReader<TrajectoryCatalogue> = /* @__PURE__ */ messageReader(
   'mrlab_msgs/msg/TrajectoryCatalogue',
   createTrajectoryCatalogue,
   readTrajectoryCatalogue,
-  writeTrajectoryCatalogue,
 )
 
 /** mrlab_msgs/msg/TrajectoryInfo: What there is to know of a trajectory without its frames. */
@@ -4519,52 +2424,12 @@ export function readTrajectoryInfo(from: CdrReader, into: TrajectoryInfo): void 
   into.warnings = from.messages(into.warnings, createDiagnostic, readDiagnostic)
 }
 
-export function writeTrajectoryInfo(to: CdrWriter, message: TrajectoryInfo): void {
-  to.string(message.id)
-  to.string(message.robot_model)
-  to.string(message.end_effector)
-  to.string(message.source_file)
-  to.string(message.source_variable)
-  to.string(message.source_sha256)
-  writeTime(to, message.created)
-  to.float64(message.frame_rate)
-  to.uint32(message.frame_count)
-  to.float64(message.duration)
-  to.bool(message.has_gripper)
-  to.string(message.owner)
-  to.uint32(message.version)
-  to.bool(message.shared)
-  to.messages(message.warnings, writeDiagnostic)
-}
-
-export const trajectoryInfoType: MessageType<TrajectoryInfo> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/msg/TrajectoryInfo',
-  createTrajectoryInfo,
-  readTrajectoryInfo,
-  writeTrajectoryInfo,
-)
-
 /** mrlab_msgs/srv/Trigger_Request: Do what the service's name says. As std_srvs/Trigger, with the code and the values of the text. */
 export type TriggerRequest = Record<string, never>
-
-export function createTriggerRequest(): TriggerRequest {
-  return {}
-}
-
-export function readTriggerRequest(from: CdrReader, _: TriggerRequest): void {
-  from.uint8()
-}
 
 export function writeTriggerRequest(to: CdrWriter, _: TriggerRequest): void {
   to.uint8(0)
 }
-
-export const triggerRequestType: MessageType<TriggerRequest> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/Trigger_Request',
-  createTriggerRequest,
-  readTriggerRequest,
-  writeTriggerRequest,
-)
 
 /** mrlab_msgs/srv/Trigger_Response */
 export interface TriggerResponse {
@@ -4594,208 +2459,163 @@ export function readTriggerResponse(from: CdrReader, into: TriggerResponse): voi
   into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
-export function writeTriggerResponse(to: CdrWriter, message: TriggerResponse): void {
-  to.bool(message.success)
-  to.string(message.message)
-  to.string(message.code)
-  to.messages(message.values, writeKeyValue)
-}
-
-export const triggerResponseType: MessageType<TriggerResponse> = /* @__PURE__ */ messageType(
-  'mrlab_msgs/srv/Trigger_Response',
-  createTriggerResponse,
-  readTriggerResponse,
-  writeTriggerResponse,
+export const attachType: ServiceType<AttachRequest, AttachResponse> = /* @__PURE__ */ serviceType(
+  'mrlab_msgs/srv/Attach',
+  writeAttachRequest,
+  createAttachResponse,
+  readAttachResponse,
 )
 
-export const attachType: ServiceType<AttachRequest, AttachResponse> = {
-  name: 'mrlab_msgs/srv/Attach',
-  request: attachRequestType,
-  response: attachResponseType,
-}
+export const convertTrajectoryType: ServiceType<ConvertTrajectoryRequest, ConvertTrajectoryResponse> = /* @__PURE__ */ serviceType(
+  'mrlab_msgs/srv/ConvertTrajectory',
+  writeConvertTrajectoryRequest,
+  createConvertTrajectoryResponse,
+  readConvertTrajectoryResponse,
+)
 
-export const commandMembersType: ServiceType<CommandMembersRequest, CommandMembersResponse> = {
-  name: 'mrlab_msgs/srv/CommandMembers',
-  request: commandMembersRequestType,
-  response: commandMembersResponseType,
-}
+export const createSystemType: ServiceType<CreateSystemRequest, CreateSystemResponse> = /* @__PURE__ */ serviceType(
+  'mrlab_msgs/srv/CreateSystem',
+  writeCreateSystemRequest,
+  createCreateSystemResponse,
+  readCreateSystemResponse,
+)
 
-export const convertTrajectoryType: ServiceType<ConvertTrajectoryRequest, ConvertTrajectoryResponse> = {
-  name: 'mrlab_msgs/srv/ConvertTrajectory',
-  request: convertTrajectoryRequestType,
-  response: convertTrajectoryResponseType,
-}
+export const detachType: ServiceType<DetachRequest, DetachResponse> = /* @__PURE__ */ serviceType(
+  'mrlab_msgs/srv/Detach',
+  writeDetachRequest,
+  createDetachResponse,
+  readDetachResponse,
+)
 
-export const createSystemType: ServiceType<CreateSystemRequest, CreateSystemResponse> = {
-  name: 'mrlab_msgs/srv/CreateSystem',
-  request: createSystemRequestType,
-  response: createSystemResponseType,
-}
+export const listBagsType: ServiceType<ListBagsRequest, ListBagsResponse> = /* @__PURE__ */ serviceType(
+  'mrlab_msgs/srv/ListBags',
+  writeListBagsRequest,
+  createListBagsResponse,
+  readListBagsResponse,
+)
 
-export const detachType: ServiceType<DetachRequest, DetachResponse> = {
-  name: 'mrlab_msgs/srv/Detach',
-  request: detachRequestType,
-  response: detachResponseType,
-}
+export const listCatalogueType: ServiceType<ListCatalogueRequest, ListCatalogueResponse> = /* @__PURE__ */ serviceType(
+  'mrlab_msgs/srv/ListCatalogue',
+  writeListCatalogueRequest,
+  createListCatalogueResponse,
+  readListCatalogueResponse,
+)
 
-export const getObjectsType: ServiceType<GetObjectsRequest, GetObjectsResponse> = {
-  name: 'mrlab_msgs/srv/GetObjects',
-  request: getObjectsRequestType,
-  response: getObjectsResponseType,
-}
+export const listScenesType: ServiceType<ListScenesRequest, ListScenesResponse> = /* @__PURE__ */ serviceType(
+  'mrlab_msgs/srv/ListScenes',
+  writeListScenesRequest,
+  createListScenesResponse,
+  readListScenesResponse,
+)
 
-export const getTrajectoryType: ServiceType<GetTrajectoryRequest, GetTrajectoryResponse> = {
-  name: 'mrlab_msgs/srv/GetTrajectory',
-  request: getTrajectoryRequestType,
-  response: getTrajectoryResponseType,
-}
+export const loadTrajectoryType: ServiceType<LoadTrajectoryRequest, LoadTrajectoryResponse> = /* @__PURE__ */ serviceType(
+  'mrlab_msgs/srv/LoadTrajectory',
+  writeLoadTrajectoryRequest,
+  createLoadTrajectoryResponse,
+  readLoadTrajectoryResponse,
+)
 
-export const listBagsType: ServiceType<ListBagsRequest, ListBagsResponse> = {
-  name: 'mrlab_msgs/srv/ListBags',
-  request: listBagsRequestType,
-  response: listBagsResponseType,
-}
+export const moveObjectType: ServiceType<MoveObjectRequest, MoveObjectResponse> = /* @__PURE__ */ serviceType(
+  'mrlab_msgs/srv/MoveObject',
+  writeMoveObjectRequest,
+  createMoveObjectResponse,
+  readMoveObjectResponse,
+)
 
-export const listCatalogueType: ServiceType<ListCatalogueRequest, ListCatalogueResponse> = {
-  name: 'mrlab_msgs/srv/ListCatalogue',
-  request: listCatalogueRequestType,
-  response: listCatalogueResponseType,
-}
+export const placeRobotType: ServiceType<PlaceRobotRequest, PlaceRobotResponse> = /* @__PURE__ */ serviceType(
+  'mrlab_msgs/srv/PlaceRobot',
+  writePlaceRobotRequest,
+  createPlaceRobotResponse,
+  readPlaceRobotResponse,
+)
 
-export const listScenesType: ServiceType<ListScenesRequest, ListScenesResponse> = {
-  name: 'mrlab_msgs/srv/ListScenes',
-  request: listScenesRequestType,
-  response: listScenesResponseType,
-}
+export const removeType: ServiceType<RemoveRequest, RemoveResponse> = /* @__PURE__ */ serviceType(
+  'mrlab_msgs/srv/Remove',
+  writeRemoveRequest,
+  createRemoveResponse,
+  readRemoveResponse,
+)
 
-export const listTrajectoriesType: ServiceType<ListTrajectoriesRequest, ListTrajectoriesResponse> = {
-  name: 'mrlab_msgs/srv/ListTrajectories',
-  request: listTrajectoriesRequestType,
-  response: listTrajectoriesResponseType,
-}
+export const replayType: ServiceType<ReplayRequest, ReplayResponse> = /* @__PURE__ */ serviceType(
+  'mrlab_msgs/srv/Replay',
+  writeReplayRequest,
+  createReplayResponse,
+  readReplayResponse,
+)
 
-export const loadTrajectoryType: ServiceType<LoadTrajectoryRequest, LoadTrajectoryResponse> = {
-  name: 'mrlab_msgs/srv/LoadTrajectory',
-  request: loadTrajectoryRequestType,
-  response: loadTrajectoryResponseType,
-}
+export const sceneFileType: ServiceType<SceneFileRequest, SceneFileResponse> = /* @__PURE__ */ serviceType(
+  'mrlab_msgs/srv/SceneFile',
+  writeSceneFileRequest,
+  createSceneFileResponse,
+  readSceneFileResponse,
+)
 
-export const moveObjectType: ServiceType<MoveObjectRequest, MoveObjectResponse> = {
-  name: 'mrlab_msgs/srv/MoveObject',
-  request: moveObjectRequestType,
-  response: moveObjectResponseType,
-}
+export const seekType: ServiceType<SeekRequest, SeekResponse> = /* @__PURE__ */ serviceType(
+  'mrlab_msgs/srv/Seek',
+  writeSeekRequest,
+  createSeekResponse,
+  readSeekResponse,
+)
 
-export const placeRobotType: ServiceType<PlaceRobotRequest, PlaceRobotResponse> = {
-  name: 'mrlab_msgs/srv/PlaceRobot',
-  request: placeRobotRequestType,
-  response: placeRobotResponseType,
-}
+export const setEndEffectorType: ServiceType<SetEndEffectorRequest, SetEndEffectorResponse> = /* @__PURE__ */ serviceType(
+  'mrlab_msgs/srv/SetEndEffector',
+  writeSetEndEffectorRequest,
+  createSetEndEffectorResponse,
+  readSetEndEffectorResponse,
+)
 
-export const publishTrajectoryType: ServiceType<PublishTrajectoryRequest, PublishTrajectoryResponse> = {
-  name: 'mrlab_msgs/srv/PublishTrajectory',
-  request: publishTrajectoryRequestType,
-  response: publishTrajectoryResponseType,
-}
+export const setLoopType: ServiceType<SetLoopRequest, SetLoopResponse> = /* @__PURE__ */ serviceType(
+  'mrlab_msgs/srv/SetLoop',
+  writeSetLoopRequest,
+  createSetLoopResponse,
+  readSetLoopResponse,
+)
 
-export const removeType: ServiceType<RemoveRequest, RemoveResponse> = {
-  name: 'mrlab_msgs/srv/Remove',
-  request: removeRequestType,
-  response: removeResponseType,
-}
+export const setModeType: ServiceType<SetModeRequest, SetModeResponse> = /* @__PURE__ */ serviceType(
+  'mrlab_msgs/srv/SetMode',
+  writeSetModeRequest,
+  createSetModeResponse,
+  readSetModeResponse,
+)
 
-export const replayType: ServiceType<ReplayRequest, ReplayResponse> = {
-  name: 'mrlab_msgs/srv/Replay',
-  request: replayRequestType,
-  response: replayResponseType,
-}
+export const setRateType: ServiceType<SetRateRequest, SetRateResponse> = /* @__PURE__ */ serviceType(
+  'mrlab_msgs/srv/SetRate',
+  writeSetRateRequest,
+  createSetRateResponse,
+  readSetRateResponse,
+)
 
-export const restoreTrajectoryType: ServiceType<RestoreTrajectoryRequest, RestoreTrajectoryResponse> = {
-  name: 'mrlab_msgs/srv/RestoreTrajectory',
-  request: restoreTrajectoryRequestType,
-  response: restoreTrajectoryResponseType,
-}
+export const setSurfacesType: ServiceType<SetSurfacesRequest, SetSurfacesResponse> = /* @__PURE__ */ serviceType(
+  'mrlab_msgs/srv/SetSurfaces',
+  writeSetSurfacesRequest,
+  createSetSurfacesResponse,
+  readSetSurfacesResponse,
+)
 
-export const sceneFileType: ServiceType<SceneFileRequest, SceneFileResponse> = {
-  name: 'mrlab_msgs/srv/SceneFile',
-  request: sceneFileRequestType,
-  response: sceneFileResponseType,
-}
+export const spawnObjectType: ServiceType<SpawnObjectRequest, SpawnObjectResponse> = /* @__PURE__ */ serviceType(
+  'mrlab_msgs/srv/SpawnObject',
+  writeSpawnObjectRequest,
+  createSpawnObjectResponse,
+  readSpawnObjectResponse,
+)
 
-export const seekType: ServiceType<SeekRequest, SeekResponse> = {
-  name: 'mrlab_msgs/srv/Seek',
-  request: seekRequestType,
-  response: seekResponseType,
-}
+export const spawnRobotType: ServiceType<SpawnRobotRequest, SpawnRobotResponse> = /* @__PURE__ */ serviceType(
+  'mrlab_msgs/srv/SpawnRobot',
+  writeSpawnRobotRequest,
+  createSpawnRobotResponse,
+  readSpawnRobotResponse,
+)
 
-export const setEndEffectorType: ServiceType<SetEndEffectorRequest, SetEndEffectorResponse> = {
-  name: 'mrlab_msgs/srv/SetEndEffector',
-  request: setEndEffectorRequestType,
-  response: setEndEffectorResponseType,
-}
+export const startRecordingType: ServiceType<StartRecordingRequest, StartRecordingResponse> = /* @__PURE__ */ serviceType(
+  'mrlab_msgs/srv/StartRecording',
+  writeStartRecordingRequest,
+  createStartRecordingResponse,
+  readStartRecordingResponse,
+)
 
-export const setLoopType: ServiceType<SetLoopRequest, SetLoopResponse> = {
-  name: 'mrlab_msgs/srv/SetLoop',
-  request: setLoopRequestType,
-  response: setLoopResponseType,
-}
-
-export const setModeType: ServiceType<SetModeRequest, SetModeResponse> = {
-  name: 'mrlab_msgs/srv/SetMode',
-  request: setModeRequestType,
-  response: setModeResponseType,
-}
-
-export const setObjectsType: ServiceType<SetObjectsRequest, SetObjectsResponse> = {
-  name: 'mrlab_msgs/srv/SetObjects',
-  request: setObjectsRequestType,
-  response: setObjectsResponseType,
-}
-
-export const setRateType: ServiceType<SetRateRequest, SetRateResponse> = {
-  name: 'mrlab_msgs/srv/SetRate',
-  request: setRateRequestType,
-  response: setRateResponseType,
-}
-
-export const setSurfacesType: ServiceType<SetSurfacesRequest, SetSurfacesResponse> = {
-  name: 'mrlab_msgs/srv/SetSurfaces',
-  request: setSurfacesRequestType,
-  response: setSurfacesResponseType,
-}
-
-export const shareTrajectoryType: ServiceType<ShareTrajectoryRequest, ShareTrajectoryResponse> = {
-  name: 'mrlab_msgs/srv/ShareTrajectory',
-  request: shareTrajectoryRequestType,
-  response: shareTrajectoryResponseType,
-}
-
-export const spawnObjectType: ServiceType<SpawnObjectRequest, SpawnObjectResponse> = {
-  name: 'mrlab_msgs/srv/SpawnObject',
-  request: spawnObjectRequestType,
-  response: spawnObjectResponseType,
-}
-
-export const spawnRobotType: ServiceType<SpawnRobotRequest, SpawnRobotResponse> = {
-  name: 'mrlab_msgs/srv/SpawnRobot',
-  request: spawnRobotRequestType,
-  response: spawnRobotResponseType,
-}
-
-export const startRecordingType: ServiceType<StartRecordingRequest, StartRecordingResponse> = {
-  name: 'mrlab_msgs/srv/StartRecording',
-  request: startRecordingRequestType,
-  response: startRecordingResponseType,
-}
-
-export const stepType: ServiceType<StepRequest, StepResponse> = {
-  name: 'mrlab_msgs/srv/Step',
-  request: stepRequestType,
-  response: stepResponseType,
-}
-
-export const triggerType: ServiceType<TriggerRequest, TriggerResponse> = {
-  name: 'mrlab_msgs/srv/Trigger',
-  request: triggerRequestType,
-  response: triggerResponseType,
-}
+export const triggerType: ServiceType<TriggerRequest, TriggerResponse> = /* @__PURE__ */ serviceType(
+  'mrlab_msgs/srv/Trigger',
+  writeTriggerRequest,
+  createTriggerResponse,
+  readTriggerResponse,
+)

@@ -1,8 +1,8 @@
 // Generated from the message definitions by `make docs`.
 
-import type { MessageType } from '../link/link'
-import { type CdrReader, type CdrWriter, messageType } from './cdr'
-import { type Header, createHeader, readHeader, writeHeader } from './std_msgs'
+import type { CdrReader } from './cdr'
+import { type MessageReader, messageReader } from './message_type'
+import { type Header, createHeader, readHeader } from './std_msgs'
 
 /** sensor_msgs/msg/JointState */
 export interface JointState {
@@ -31,17 +31,8 @@ export function readJointState(from: CdrReader, into: JointState): void {
   into.effort = from.float64s(into.effort)
 }
 
-export function writeJointState(to: CdrWriter, message: JointState): void {
-  writeHeader(to, message.header)
-  to.strings(message.name)
-  to.float64s(message.position)
-  to.float64s(message.velocity)
-  to.float64s(message.effort)
-}
-
-export const jointStateType: MessageType<JointState> = /* @__PURE__ */ messageType(
+export const jointStateReader: MessageReader<JointState> = /* @__PURE__ */ messageReader(
   'sensor_msgs/msg/JointState',
   createJointState,
   readJointState,
-  writeJointState,
 )

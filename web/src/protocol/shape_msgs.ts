@@ -1,8 +1,7 @@
 // Generated from the message definitions by `make docs`.
 
-import type { MessageType } from '../link/link'
-import { type CdrReader, type CdrWriter, messageType } from './cdr'
-import { type Polygon, createPolygon, readPolygon, writePolygon } from './geometry_msgs'
+import type { CdrReader } from './cdr'
+import { type Polygon, createPolygon, readPolygon } from './geometry_msgs'
 
 /** shape_msgs/msg/SolidPrimitive */
 export interface SolidPrimitive {
@@ -10,23 +9,6 @@ export interface SolidPrimitive {
   dimensions: Float64Array
   polygon: Polygon
 }
-
-export const SolidPrimitive = {
-  BOX: 1,
-  SPHERE: 2,
-  CYLINDER: 3,
-  CONE: 4,
-  PRISM: 5,
-  BOX_X: 0,
-  BOX_Y: 1,
-  BOX_Z: 2,
-  SPHERE_RADIUS: 0,
-  CYLINDER_HEIGHT: 0,
-  CYLINDER_RADIUS: 1,
-  CONE_HEIGHT: 0,
-  CONE_RADIUS: 1,
-  PRISM_HEIGHT: 0,
-} as const
 
 export function createSolidPrimitive(): SolidPrimitive {
   return {
@@ -41,16 +23,3 @@ export function readSolidPrimitive(from: CdrReader, into: SolidPrimitive): void 
   into.dimensions = from.float64s(into.dimensions)
   readPolygon(from, into.polygon)
 }
-
-export function writeSolidPrimitive(to: CdrWriter, message: SolidPrimitive): void {
-  to.uint8(message.type)
-  to.float64s(message.dimensions)
-  writePolygon(to, message.polygon)
-}
-
-export const solidPrimitiveType: MessageType<SolidPrimitive> = /* @__PURE__ */ messageType(
-  'shape_msgs/msg/SolidPrimitive',
-  createSolidPrimitive,
-  readSolidPrimitive,
-  writeSolidPrimitive,
-)

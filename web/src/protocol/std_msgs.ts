@@ -1,8 +1,8 @@
 // Generated from the message definitions by `make docs`.
 
-import type { MessageType } from '../link/link'
-import { type CdrReader, type CdrWriter, messageType } from './cdr'
 import { type Time, createTime, readTime, writeTime } from './builtin_interfaces'
+import type { CdrReader, CdrWriter } from './cdr'
+import { type MessageReader, messageReader } from './message_type'
 
 /** std_msgs/msg/ColorRGBA */
 export interface ColorRGBA {
@@ -28,20 +28,6 @@ export function readColorRGBA(from: CdrReader, into: ColorRGBA): void {
   into.a = from.float32()
 }
 
-export function writeColorRGBA(to: CdrWriter, message: ColorRGBA): void {
-  to.float32(message.r)
-  to.float32(message.g)
-  to.float32(message.b)
-  to.float32(message.a)
-}
-
-export const colorRGBAType: MessageType<ColorRGBA> = /* @__PURE__ */ messageType(
-  'std_msgs/msg/ColorRGBA',
-  createColorRGBA,
-  readColorRGBA,
-  writeColorRGBA,
-)
-
 /** std_msgs/msg/Header */
 export interface Header {
   stamp: Time
@@ -65,13 +51,6 @@ export function writeHeader(to: CdrWriter, message: Header): void {
   to.string(message.frame_id)
 }
 
-export const headerType: MessageType<Header> = /* @__PURE__ */ messageType(
-  'std_msgs/msg/Header',
-  createHeader,
-  readHeader,
-  writeHeader,
-)
-
 /** std_msgs/msg/String */
 export interface String {
   data: string
@@ -87,13 +66,8 @@ export function readString(from: CdrReader, into: String): void {
   into.data = from.string(into.data)
 }
 
-export function writeString(to: CdrWriter, message: String): void {
-  to.string(message.data)
-}
-
-export const stringType: MessageType<String> = /* @__PURE__ */ messageType(
+export const stringReader: MessageReader<String> = /* @__PURE__ */ messageReader(
   'std_msgs/msg/String',
   createString,
   readString,
-  writeString,
 )

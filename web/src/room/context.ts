@@ -1,6 +1,7 @@
 import type { Object3D, PerspectiveCamera, Vector3 } from 'three'
 import type { CheckApi } from '../lab/robot_check'
-import type { Link, ServiceType } from '../link/link'
+import type { Link } from '../link/link'
+import type { ServiceType } from '../protocol/message_type'
 import type { TrajectoryInfo } from '../protocol/mrlab_msgs'
 import { sentence, spoken, type Told } from '../words/diagnostic'
 import type { Words } from '../words/en'

@@ -1,7 +1,7 @@
 import type { Object3D } from 'three'
 import type { Link } from '../link/link'
-import { LatencyHop, latencyHopType, latencyType } from '../protocol/mrlab_msgs'
-import { jointStateType } from '../protocol/sensor_msgs'
+import { LatencyHop, latencyWriter } from '../protocol/mrlab_msgs'
+import { jointStateReader } from '../protocol/sensor_msgs'
 import { fixed } from '../words/words'
 import type { RoomContext } from './context'
 import { Panel } from './panels/panel'
@@ -42,7 +42,7 @@ export class Stats {
     const opened = link.onStatus(({ phase }) => {
       if (phase === 'open') since = link.labTime()
     })
-    const heard = link.subscribe('*/joint_states', jointStateType, (_, { stamp }) => {
+    const heard = link.subscribe('*/joint_states', jointStateReader, (_, { stamp }) => {
       if (stamp >= since) this.ages.add(link.labTime() - stamp)
     })
     this.undo = () => {
@@ -102,26 +102,22 @@ export function tell(link: Link, { count, p50, p95, most }: Ages): void {
   if (count === 0 || Number.isNaN(roundTrip)) return
   const now = link.labTime()
   const sec = Math.floor(now)
-  const hop = latencyHopType.create({
+  const hop = {
     hop: LatencyHop.PUBLISHED_TO_RECEIVED,
     topic: '',
     count,
     p50,
     p95,
     max: most,
+  }
+  link.publish('latency/clients', latencyWriter, {
+    header: { stamp: { sec, nanosec: Math.floor((now - sec) * 1e9) }, frame_id: '' },
+    observer: 'room',
+    window: WINDOW,
+    // the clocks' offset is wrong by half a round trip at most
+    clock_error: roundTrip / 2,
+    hops: [hop],
   })
-  link.publish(
-    'latency/clients',
-    latencyType,
-    latencyType.create({
-      header: { stamp: { sec, nanosec: Math.floor((now - sec) * 1e9) }, frame_id: '' },
-      observer: 'room',
-      window: WINDOW,
-      // the clocks' offset is wrong by half a round trip at most
-      clock_error: roundTrip / 2,
-      hops: [hop],
-    }),
-  )
 }
 
 /** Ages that are kept of one window: a lab of ten robots sends fewer in a second. */

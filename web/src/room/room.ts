@@ -1,7 +1,7 @@
 import { signal } from '@preact/signals'
 import { Quaternion, Vector3 } from 'three'
 import type { LabFollower } from '../lab/follower'
-import { type TrajectoryInfo, trajectoryCatalogueType } from '../protocol/mrlab_msgs'
+import { type TrajectoryInfo, trajectoryCatalogueReader } from '../protocol/mrlab_msgs'
 import { LabScene } from '../scene/lab/lab_scene'
 import type { ShownSurface } from '../scene/lab/surfaces'
 import { MeshLibrary } from '../scene/robot/meshes'
@@ -146,7 +146,7 @@ export class Room implements Fixtures {
     this.undo = [
       pauseNews(link, (who, names) => context.say(words.room.pausedBy(who, names.join(', ')))),
       applySettings(this.settings, this.visit, () => this.repaint()),
-      link.subscribe('trajectories', trajectoryCatalogueType, ({ trajectories }) => {
+      link.subscribe('trajectories', trajectoryCatalogueReader, ({ trajectories }) => {
         this.trajectories = trajectories
         this.panels.repaint()
       }),

@@ -171,7 +171,7 @@ function shown(
 ): string {
   if (quantity === 'text') return String(values[name] ?? '')
   const value = typed(values[name])
-  const of = quantity === 'measure' ? (UNITS[String(values['unit'] ?? '')] ?? 'number') : quantity
+  const of = quantity === 'measure' ? (UNITS[String(values.unit ?? '')] ?? 'number') : quantity
   const figure = Number(value)
   switch (of) {
     case 'integer':

@@ -1,26 +1,26 @@
 import { expect, test, vi } from 'vitest'
 import { commandsOf } from '../../src/lab/commands'
 import { LabFollower } from '../../src/lab/follower'
-import { FakeLink } from '../../src/link/fake'
 import { Course } from '../../src/playback/course'
 import {
-  collisionType,
-  contactsType,
-  contactType,
+  collisionReader,
+  contactsReader,
+  createContact,
+  createRobot,
+  createRobotSystem,
   Grasp,
-  graspType,
+  graspReader,
   PlaybackState,
-  playbackStateType,
-  recorderStateType,
-  robotSystemsType,
-  robotSystemType,
-  robotsType,
-  robotType,
+  playbackStateReader,
+  recorderStateReader,
+  robotSystemsReader,
+  robotsReader,
   triggerType,
 } from '../../src/protocol/mrlab_msgs'
-import { jointStateType } from '../../src/protocol/sensor_msgs'
-import { stringType } from '../../src/protocol/std_msgs'
+import { jointStateReader } from '../../src/protocol/sensor_msgs'
+import { stringReader } from '../../src/protocol/std_msgs'
 import type { LabScene } from '../../src/scene/lab/lab_scene'
+import { FakeLink } from '../fake_link'
 
 function lab() {
   const link = new FakeLink()
@@ -47,26 +47,26 @@ function lab() {
     courseOf,
   })
   follower.attach(scene as unknown as LabScene)
-  const robot = robotType.create({ name: 'ur5e_1', model: 'ur5e' })
+  const robot = { ...createRobot(), name: 'ur5e_1', model: 'ur5e' }
   return { link, scene, joints, stir, follower, robot, courseOf }
 }
 
 test('a robot is drawn with its URDF, whichever comes first', () => {
   const { link, scene, follower, robot } = lab()
   expect(follower.known.value).toBe(false)
-  link.deliver('ur5e_1/robot_description', stringType, { data: '<robot/>' })
-  link.deliver('robots', robotsType, { robots: [robot] })
+  link.deliver('ur5e_1/robot_description', stringReader, { data: '<robot/>' })
+  link.deliver('robots', robotsReader, { robots: [robot] })
   expect(follower.known.value).toBe(true)
   expect(scene.setRobots.mock.lastCall?.[0]).toMatchObject([{ name: 'ur5e_1', urdf: '<robot/>' }])
-  link.deliver('robots', robotsType, { robots: [] })
+  link.deliver('robots', robotsReader, { robots: [] })
   expect(scene.setRobots.mock.lastCall?.[0]).toEqual([])
   expect(follower.robots.value).toEqual([])
 })
 
 test('a state moves the timeline and the word above the robot', () => {
   const { link, scene, follower, robot } = lab()
-  link.deliver('robots', robotsType, { robots: [robot] })
-  link.deliver('ur5e_1/playback_state', playbackStateType, {
+  link.deliver('robots', robotsReader, { robots: [robot] })
+  link.deliver('ur5e_1/playback_state', playbackStateReader, {
     state: PlaybackState.PLAYING,
     clock: { stamp: { sec: 998, nanosec: 500_000_000 }, position: 1, rate: 2 },
     duration: 10,
@@ -80,7 +80,7 @@ test('a state moves the timeline and the word above the robot', () => {
 
 test('joint states go to the picture by name, and ask for a new one', () => {
   const { link, joints, stir } = lab()
-  link.deliver('ur5e_1/joint_states', jointStateType, {
+  link.deliver('ur5e_1/joint_states', jointStateReader, {
     name: ['a', 'b'],
     position: Float64Array.of(1, 2),
   })
@@ -93,19 +93,19 @@ test('joint states go to the picture by name, and ask for a new one', () => {
 
 test('what is held and what is touched is said', () => {
   const { link, scene, follower, robot } = lab()
-  link.deliver('robots', robotsType, { robots: [robot] })
-  link.deliver('ur5e_1/grasp', graspType, { state: Grasp.HOLDING, object: 'rod_1' })
-  const collision = collisionType.create({ colliding: true })
+  link.deliver('robots', robotsReader, { robots: [robot] })
+  link.deliver('ur5e_1/grasp', graspReader, { state: Grasp.HOLDING, object: 'rod_1' })
+  const collision = collisionReader.create({ colliding: true })
   collision.contact.link = 'forearm_link'
   collision.contact.other = 'table'
-  link.deliver('ur5e_1/collision', collisionType, collision)
+  link.deliver('ur5e_1/collision', collisionReader, collision)
   expect(follower.robots.value[0]).toMatchObject({
     holding: 'rod_1',
     touching: 'forearm_link ↔ table',
   })
   expect(scene.setCollision).toHaveBeenLastCalledWith('ur5e_1', 'forearm_link')
-  link.deliver('ur5e_1/grasp', graspType, { state: Grasp.OPEN, object: '' })
-  link.deliver('ur5e_1/collision', collisionType, { colliding: false })
+  link.deliver('ur5e_1/grasp', graspReader, { state: Grasp.OPEN, object: '' })
+  link.deliver('ur5e_1/collision', collisionReader, { colliding: false })
   expect(follower.robots.value[0]).toMatchObject({ holding: '', touching: '' })
   expect(scene.setCollision).toHaveBeenLastCalledWith('ur5e_1', '')
 })
@@ -113,7 +113,7 @@ test('what is held and what is touched is said', () => {
 test('a timeline commands its robot', async () => {
   const { link, follower, robot } = lab()
   link.answer('ur5e_1/pause', triggerType, () => ({ success: true, message: '' }))
-  link.deliver('robots', robotsType, { robots: [robot] })
+  link.deliver('robots', robotsReader, { robots: [robot] })
   follower.robots.value[0]?.player.pause()
   await vi.waitFor(() => expect(link.calls.map((call) => call.service)).toEqual(['ur5e_1/pause']))
 })
@@ -122,39 +122,39 @@ test('a replay goes on between the recorder’s messages and stands when it is p
   const { link, follower } = lab()
   const header = { stamp: { sec: 999, nanosec: 0 }, frame_id: '' }
   const state = { header, bag: 'class.bag', position: 3, duration: 20, rate: 2 }
-  link.deliver('recorder/state', recorderStateType, { ...state, state: 2 })
+  link.deliver('recorder/state', recorderStateReader, { ...state, state: 2 })
   expect(follower.replay.position()).toBeCloseTo(5)
-  link.deliver('recorder/state', recorderStateType, { ...state, state: 3 })
+  link.deliver('recorder/state', recorderStateReader, { ...state, state: 3 })
   expect(follower.replay.position()).toBeCloseTo(3)
 })
 
 test('a system keeps its timeline from message to message', () => {
   const { link, follower } = lab()
-  const system = robotSystemType.create({ name: 'cell', duration: 8, rate: 1 })
-  link.deliver('systems', robotSystemsType, { systems: [system] })
+  const system = { ...createRobotSystem(), name: 'cell', duration: 8, rate: 1 }
+  link.deliver('systems', robotSystemsReader, { systems: [system] })
   const player = follower.systems.value[0]?.player
-  link.deliver('systems', robotSystemsType, { systems: [system] })
+  link.deliver('systems', robotSystemsReader, { systems: [system] })
   expect(follower.systems.value[0]?.player).toBe(player)
   expect(player?.duration).toBe(8)
 })
 
 test('each key is counted, and nothing is heard after the end', () => {
   const { link, follower, robot } = lab()
-  link.deliver('robots', robotsType, { robots: [robot] })
-  link.deliver('robots', robotsType, { robots: [robot] })
+  link.deliver('robots', robotsReader, { robots: [robot] })
+  link.deliver('robots', robotsReader, { robots: [robot] })
   expect(follower.activity.get('robots')).toMatchObject({
     type: 'mrlab_msgs/msg/Robots',
     count: 2,
     newest: 1000,
   })
   follower.dispose()
-  link.deliver('robots', robotsType, { robots: [] })
+  link.deliver('robots', robotsReader, { robots: [] })
   expect(follower.robots.value).toHaveLength(1)
 })
 
 test('a playing robot is drawn by its clock until joint states contradict it', async () => {
   const { link, joints, follower, robot, courseOf } = lab()
-  link.deliver('robots', robotsType, { robots: [{ ...robot, joint_names: ['a', 'b'] }] })
+  link.deliver('robots', robotsReader, { robots: [{ ...robot, joint_names: ['a', 'b'] }] })
   const clock = { stamp: { sec: 1000, nanosec: 0 }, position: 0, rate: 1 }
   const playing = {
     state: PlaybackState.PLAYING,
@@ -164,12 +164,12 @@ test('a playing robot is drawn by its clock until joint states contradict it', a
     duration: 0.1,
     rate: 1,
   }
-  link.deliver('ur5e_1/playback_state', playbackStateType, playing)
+  link.deliver('ur5e_1/playback_state', playbackStateReader, playing)
   expect(courseOf).toHaveBeenCalledExactlyOnceWith('wave@3')
   await vi.waitFor(() => expect(courseOf.mock.results).toHaveLength(1))
   await courseOf.mock.results[0]?.value
   const states = (nanosec: number, a: number) =>
-    link.deliver('ur5e_1/joint_states', jointStateType, {
+    link.deliver('ur5e_1/joint_states', jointStateReader, {
       header: { stamp: { sec: 1000, nanosec }, frame_id: '' },
       name: ['a', 'b'],
       position: Float64Array.of(a, 2 * a),
@@ -194,15 +194,15 @@ test('a playing robot is drawn by its clock until joint states contradict it', a
 test('where a trajectory cannot be had, the joint states pose the robot', async () => {
   const { link, joints, follower, robot, courseOf } = lab()
   courseOf.mockRejectedValue(new Error('404'))
-  link.deliver('robots', robotsType, { robots: [{ ...robot, joint_names: ['a'] }] })
-  link.deliver('ur5e_1/playback_state', playbackStateType, {
+  link.deliver('robots', robotsReader, { robots: [{ ...robot, joint_names: ['a'] }] })
+  link.deliver('ur5e_1/playback_state', playbackStateReader, {
     state: PlaybackState.PLAYING,
     trajectory_id: 'secret',
     clock: { stamp: { sec: 999, nanosec: 0 }, position: 0, rate: 1 },
     duration: 10,
   })
   await courseOf.mock.results[0]?.value.catch(() => undefined)
-  link.deliver('ur5e_1/joint_states', jointStateType, {
+  link.deliver('ur5e_1/joint_states', jointStateReader, {
     name: ['a', 'finger'],
     position: Float64Array.of(1, 2),
   })
@@ -215,8 +215,8 @@ test('where a trajectory cannot be had, the joint states pose the robot', async 
 
 test('without the link a robot stands where it was last known', () => {
   const { link, follower, robot, stir } = lab()
-  link.deliver('robots', robotsType, { robots: [robot] })
-  link.deliver('ur5e_1/playback_state', playbackStateType, {
+  link.deliver('robots', robotsReader, { robots: [robot] })
+  link.deliver('ur5e_1/playback_state', playbackStateReader, {
     state: PlaybackState.PLAYING,
     clock: { stamp: { sec: 1000, nanosec: 0 }, position: 0, rate: 1 },
     duration: 10,
@@ -235,8 +235,8 @@ test('without the link a robot stands where it was last known', () => {
 
 test('what touched is shown no longer than it touches: the lab says nothing of what no longer does', () => {
   const { link, scene, follower } = lab()
-  const contacts = contactsType.create({ contacts: [contactType.create()] })
-  link.deliver('contacts', contactsType, contacts)
+  const contacts = contactsReader.create({ contacts: [createContact()] })
+  link.deliver('contacts', contactsReader, contacts)
   expect(scene.setContacts.mock.lastCall?.[0]).toHaveLength(1)
   link.time = 1000.2
   follower.pose()
@@ -250,19 +250,19 @@ test('what touched is shown no longer than it touches: the lab says nothing of w
 
 test('robots keep the order of the lab, whichever was heard of first', () => {
   const { link, follower } = lab()
-  link.deliver('b/playback_state', playbackStateType, {})
-  const robots = ['a', 'b'].map((name) => robotType.create({ name }))
-  link.deliver('robots', robotsType, { robots })
+  link.deliver('b/playback_state', playbackStateReader, {})
+  const robots = ['a', 'b'].map((name) => ({ ...createRobot(), name }))
+  link.deliver('robots', robotsReader, { robots })
   expect(follower.robots.value.map((each) => each.robot.name)).toEqual(['a', 'b'])
 })
 
 test('the frames of a trajectory are fetched once for all robots that play it', async () => {
   const { link, follower, robot, courseOf } = lab()
   const robots = ['a', 'b'].map((name) => ({ ...robot, name, joint_names: ['p', 'q'] }))
-  link.deliver('robots', robotsType, { robots })
+  link.deliver('robots', robotsReader, { robots })
   const loaded = { state: PlaybackState.READY, trajectory_id: 'wave', trajectory_version: 1 }
   for (const name of ['a', 'b'])
-    link.deliver(`${name}/playback_state`, playbackStateType, { ...loaded, duration: 0.1 })
+    link.deliver(`${name}/playback_state`, playbackStateReader, { ...loaded, duration: 0.1 })
   await vi.waitFor(() => expect(follower.course('b')).not.toBeNull())
   expect(follower.course('b')).toBe(follower.course('a'))
   expect(courseOf).toHaveBeenCalledTimes(1)

@@ -2,14 +2,21 @@ import { afterEach, beforeEach, describe, expect, test, vi } from 'vitest'
 import { RecordKind } from '../../src/link/frames'
 import type { Link, LinkStatus } from '../../src/link/link'
 import { openLink } from '../../src/link/socket'
+import { CdrReader } from '../../src/protocol/cdr'
 import {
-  objectRemovedType,
+  objectRemovedReader,
   type Robots,
-  robotsType,
+  robotsReader,
   seekType,
   triggerType,
 } from '../../src/protocol/mrlab_msgs'
-import { type JointState, jointStateType } from '../../src/protocol/sensor_msgs'
+import { type JointState, jointStateReader } from '../../src/protocol/sensor_msgs'
+import {
+  jointStatePayload,
+  objectRemovedPayload,
+  responsePayload,
+  robotsPayload,
+} from '../protocol/payloads'
 import { GatewaySide, TOKEN } from './gateway_side'
 
 const utf8 = new TextEncoder()
@@ -17,9 +24,7 @@ let link: Link
 let statuses: LinkStatus[]
 
 function joints(value: number): Uint8Array {
-  return jointStateType.encode(
-    jointStateType.create({ name: ['a'], position: new Float64Array([value]) }),
-  )
+  return jointStatePayload(['a'], new Float64Array([value]))
 }
 
 beforeEach(() => {
@@ -44,7 +49,7 @@ afterEach(() => {
 
 describe('messages', () => {
   test('the page asks for its topics, and gives credit for two batches', () => {
-    link.subscribe('*/joint_states', jointStateType, () => {})
+    link.subscribe('*/joint_states', jointStateReader, () => {})
     const side = GatewaySide.last.open()
     expect(side.protocol).toBe('mrlab.1')
     expect(side.sent('hello')).toMatchObject({ subscriptions: { 1: '*/joint_states' }, token: '' })
@@ -54,7 +59,7 @@ describe('messages', () => {
 
   test('a batch is decoded, then the next one may come', () => {
     const got: [string, number, number][] = []
-    link.subscribe('*/joint_states', jointStateType, (message, sample) => {
+    link.subscribe('*/joint_states', jointStateReader, (message, sample) => {
       expect(side.granted.at(-1)).toBe(2)
       got.push([sample.key, sample.stamp, message.position[0] as number])
     })
@@ -75,12 +80,12 @@ describe('messages', () => {
   test('a stream reuses its message, a state does not', () => {
     const streams: JointState[] = []
     const states: Robots[] = []
-    link.subscribe('a/joint_states', jointStateType, (message) => streams.push(message))
-    link.subscribe('robots', robotsType, (message) => states.push(message))
+    link.subscribe('a/joint_states', jointStateReader, (message) => streams.push(message))
+    link.subscribe('robots', robotsReader, (message) => states.push(message))
     const side = GatewaySide.last.open()
     side.topic(1, 'a/joint_states')
     side.topic(2, 'robots', { latched: true })
-    const robots = robotsType.encode(robotsType.create())
+    const robots = robotsPayload()
     for (const number of [1, 2]) {
       side.batch(number, [
         { topic: 1, payload: joints(number) },
@@ -93,7 +98,7 @@ describe('messages', () => {
 
   test('after the end of a subscription nothing comes', () => {
     let count = 0
-    const stop = link.subscribe('a/joint_states', jointStateType, () => count++)
+    const stop = link.subscribe('a/joint_states', jointStateReader, () => count++)
     const side = GatewaySide.last.open()
     side.topic(1, 'a/joint_states')
     stop()
@@ -105,7 +110,7 @@ describe('messages', () => {
   test('a message of another type is left out and the rest arrives', () => {
     const complain = vi.spyOn(console, 'error').mockImplementation(() => {})
     let count = 0
-    link.subscribe('*/joint_states', jointStateType, () => count++)
+    link.subscribe('*/joint_states', jointStateReader, () => count++)
     const side = GatewaySide.last.open()
     side.topic(1, 'a/joint_states')
     side.topic(2, 'b/joint_states')
@@ -131,11 +136,11 @@ describe('messages', () => {
 describe('the lossless channel', () => {
   test('a record in pieces is put together and acknowledged', () => {
     const names: string[] = []
-    link.subscribe('objects/removed', objectRemovedType, ({ name }) => names.push(name))
+    link.subscribe('objects/removed', objectRemovedReader, ({ name }) => names.push(name))
     const side = GatewaySide.last.open()
     side.topic(3, 'objects/removed', { each: true })
     const name = 'x'.repeat(300)
-    const payload = objectRemovedType.encode(objectRemovedType.create({ name }))
+    const payload = objectRemovedPayload(name)
     side.record(RecordKind.MESSAGE, 3, payload, { size: 100 })
     expect(names).toEqual([name])
     expect(side.received).toEqual([1, 2, 3, 4])
@@ -143,8 +148,8 @@ describe('the lossless channel', () => {
 
   test('what comes twice after a reconnect counts once', () => {
     const names: string[] = []
-    link.subscribe('objects/removed', objectRemovedType, ({ name }) => names.push(name))
-    const event = (name: string) => objectRemovedType.encode(objectRemovedType.create({ name }))
+    link.subscribe('objects/removed', objectRemovedReader, ({ name }) => names.push(name))
+    const event = objectRemovedPayload
     const first = GatewaySide.last.open()
     first.topic(3, 'objects/removed', { each: true })
     first.record(RecordKind.MESSAGE, 3, event('a'))
@@ -164,10 +169,9 @@ describe('services', () => {
     const play = link.call('a/play', triggerType, {})
     const seek = link.call('a/seek', seekType, { position: 2 })
     expect(side.calls.map(({ key }) => key)).toEqual(['a/play', 'a/seek'])
-    expect(seekType.request.decode(side.calls[1]?.payload as Uint8Array).position).toBe(2)
-    const { response } = seekType
-    side.record(RecordKind.RESPONSE, 2, response.encode(response.create({ message: 'seek' })))
-    side.record(RecordKind.RESPONSE, 1, response.encode(response.create({ message: 'play' })))
+    expect(new CdrReader().open(side.calls[1]?.payload as Uint8Array).float64()).toBe(2)
+    side.record(RecordKind.RESPONSE, 2, responsePayload(true, 'seek'))
+    side.record(RecordKind.RESPONSE, 1, responsePayload(true, 'play'))
     expect((await play).message).toBe('play')
     expect((await seek).message).toBe('seek')
   })
@@ -202,8 +206,7 @@ describe('services', () => {
     vi.advanceTimersByTime(250)
     const second = GatewaySide.last.open({ resumed: true })
     expect(second.calls).toMatchObject([{ key: 'a/play', request: 1 }])
-    const { response } = triggerType
-    second.record(RecordKind.RESPONSE, 1, response.encode(response.create({ success: true })))
+    second.record(RecordKind.RESPONSE, 1, responsePayload(true, ''))
     expect((await play).success).toBe(true)
   })
 

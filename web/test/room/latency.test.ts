@@ -1,6 +1,6 @@
 import { expect, it } from 'vitest'
-import { FakeLink } from '../../src/link/fake'
 import { Ages, tell } from '../../src/room/latency'
+import { FakeLink } from '../fake_link'
 
 it('tells the lab how old messages were, each window by itself', () => {
   const link = new FakeLink()

@@ -2,17 +2,18 @@
  * and a JSON line for each thing that happens. Arguments: url, cookie. */
 
 import { createInterface } from 'node:readline'
-import type { LinkError, ServiceType } from '../../src/link/link'
+import type { LinkError } from '../../src/link/link'
 import { openLink } from '../../src/link/socket'
+import type { ServiceType } from '../../src/protocol/message_type'
 import {
   convertTrajectoryType,
   loadTrajectoryType,
-  playbackStateType,
-  robotsType,
+  playbackStateReader,
+  robotsReader,
   setLoopType,
   triggerType,
 } from '../../src/protocol/mrlab_msgs'
-import { jointStateType } from '../../src/protocol/sensor_msgs'
+import { jointStateReader } from '../../src/protocol/sensor_msgs'
 
 const [url = '', cookie = ''] = process.argv.slice(2)
 const origin = url.replace(/^ws/, 'http').replace(/\/link$/, '')
@@ -40,14 +41,14 @@ link.onStatus((status) => {
   phase = status.phase
   say({ status: phase, reason: status.reason, topics: Object.keys(link.offer.topics).length })
 })
-link.subscribe('robots', robotsType, ({ robots }) => {
+link.subscribe('robots', robotsReader, ({ robots }) => {
   say({ robots: robots.map(({ name }) => name) })
 })
-link.subscribe('*/playback_state', playbackStateType, ({ label, clock }, { key }) => {
+link.subscribe('*/playback_state', playbackStateReader, ({ label, clock }, { key }) => {
   say({ state: label, key, stamp: clock.stamp.sec })
 })
 let count = 0
-link.subscribe('*/joint_states', jointStateType, ({ name, position, header }, { stamp }) => {
+link.subscribe('*/joint_states', jointStateReader, ({ name, position, header }, { stamp }) => {
   count++
   if (count % 25 !== 1) return
   const published = header.stamp.sec + header.stamp.nanosec / 1e9
@@ -67,7 +68,7 @@ createInterface({ input: process.stdin }).on('line', (line) => {
   }
   const kind = services.get(type)
   if (kind === undefined) throw new Error(`${type} is none of ${[...services.keys()]}`)
-  link.call(service, kind, kind.request.create(request)).then(
+  link.call(service, kind, request).then(
     (response) => say({ answer: id, response }),
     (error: LinkError) => say({ answer: id, error: error.kind, told: error.told }),
   )

@@ -3,7 +3,7 @@ import type { RobotLibrary } from '../../api/types'
 import { Button } from '../../design/button'
 import { Dialog } from '../../design/dialog'
 import { ask } from '../../lab/commands'
-import { spawnRobotType } from '../../protocol/mrlab_msgs'
+import { createSpawnRobotRequest, spawnRobotType } from '../../protocol/mrlab_msgs'
 import { useApi } from '../../shell/session'
 import { sentence } from '../../words/diagnostic'
 import { words } from '../../words/words'
@@ -28,13 +28,13 @@ export function AddRobot({ onClose }: { onClose: () => void }) {
   const add = async (event: Event) => {
     event.preventDefault()
     setBusy(true)
-    const request = { model, end_effector: effector, automatic: true }
-    const refusal = await ask(
-      link,
-      'lab/spawn_robot',
-      spawnRobotType,
-      spawnRobotType.request.create(request),
-    )
+    const request = {
+      ...createSpawnRobotRequest(),
+      model,
+      end_effector: effector,
+      automatic: true,
+    }
+    const refusal = await ask(link, 'lab/spawn_robot', spawnRobotType, request)
     setBusy(false)
     if (refusal === '') onClose()
     else setError(refusal)

@@ -13,7 +13,7 @@ import { commandsOf, trigger } from '../../lab/commands'
 import { LabFollower } from '../../lab/follower'
 import type { Link } from '../../link/link'
 import { courseOf } from '../../playback/course'
-import { trajectoryCatalogueType } from '../../protocol/mrlab_msgs'
+import { trajectoryCatalogueReader } from '../../protocol/mrlab_msgs'
 import { checkSignIn, session, useApi } from '../../shell/session'
 import { fixed, words } from '../../words/words'
 import { AddRobot } from './add_robot'
@@ -54,7 +54,7 @@ export function Lab({ link }: { link: Link }) {
   useEffect(() => {
     void catalogue.load()
     // others publish while this page is open
-    return link.subscribe('trajectories', trajectoryCatalogueType, () => void catalogue.load())
+    return link.subscribe('trajectories', trajectoryCatalogueReader, () => void catalogue.load())
   }, [link, catalogue])
   useEffect(() => {
     let here = true

@@ -1,5 +1,9 @@
 import type { LabFollower } from '../../lab/follower'
-import { createSystemMember, createSystemType } from '../../protocol/mrlab_msgs'
+import {
+  createCreateSystemRequest,
+  createSystemMember,
+  createSystemType,
+} from '../../protocol/mrlab_msgs'
 import { order, type RoomContext } from '../context'
 import { GAP, HIT, TEXT } from '../panels/pen'
 import type { Creation } from '../systems/creation'
@@ -50,7 +54,6 @@ async function create(
   follower: LabFollower,
   mode: number,
 ): Promise<void> {
-  const base = createSystemType.request.create()
   const motionOf = (name: string) =>
     follower.robots.value.find(({ robot }) => robot.name === name)?.playback?.trajectory_id ?? ''
   const members = creation.picked.map((robot) => ({
@@ -59,7 +62,7 @@ async function create(
     trajectory_id: motionOf(robot),
   }))
   const answer = await order(context, 'coordinator/create_system', createSystemType, {
-    ...base,
+    ...createCreateSystemRequest(),
     members,
     mode,
   })

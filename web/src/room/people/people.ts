@@ -1,6 +1,11 @@
 import { type Object3D, Quaternion, type Vector3 } from 'three'
 import type { Link } from '../../link/link'
-import { type Presence, presenceType } from '../../protocol/mrlab_msgs'
+import {
+  createPresence,
+  type Presence,
+  presenceReader,
+  presenceWriter,
+} from '../../protocol/mrlab_msgs'
 import type { Words } from '../../words/en'
 import type { Viewer } from '../place/alignment'
 import { poseInWorld } from '../scene/frames'
@@ -32,7 +37,7 @@ export interface Present {
 export class People {
   private readonly people = new Map<string, Person>()
   private readonly shapes = new AvatarShapes()
-  private readonly own = presenceType.create()
+  private readonly own = createPresence()
   private readonly undo: () => void
   private toldAt = Number.NEGATIVE_INFINITY
   private now = 0
@@ -47,7 +52,7 @@ export class People {
   ) {
     this.own.id = id
     this.own.header.frame_id = 'world'
-    this.undo = link.subscribe('presence', presenceType, (message) => this.take(message))
+    this.undo = link.subscribe('presence', presenceReader, (message) => this.take(message))
   }
 
   /** The others. */
@@ -102,7 +107,7 @@ export class People {
     stamp.sec = Math.floor(time)
     stamp.nanosec = Math.floor((time - stamp.sec) * 1e9)
     own.away = away
-    link.publish('presence', presenceType, own)
+    link.publish('presence', presenceWriter, own)
   }
 
   private take(message: Presence): void {

@@ -1,7 +1,12 @@
 import { Quaternion, Vector3 } from 'three'
 import type { Unsubscribe } from '../../link/link'
 import type { Pose } from '../../protocol/geometry_msgs'
-import { listCatalogueType, type ObjectType, spawnRobotType } from '../../protocol/mrlab_msgs'
+import {
+  createSpawnRobotRequest,
+  listCatalogueType,
+  type ObjectType,
+  spawnRobotType,
+} from '../../protocol/mrlab_msgs'
 import { type Entry, order, type RoomContext } from '../context'
 import { poseInWorld } from '../scene/frames'
 import type { Viewer } from './alignment'
@@ -32,12 +37,13 @@ export class Spawning {
   /** Have the lab place a robot on what is before the eyes. */
   async spawn({ id }: Entry): Promise<void> {
     const { context, viewer } = this
-    const request = spawnRobotType.request.create({
+    const request = {
+      ...createSpawnRobotRequest(),
       model: id,
       automatic: true,
       has_viewer: true,
       viewer: poseInWorld(context.world, viewer.head, viewer.look),
-    })
+    }
     const answer = await order(context, 'lab/spawn_robot', spawnRobotType, request)
     if (answer !== null) context.say(context.words.room.placed(answer.robot.name), false)
   }

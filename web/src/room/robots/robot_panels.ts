@@ -1,7 +1,7 @@
 import { type Object3D, Vector3 } from 'three'
 import type { RobotView } from '../../lab/followed_robot'
 import type { Unsubscribe } from '../../link/link'
-import { telemetryType } from '../../protocol/mrlab_msgs'
+import { telemetryReader } from '../../protocol/mrlab_msgs'
 import type { LabScene } from '../../scene/lab/lab_scene'
 import type { RoomContext } from '../context'
 import type { Targets } from '../input/targets'
@@ -139,7 +139,7 @@ export class RobotPanels {
       panel.panel.group.position.x = BETWEEN
       control.panel.group.add(panel.panel.group)
       this.targets.add(panel.panel)
-      const undo = this.context.link.subscribe(`${name}/telemetry`, telemetryType, (message) =>
+      const undo = this.context.link.subscribe(`${name}/telemetry`, telemetryReader, (message) =>
         panel.take(message),
       )
       const gone = () => {

@@ -11,7 +11,7 @@ import {
   Vector3,
 } from 'three'
 import type { Link } from '../../link/link'
-import { collisionType, type GraspTarget, graspTargetsType } from '../../protocol/mrlab_msgs'
+import { collisionReader, type GraspTarget, graspTargetsReader } from '../../protocol/mrlab_msgs'
 import type { LabScene } from '../../scene/lab/lab_scene'
 import { Label } from '../../scene/stage/labels'
 
@@ -52,10 +52,10 @@ export class Overlays {
     private readonly world: Object3D,
   ) {
     this.undo = [
-      link.subscribe('*/targets', graspTargetsType, (message, { key }) => {
+      link.subscribe('*/targets', graspTargetsReader, (message, { key }) => {
         this.setTargets(key.slice(0, key.indexOf('/')), message.targets)
       }),
-      link.subscribe('*/collision', collisionType, ({ colliding, contact }, { key }) => {
+      link.subscribe('*/collision', collisionReader, ({ colliding, contact }, { key }) => {
         const name = key.slice(0, key.indexOf('/'))
         if (!colliding) this.removeImpact(name)
         else this.showImpact(name, contact.point, contact.normal)

@@ -1,17 +1,17 @@
 import { Group, Ray, Vector3 } from 'three'
 import { expect, test, vi } from 'vitest'
-import { FakeLink } from '../../../src/link/fake'
 import {
   attachType,
+  createSceneObject,
   detachType,
   moveObjectType,
-  sceneObjectType,
 } from '../../../src/protocol/mrlab_msgs'
 import type { RoomContext } from '../../../src/room/context'
 import { ObjectHandle } from '../../../src/room/handles/object_handle'
 import type { Pointer } from '../../../src/room/input/pointer'
 import type { LabScene } from '../../../src/scene/lab/lab_scene'
 import { en } from '../../../src/words/en'
+import { FakeLink } from '../../fake_link'
 
 function carried(heldBy: string, robotAt: string) {
   const link = new FakeLink()
@@ -27,7 +27,7 @@ function carried(heldBy: string, robotAt: string) {
     words: en,
     robotAt: () => robotAt,
   } as unknown as RoomContext
-  const object = sceneObjectType.create({ name: 'cube_1', held_by: heldBy })
+  const object = { ...createSceneObject(), name: 'cube_1', held_by: heldBy }
   object.pose.position.x = 2
   object.size.x = object.size.y = object.size.z = 0.05
   const moveObject = vi.fn()
@@ -78,7 +78,7 @@ test('what is in the hand of somebody else is left there, until that hand moves 
   const { handle, pointer, services, context } = carried('', '')
   handle.on({ kind: 'up', pointer, button: 'select' })
   handle.update(5)
-  const moved = sceneObjectType.create({ name: 'cube_1', held_by: 'hand' })
+  const moved = { ...createSceneObject(), name: 'cube_1', held_by: 'hand' }
   moved.pose.position.x = 2.1
   moved.size.x = moved.size.y = moved.size.z = 0.05
   handle.show(moved)
@@ -97,7 +97,7 @@ test('what is in the hand of somebody else is left there, until that hand moves 
 test('what was just let go is taken again, though the lab still has it in the hand', () => {
   const { handle, pointer, services } = carried('', '')
   handle.on({ kind: 'up', pointer, button: 'select' })
-  const late = sceneObjectType.create({ name: 'cube_1', held_by: 'hand' })
+  const late = { ...createSceneObject(), name: 'cube_1', held_by: 'hand' }
   late.size.x = late.size.y = late.size.z = 0.05
   handle.show(late)
   const before = services().length

@@ -2,9 +2,9 @@ import { signal } from '@preact/signals'
 import { describe, expect, it, vi } from 'vitest'
 import type { RobotView } from '../../../src/lab/followed_robot'
 import type { LabFollower, SystemView } from '../../../src/lab/follower'
-import { FakeLink } from '../../../src/link/fake'
 import { RobotSystem, triggerType } from '../../../src/protocol/mrlab_msgs'
 import { movingNow, pauseAll, pauseNews } from '../../../src/room/people/pausing'
+import { FakeLink } from '../../fake_link'
 
 function lab(): Pick<LabFollower, 'robots' | 'systems'> {
   const robot = (name: string, state: string, system = '') =>

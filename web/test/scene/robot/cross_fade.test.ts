@@ -26,9 +26,11 @@ test('both are shown while one dissolves into the other, and no longer', () => {
 test('at the border it stays as it was', () => {
   const seen = [3, 3.9, 4.1, 3.7, 3.61, 3.59, 3.7, 3.99]
   const fade = fading(0)
-  expect(seen.map((distance, i) => (fade.step(distance, i), fade.share))).toEqual([
-    0, 0, 1, 1, 1, 0, 0, 0,
-  ])
+  const shares = seen.map((distance, i) => {
+    fade.step(distance, i)
+    return fade.share
+  })
+  expect(shares).toEqual([0, 0, 1, 1, 1, 0, 0, 0])
 })
 
 test('one that turns back goes on from where it is', () => {

@@ -1,21 +1,20 @@
-import { own } from '../words/diagnostic'
 import {
   type Deed,
   type LabOffer,
   type Link,
   LinkError,
   type LinkStatus,
-  type MessageType,
   type Sample,
-  type ServiceType,
   type Unsubscribe,
-} from './link'
-import { patternOf } from './topics'
+} from '../src/link/link'
+import { patternOf } from '../src/link/topics'
+import type { MessageReader, MessageWriter, ServiceType } from '../src/protocol/message_type'
+import { own } from '../src/words/diagnostic'
 
 type Answer = (request: unknown) => unknown
 
-/** A link without a gateway, for tests and demos: messages and answers are set by hand. Messages
- * go through their codecs, so that a listener gets what it would get from a lab. */
+/** A link without a gateway, for tests and demos: messages and answers are set by hand. A listener
+ * gets a copy of its own. */
 export class FakeLink implements Link {
   status: LinkStatus = { phase: 'open', reason: '', roundTrip: 0.001 }
   offer: LabOffer = { topics: {}, services: {}, latched: new Set() }
@@ -30,9 +29,9 @@ export class FakeLink implements Link {
   private readonly deedListeners = new Set<(deed: Deed) => void>()
   private readonly subscriptions = new Set<{
     pattern: RegExp
-    listener: (payload: Uint8Array, sample: Sample) => void
+    listener: (message: unknown, sample: Sample) => void
   }>()
-  private readonly newest = new Map<string, { payload: Uint8Array; stamp: number }>()
+  private readonly newest = new Map<string, { message: unknown; stamp: number }>()
   private readonly answers = new Map<string, Answer>()
 
   onStatus(listener: (status: LinkStatus) => void): Unsubscribe {
@@ -57,17 +56,17 @@ export class FakeLink implements Link {
 
   subscribe<T>(
     key: string,
-    type: MessageType<T>,
+    _type: MessageReader<T>,
     listener: (message: T, sample: Sample) => void,
   ): Unsubscribe {
     const subscription = {
       pattern: patternOf(key),
-      listener: (payload: Uint8Array, sample: Sample) => listener(type.decode(payload), sample),
+      listener: listener as (message: unknown, sample: Sample) => void,
     }
     this.subscriptions.add(subscription)
-    for (const [each, { payload, stamp }] of this.newest) {
+    for (const [each, { message, stamp }] of this.newest) {
       if (subscription.pattern.test(`/${each}`))
-        subscription.listener(payload, { key: each, stamp })
+        subscription.listener(structuredClone(message), { key: each, stamp })
     }
     return () => this.subscriptions.delete(subscription)
   }
@@ -79,13 +78,14 @@ export class FakeLink implements Link {
   ): Promise<Response> {
     const answer = this.answers.get(service)
     if (answer === undefined) throw new LinkError('no_service', own(`nobody answers ${service}`))
-    const arrived = type.request.decode(type.request.encode(request))
+    type.request.encode(request)
+    const arrived = structuredClone(request)
     this.calls.push({ service, request: arrived })
     const response = (await answer(arrived)) as Partial<Response>
-    return type.response.decode(type.response.encode(type.response.create(response)))
+    return structuredClone(type.response.create(response))
   }
 
-  publish<T>(key: string, _type: MessageType<T>, message: T): void {
+  publish<T>(key: string, _type: MessageWriter<T>, message: T): void {
     this.published.push({ key, message })
   }
 
@@ -100,14 +100,14 @@ export class FakeLink implements Link {
   /** Deliver a message to those who subscribed; `latched`: also to those who come later. */
   deliver<T>(
     key: string,
-    type: MessageType<T>,
+    type: MessageReader<T>,
     message: Partial<T>,
     { latched = false, stamp = this.labTime() } = {},
   ): void {
-    const payload = type.encode(type.create(message))
-    if (latched) this.newest.set(key, { payload, stamp })
+    const whole = type.create(message)
+    if (latched) this.newest.set(key, { message: whole, stamp })
     for (const { pattern, listener } of this.subscriptions) {
-      if (pattern.test(`/${key}`)) listener(payload, { key, stamp })
+      if (pattern.test(`/${key}`)) listener(structuredClone(whole), { key, stamp })
     }
   }
 
