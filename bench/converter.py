@@ -38,8 +38,8 @@ from mrlab_ros.adapters.workspaces.pool import ConversionPool
 from mrlab_ros.adapters.workspaces.reader import Limits, WorkspaceReader, opened
 from mrlab_ros.adapters.workspaces.results import Task
 from mrlab_ros.core.conversion.options import Options
+from mrlab_ros.core.trajectory.catalogue import TrajectoryName
 from mrlab_ros.core.trajectory.document import document
-from mrlab_ros.core.trajectory.names import TrajectoryName
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.ros import share
 

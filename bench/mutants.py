@@ -44,7 +44,7 @@ MODULES = {
     "mrlab_ros.core.conversion.gripper": ("core/conversion",),
     "mrlab_ros.core.physics.clearance": ("core/physics",),
     "mrlab_ros.core.physics.collisions": ("core/physics",),
-    "mrlab_ros.core.recording.timeline": ("core/recording",),
+    "mrlab_ros.core.recording.recorder": ("core/recording",),
     "mrlab_ros.core.bridge.rules": ("core/bridge",),
     "mrlab_ros.core.base.phrase": ("core/base",),
     "mrlab_ros.core.base.diagnostic": ("core/base",),

@@ -28,12 +28,12 @@ from mrlab_ros.core.base.clock import SECOND, PlaybackClock
 from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics.engine import BodyState
-from mrlab_ros.core.physics.grasp import Gripper
+from mrlab_ros.core.physics.grasp.states import Gripper
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.simulated_robot import Playing
-from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.physics.world import World
 from mrlab_ros.core.playback.states import State
+from mrlab_ros.core.scene.surfaces import Surface
 from mrlab_ros.ros import share
 
 ROOT = share.directory()

@@ -13,8 +13,8 @@ from mrlab_ros.adapters.store.port import ObjectStore
 from mrlab_ros.adapters.trajectories import npz_file
 from mrlab_ros.adapters.trajectories.catalogue_writer import CatalogueWriter
 from mrlab_ros.core.base.errors import LabError
+from mrlab_ros.core.trajectory.catalogue import TrajectoryName
 from mrlab_ros.core.trajectory.document import metadata
-from mrlab_ros.core.trajectory.names import TrajectoryName
 from mrlab_ros.gateway.lab.fake_lab import FakeLab
 
 SERVICES = {

@@ -13,12 +13,12 @@ from mrlab_ros.core.base.clock import SECOND, PlaybackClock
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.geometry import Pose, quaternion_from_rpy
 from mrlab_ros.core.physics import catalogue
-from mrlab_ros.core.physics.events import CollisionChanged, GraspChanged, LoadChanged
-from mrlab_ros.core.physics.grasp import Grasp, Gripper
-from mrlab_ros.core.physics.grasp_load import Tool
+from mrlab_ros.core.physics.grasp.load import Tool
+from mrlab_ros.core.physics.grasp.states import Grasp, Gripper
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.simulated_robot import GripperProgram, Playing
 from mrlab_ros.core.physics.world import World
+from mrlab_ros.core.physics.world_state import CollisionChanged, GraspChanged, LoadChanged
 from mrlab_ros.core.playback.states import State
 
 ROOT = Path(__file__).parents[1]

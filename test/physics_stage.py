@@ -13,11 +13,11 @@ from mrlab_ros.adapters.scenes.files import SceneFiles
 from mrlab_ros.adapters.yaml_files import read_yaml
 from mrlab_ros.core.base.clock import SECOND, PlaybackClock
 from mrlab_ros.core.physics import catalogue
-from mrlab_ros.core.physics.events import CollisionChanged, GraspChanged
-from mrlab_ros.core.physics.grasp import Grasp, Gripper
+from mrlab_ros.core.physics.grasp.states import Grasp, Gripper
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.simulated_robot import GripperProgram, Playing
 from mrlab_ros.core.physics.world import World
+from mrlab_ros.core.physics.world_state import CollisionChanged, GraspChanged
 from mrlab_ros.core.playback.states import State
 
 ROOT = Path(__file__).parents[1]

@@ -14,7 +14,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.serialization import deserialize_message, serialize_message
 
 from mrlab_ros.adapters.zenoh_link import NoQueryable, Refusal, ZenohLink
-from mrlab_ros.core.bridge.keys import key_of
+from mrlab_ros.core.bridge.links import key_of
 from mrlab_ros.messages.requests import fitted
 from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.graph import CALL_TIMEOUT_S, FIND_TIMEOUT_S, GraphClient

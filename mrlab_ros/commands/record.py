@@ -31,7 +31,7 @@ from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, heard
 from mrlab_ros.core.base.errors import LabError, Misuse
 from mrlab_ros.core.base.foreign_text import for_shell
 from mrlab_ros.core.recording.diagnostics import ENDING, NO_RECORDING
-from mrlab_ros.core.recording.states import RecorderState
+from mrlab_ros.core.recording.recorder import RecorderState
 
 if TYPE_CHECKING:
     from mrlab_ros.ros.graph import GraphClient, Watch

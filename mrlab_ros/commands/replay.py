@@ -24,7 +24,7 @@ from mrlab_ros.commands.record import SILENCE
 from mrlab_ros.core.base.diagnostic import Fix, heard
 from mrlab_ros.core.base.errors import LabError, Misuse
 from mrlab_ros.core.recording.diagnostics import REPLAY_OVER
-from mrlab_ros.core.recording.states import RecorderState
+from mrlab_ros.core.recording.recorder import RecorderState
 from mrlab_ros.messages.time import time_from_message
 
 if TYPE_CHECKING:

@@ -17,7 +17,7 @@ from fastapi.requests import HTTPConnection
 
 from mrlab_ros.adapters.yaml_files import Loader
 from mrlab_ros.core.base.errors import BadInput
-from mrlab_ros.core.bridge.policy import Policy, Verb
+from mrlab_ros.core.bridge.access import Policy, Verb
 from mrlab_ros.core.bridge.rules import Role, parse
 from mrlab_ros.gateway.diagnostics import (
     ALLOW_LIST_UNREADABLE,

@@ -16,20 +16,20 @@ from mrlab_ros.core.base.clock import PlaybackClock
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.geometry import Pose, Vector, checked_vector
 from mrlab_ros.core.physics.catalogue import ObjectType
-from mrlab_ros.core.physics.diagnostics import SURFACE_HALF_TRIANGLE, SURFACE_WITHOUT_NAME
 from mrlab_ros.core.physics.engine import BodyState, Kind, Shape
-from mrlab_ros.core.physics.events import (
+from mrlab_ros.core.physics.grasp.load import Load
+from mrlab_ros.core.physics.simulated_robot import GripperProgram, Playing
+from mrlab_ros.core.physics.world_state import (
     CollisionChanged,
     Contact,
     GraspChanged,
     ObjectRemoved,
+    SceneObject,
 )
-from mrlab_ros.core.physics.grasp_load import Load
-from mrlab_ros.core.physics.simulated_robot import GripperProgram, Playing
-from mrlab_ros.core.physics.surfaces import Surface
-from mrlab_ros.core.physics.world_state import SceneObject
 from mrlab_ros.core.playback.states import State
+from mrlab_ros.core.scene.diagnostics import SURFACE_HALF_TRIANGLE, SURFACE_WITHOUT_NAME
 from mrlab_ros.core.scene.placement import Support, Thing, support_of
+from mrlab_ros.core.scene.surfaces import Surface
 from mrlab_ros.messages.poses import pose_from_message, pose_to_message
 from mrlab_ros.messages.texts import told
 from mrlab_ros.messages.time import make_header, time_from_message, time_to_message

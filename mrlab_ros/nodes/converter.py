@@ -39,9 +39,8 @@ from mrlab_ros.adapters.workspaces.results import Converted, Task, refused
 from mrlab_ros.core.base.errors import BadInput, LabError
 from mrlab_ros.core.base.foreign_text import visible
 from mrlab_ros.core.base.names import close_to
+from mrlab_ros.core.trajectory.catalogue import checked_id, head_of
 from mrlab_ros.core.trajectory.diagnostics import UPLOAD_OF_ANOTHER
-from mrlab_ros.core.trajectory.names import checked_id
-from mrlab_ros.core.trajectory.record import head_of
 from mrlab_ros.messages import trajectories
 from mrlab_ros.messages.texts import tell
 from mrlab_ros.messages.trajectories import candidate_to_message, info_from_head

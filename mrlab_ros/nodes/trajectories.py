@@ -20,6 +20,16 @@ from mrlab_ros.adapters.trajectories.files import TrajectoryFiles
 from mrlab_ros.adapters.trajectories.npz_file import Damaged
 from mrlab_ros.adapters.trajectories.plain_folder import import_folder
 from mrlab_ros.core.base.errors import BadInput, LabError
+from mrlab_ros.core.trajectory.catalogue import (
+    Record,
+    TrajectoryName,
+    Version,
+    checked_id,
+    free_name,
+    head_of,
+    newest,
+    parse,
+)
 from mrlab_ros.core.trajectory.diagnostics import (
     DAMAGED_VERSION,
     DRAFT_OF_ANOTHER,
@@ -31,8 +41,6 @@ from mrlab_ros.core.trajectory.diagnostics import (
     TRAJECTORY_RESTORED,
     TRAJECTORY_SHARED,
 )
-from mrlab_ros.core.trajectory.names import TrajectoryName, checked_id, parse
-from mrlab_ros.core.trajectory.record import Record, Version, free_name, head_of, newest
 from mrlab_ros.messages import qos, trajectories
 from mrlab_ros.messages.texts import tell
 from mrlab_ros.messages.trajectories import catalogue_to_message, info_from_head

@@ -24,9 +24,9 @@ import rubrics_page
 import typescript_protocol
 
 from mrlab_ros.core.base.state_machine import Table
-from mrlab_ros.core.physics import grasp
+from mrlab_ros.core.physics.grasp.states import states
 from mrlab_ros.core.playback import states as playback
-from mrlab_ros.core.recording import states as recording
+from mrlab_ros.core.recording import recorder as recording
 from mrlab_ros.core.systems import states as systems
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -37,7 +37,7 @@ MACHINES: tuple[tuple[str, str, Table], ...] = (
     ("docs/playback.md", "playback", playback.TABLE),
     ("docs/systems.md", "system", systems.TABLE),
     ("docs/recorder.md", "recorder", recording.TABLE),
-    ("docs/physics.md", "grasp", grasp.TABLE),
+    ("docs/physics.md", "grasp", states.TABLE),
 )
 BLOCKS: dict[tuple[str, str], Callable[[], str]] = {
     **{(page, f"{name} states"): table.mermaid for page, name, table in MACHINES},

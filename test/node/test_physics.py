@@ -17,12 +17,8 @@ from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.scenes.diagnostics import BAD_SCENE_NAME, NO_SCENE
 from mrlab_ros.adapters.scenes.files import read
 from mrlab_ros.core.base.diagnostics import NAME_TAKEN, NO_ROBOT_IN_SCENE, POSE_NOT_FINITE
-from mrlab_ros.core.physics.diagnostics import (
-    LET_GO,
-    NO_OBJECT_IN_SCENE,
-    NO_OBJECT_TYPE,
-    SURFACE_WITHOUT_NAME,
-)
+from mrlab_ros.core.physics.diagnostics import LET_GO, NO_OBJECT_IN_SCENE, NO_OBJECT_TYPE
+from mrlab_ros.core.scene.diagnostics import SURFACE_WITHOUT_NAME
 from mrlab_ros.core.trajectory.trajectory import Channels, Source, Trajectory
 from mrlab_ros.messages import qos, trajectories
 from mrlab_ros.nodes.coordinator.node import CoordinatorNode

@@ -13,6 +13,7 @@ from mrlab_msgs import msg, srv
 
 from mrlab_ros.core.base import diagnostics as base
 from mrlab_ros.core.physics import diagnostics as physics
+from mrlab_ros.core.scene.diagnostics import SURFACE_WITHOUT_NAME, SURFACES_OF_ONE_NAME
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes.lab.node import LabNode
 from mrlab_ros.nodes.physics import diagnostics as answers
@@ -91,8 +92,8 @@ def test_a_dry_run_and_a_refusal_change_nothing(graph, lab):
         ([cube("a", 1e6)], [], base.BAD_VECTOR),
         ([cube("a", float("nan"))], [], base.POSE_NOT_FINITE),
         (crowd, [], answers.TOO_MANY_OBJECTS),
-        ([cube("a")], [msg.Surface()], physics.SURFACE_WITHOUT_NAME),
-        ([cube("a")], [shelf(), shelf()], physics.SURFACES_OF_ONE_NAME),
+        ([cube("a")], [msg.Surface()], SURFACE_WITHOUT_NAME),
+        ([cube("a")], [shelf(), shelf()], SURFACES_OF_ONE_NAME),
         (
             [msg.ObjectPlacement(name="a", type="table", held_by="r", in_hand=pose(0, 0, 0))],
             [],

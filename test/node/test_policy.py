@@ -17,8 +17,7 @@ from own_port import free_endpoint
 
 from mrlab_ros.adapters.keys.folder import Keys, now
 from mrlab_ros.adapters.zenoh.configuration import configuration
-from mrlab_ros.core.bridge.access import Login
-from mrlab_ros.core.bridge.policy import Policy, Verb
+from mrlab_ros.core.bridge.access import Login, Policy, Verb
 from mrlab_ros.core.bridge.rules import Direction, Role, parse
 
 ROOT = Path(__file__).parents[2]

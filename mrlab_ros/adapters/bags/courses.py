@@ -19,9 +19,9 @@ from mrlab_ros.core.recording.report import (
     SessionReport,
     course_of,
 )
+from mrlab_ros.core.recording.run_finding import time_of
 from mrlab_ros.core.recording.runs import Course, Run, RunJoint
-from mrlab_ros.core.recording.stamps import time_of
-from mrlab_ros.core.robots.kinematics import KinematicChain
+from mrlab_ros.core.robots.model import KinematicChain
 
 Array = NDArray[np.float64]
 

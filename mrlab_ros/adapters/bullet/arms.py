@@ -30,7 +30,7 @@ from mrlab_ros.core.physics.diagnostics import (
     JOINT_STATE_SIZE,
 )
 from mrlab_ros.core.physics.engine import BodyState, LinkPairs
-from mrlab_ros.core.physics.grasp_load import PAD_FRICTION
+from mrlab_ros.core.physics.grasp.load import PAD_FRICTION
 
 # Where the first removed arm waits, m, and how many wait at most: one costs 25 us a step.
 PARKED_AT, MOST_PARKED = -500.0, 8

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from mrlab_ros.adapters.checking.stage import Stage
 from mrlab_ros.core.checking.motion import CheckedRobot
 from mrlab_ros.core.checking.pairs import smallest_delay
-from mrlab_ros.core.checking.recording import Course
+from mrlab_ros.core.checking.rehearsed import Course
 from mrlab_ros.core.physics.engine import Kind
 
 STEP = 0.1  # s, between two delays that are tried, and between the poses that are compared

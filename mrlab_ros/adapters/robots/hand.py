@@ -12,7 +12,7 @@ from mrlab_ros.adapters.robots import urdf
 from mrlab_ros.adapters.robots.diagnostics import HAND_LIMITS, HAND_MIMICS
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.geometry import Array
-from mrlab_ros.core.robots.kinematics import KinematicChain
+from mrlab_ros.core.robots.model import KinematicChain
 
 # A hand whose fingers come apart by less over their range, m, tells nothing of open and closed.
 LEAST_STROKE = 1e-6

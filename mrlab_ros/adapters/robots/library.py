@@ -27,8 +27,8 @@ from mrlab_ros.core.base.diagnostics import FIELD, ONE_OF
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.names import close_to
 from mrlab_ros.core.base.records import bad_value
-from mrlab_ros.core.physics.grasp import Gripper
-from mrlab_ros.core.physics.grasp_load import Tool
+from mrlab_ros.core.physics.grasp.load import Tool
+from mrlab_ros.core.physics.grasp.states import Gripper
 from mrlab_ros.core.robots.model import RobotModel
 
 END_EFFECTORS = "end_effectors"

@@ -16,7 +16,7 @@ from mrlab_ros.adapters.robots.library import TIP, RobotLibrary
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.foreign_text import for_html, visible
 from mrlab_ros.core.base.geometry import Array
-from mrlab_ros.core.robots.kinematics import KinematicChain
+from mrlab_ros.core.robots.model import KinematicChain
 from mrlab_ros.core.robots.reach import reach
 
 REACHES = {

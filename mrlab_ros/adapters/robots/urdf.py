@@ -34,8 +34,7 @@ from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.geometry import Pose, quaternion_from_rpy, transform_from_xyz_rpy
 from mrlab_ros.core.base.records import Words, bad_value
 from mrlab_ros.core.robots.frames import FixedFrame, LinkFrames, MovingFrame
-from mrlab_ros.core.robots.kinematics import KinematicChain, Segment
-from mrlab_ros.core.robots.model import Joint
+from mrlab_ros.core.robots.model import Joint, KinematicChain, Segment
 
 MOVING = ("revolute", "continuous", "prismatic")
 # Of joints and links, characters: Bullet ends the process on one of a few thousand.

@@ -3,7 +3,7 @@
     users/USER/uploads/UPLOAD/FILE       what a user sent
     users/USER/drafts/DRAFT.npz          converted, not yet in the catalogue
     users/USER/motions/MOTION.json       what a page shows of a conversion
-    trajectories/records/OWNER/NAME.json one a trajectory, `core/trajectory/record.py`
+    trajectories/records/OWNER/NAME.json one a trajectory, `core/trajectory/catalogue.py`
     trajectories/versions/OWNER/NAME/UNIQUE.npz
     trajectories/changes.json            what changed last
 

@@ -16,10 +16,9 @@ from mrlab_ros.adapters.store import keys
 from mrlab_ros.adapters.store.port import Missing, ObjectStore
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.names import close_to
-from mrlab_ros.core.trajectory import record as records
+from mrlab_ros.core.trajectory import catalogue as records
+from mrlab_ros.core.trajectory.catalogue import Record, TrajectoryName, Version, parse
 from mrlab_ros.core.trajectory.diagnostics import NO_TRAJECTORY_OF_NAME, RECORD_OF_ANOTHER
-from mrlab_ros.core.trajectory.names import TrajectoryName, parse
-from mrlab_ros.core.trajectory.record import Record, Version
 
 READERS = 8  # requests at once to a store that is no folder
 MOST_NAMED = 10  # ids in the sentence about one that is not there

@@ -22,11 +22,10 @@ from mrlab_ros.adapters.store.port import Missing, ObjectStore, StoreFailure
 from mrlab_ros.adapters.trajectories import npz_file
 from mrlab_ros.adapters.trajectories.catalogue import Catalogue, changes_document
 from mrlab_ros.core.base.errors import BadInput, LabError
+from mrlab_ros.core.trajectory import catalogue as records
 from mrlab_ros.core.trajectory import document
-from mrlab_ros.core.trajectory import record as records
+from mrlab_ros.core.trajectory.catalogue import Record, TrajectoryName, Version, checked_id, parse
 from mrlab_ros.core.trajectory.diagnostics import OVER_QUOTA, REMOVED_MEANWHILE
-from mrlab_ros.core.trajectory.names import TrajectoryName, checked_id, parse
-from mrlab_ros.core.trajectory.record import Record, Version
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 
 MOST_RECENT = 200  # changes that changes.json names

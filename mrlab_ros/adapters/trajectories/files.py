@@ -17,9 +17,9 @@ from mrlab_ros.adapters.trajectories import npz_file
 from mrlab_ros.adapters.trajectories.npz_file import Damaged
 from mrlab_ros.adapters.whole_file import TEMPORARY, replaced
 from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.trajectory.catalogue import Record, Version, head_of
 from mrlab_ros.core.trajectory.diagnostics import NO_ROOM_FOR_COPY, VERSION_GONE, VERSION_REMOVED
 from mrlab_ros.core.trajectory.document import Frames
-from mrlab_ros.core.trajectory.record import Record, Version, head_of
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 
 Value = TypeVar("Value")

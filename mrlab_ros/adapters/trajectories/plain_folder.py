@@ -12,8 +12,8 @@ from mrlab_ros.adapters.trajectories.catalogue_writer import CatalogueWriter
 from mrlab_ros.adapters.trajectories.npz_file import Damaged
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.trajectory import document
+from mrlab_ros.core.trajectory.catalogue import ID
 from mrlab_ros.core.trajectory.diagnostics import NAMED_OTHERWISE, NOT_A_TRAJECTORY_FILE
-from mrlab_ros.core.trajectory.names import ID
 
 JSON_SUFFIX = ".json"
 # Folders inside it for files that are no longer part of it.

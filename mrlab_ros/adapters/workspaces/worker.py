@@ -74,8 +74,7 @@ from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.conversion.dimensions import is_motion
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.conversion.workspace import Workspace
-from mrlab_ros.core.robots.kinematics import KinematicChain, Segment
-from mrlab_ros.core.robots.model import Joint, RobotModel
+from mrlab_ros.core.robots.model import Joint, KinematicChain, RobotModel, Segment
 from mrlab_ros.core.trajectory.channels import ProxyCoefficients
 
 MOST_VARIABLES = 50_000

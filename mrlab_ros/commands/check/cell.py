@@ -35,11 +35,10 @@ from mrlab_ros.core.checking.diagnostics import (
     WAIT_NOT_ENOUGH,
 )
 from mrlab_ros.core.checking.evidence import clearances
-from mrlab_ros.core.checking.hardware import conditions
 from mrlab_ros.core.checking.motion import CheckedRobot, MotionFigures
 from mrlab_ros.core.checking.pairs import Delay, Pair, pairs_of, wait_frame
 from mrlab_ros.core.checking.rehearsal import Actor
-from mrlab_ros.core.checking.report import CheckReport, RobotReport, in_order
+from mrlab_ros.core.checking.report import CheckReport, RobotReport, conditions, in_order
 from mrlab_ros.core.conversion.convert import ConversionResult
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.scene import document as scene_document

@@ -19,10 +19,9 @@ from mrlab_ros.core.base.geometry import Pose, Vector
 from mrlab_ros.core.checking import motion
 from mrlab_ros.core.checking.diagnostics import IN_EMPTY_ROOM, IN_SCENE
 from mrlab_ros.core.checking.evidence import CLOSE
-from mrlab_ros.core.checking.hardware import JUMPS, RANGES, SPEEDS
 from mrlab_ros.core.checking.motion import CheckedRobot
 from mrlab_ros.core.checking.rehearsal import Actor
-from mrlab_ros.core.checking.report import digest
+from mrlab_ros.core.checking.report import JUMPS, RANGES, SPEEDS, digest
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.rubrics.checked import Checked, Motion

@@ -14,8 +14,7 @@ from mrlab_ros.commands.convert.options import command_with
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.phrase import phrase
 from mrlab_ros.core.checking.diagnostics import CLAIM
-from mrlab_ros.core.checking.hardware import State
-from mrlab_ros.core.checking.report import CheckReport, RobotReport
+from mrlab_ros.core.checking.report import CheckReport, RobotReport, State
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.runtime.colours import OUTCOME_STYLES, SEVERITY_STYLES
 

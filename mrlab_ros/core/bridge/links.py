@@ -1,4 +1,8 @@
-"""Endpoints that the bridge may use; leases and retries of its links."""
+"""Keys, leases and retries of the bridge's links.
+
+A key is the name of a topic or service without its leading slash, under the lab's prefix. The
+bridge checks the graph often while it changes and seldom otherwise.
+"""
 
 from __future__ import annotations
 
@@ -106,3 +110,46 @@ def check_endpoints(listen: tuple[str, ...], insecure: bool, keys: bool = False)
             raise BadInput(say.TLS_NEEDS_KEYS(endpoint=endpoint, protocol=protocol))
         if not (is_local(endpoint) or encrypted or insecure):
             raise BadInput(say.OPEN_ENDPOINT(endpoint=endpoint))
+
+
+def key_of(name: str, prefix: str = "") -> str:
+    """Return the zenoh key of a topic or service name, such as ur5e_1/joint_states."""
+    return f"{prefix}{name}" if prefix else name[1:]
+
+
+# How long after a change checks go on, s: the endpoints of a new node are matched one by one.
+SETTLE_S = 1.0
+# Time between two checks of a graph that does not change, s.
+REST_S = 5.0
+
+
+class Pace:
+    """Times of the checks, s on any clock that never goes back; the first one is due at once.
+
+    period: between two checks while the graph changes.
+    """
+
+    def __init__(self, period: float) -> None:
+        self.period = period
+        self._last = float("-inf")
+        self._settle_until = float("-inf")
+        self._settled = False
+
+    def changed(self, now: float) -> None:
+        """Note that the graph has changed."""
+        self._settle_until = now + SETTLE_S
+        self._settled = False
+
+    def wait(self, now: float) -> float:
+        """Return the time until the next check; 0: it is due."""
+        return max(self._last + (REST_S if self._settled else self.period) - now, 0.0)
+
+    def check(self, now: float) -> bool:
+        """Note that a check begins; return whether it is to be thorough.
+
+        That is the last one after a change, and each one without a change.
+        """
+        self._last = now
+        if now >= self._settle_until:
+            self._settled = True
+        return self._settled

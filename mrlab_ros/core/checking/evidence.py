@@ -21,10 +21,10 @@ from mrlab_ros.core.checking.diagnostics import (
     UNCERTAIN_GRASP,
     WAITS_FOREVER,
 )
-from mrlab_ros.core.checking.recording import Collision, GraspChange, Rehearsed
 from mrlab_ros.core.checking.rehearsal import FARTHEST
+from mrlab_ros.core.checking.rehearsed import Collision, GraspChange, Rehearsed
 from mrlab_ros.core.physics.engine import Kind
-from mrlab_ros.core.physics.grasp import Grasp
+from mrlab_ros.core.physics.grasp.states import Grasp
 
 # A robot that comes nearer, m, without touching is a finding: what is measured in a real cell is
 # seldom better.

@@ -10,14 +10,19 @@ import numpy as np
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, Severity
 from mrlab_ros.core.base.geometry import Array, Pose, Vector, rotate
-from mrlab_ros.core.checking import dexterity, evidence, joints, waypoints
-from mrlab_ros.core.checking.dexterity import Dexterity
+from mrlab_ros.core.checking import evidence, joints, tool, waypoints
 from mrlab_ros.core.checking.evidence import CLOSE, NO_ADVICE, Advice
-from mrlab_ros.core.checking.hardware import RANGES, SPEEDS, conditions
-from mrlab_ros.core.checking.joints import JointFigures, StatedLimits
-from mrlab_ros.core.checking.recording import Rehearsed
-from mrlab_ros.core.checking.report import CheckReport, RobotReport, in_order
-from mrlab_ros.core.checking.smoothness import spectral_arc_length
+from mrlab_ros.core.checking.joints import JointFigures, StatedLimits, spectral_arc_length
+from mrlab_ros.core.checking.rehearsed import Rehearsed
+from mrlab_ros.core.checking.report import (
+    RANGES,
+    SPEEDS,
+    CheckReport,
+    RobotReport,
+    conditions,
+    in_order,
+)
+from mrlab_ros.core.checking.tool import Dexterity
 from mrlab_ros.core.conversion.convert import ConversionResult
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.trajectory import Trajectory
@@ -78,7 +83,7 @@ def figures_of(trajectory: Trajectory, robot: CheckedRobot) -> MotionFigures:
     frames = np.flatnonzero(moving)
     return MotionFigures(
         joints.figures_of(positions, rate, robot.model.joints, robot.stated),
-        dexterity.dexterity_of(chain, positions, rate, robot.model.reach),
+        tool.dexterity_of(chain, positions, rate, robot.model.reach),
         times,
         in_world(local, robot.pose),
         speeds,
@@ -99,7 +104,7 @@ def motion_findings(figures: MotionFigures, robot: str) -> list[Diagnostic]:
     """Return what the figures of a motion say."""
     return [
         *joints.findings_of(figures.joints, robot, float(figures.times[-1])),
-        *dexterity.findings_of(figures.dexterity, robot),
+        *tool.findings_of(figures.dexterity, robot),
     ]
 
 

@@ -11,23 +11,17 @@ from dataclasses import dataclass, field
 
 from mrlab_ros.core.base.clock import SECOND, PlaybackClock
 from mrlab_ros.core.base.geometry import Array
-from mrlab_ros.core.checking.recording import (
-    Collision,
-    Course,
-    Distances,
-    GraspChange,
-    Rehearsed,
-)
+from mrlab_ros.core.checking.rehearsed import Collision, Course, Distances, GraspChange, Rehearsed
 from mrlab_ros.core.physics.engine import Engine, Kind, Touch
-from mrlab_ros.core.physics.events import (
+from mrlab_ros.core.physics.simulated_robot import GripperProgram, Playing
+from mrlab_ros.core.physics.world import World
+from mrlab_ros.core.physics.world_state import (
     CollisionChanged,
     Contact,
     GraspChanged,
     LoadChanged,
     ObjectRemoved,
 )
-from mrlab_ros.core.physics.simulated_robot import GripperProgram, Playing
-from mrlab_ros.core.physics.world import World
 from mrlab_ros.core.playback.states import State
 from mrlab_ros.core.playback.stream import Stream
 from mrlab_ros.core.systems.waits import AfterFrame, Held, Wait

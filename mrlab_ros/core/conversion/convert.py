@@ -52,8 +52,8 @@ from mrlab_ros.core.conversion.survey import Survey, survey
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory import channels
+from mrlab_ros.core.trajectory.catalogue import checked_id
 from mrlab_ros.core.trajectory.channels import ProxyCoefficients
-from mrlab_ros.core.trajectory.names import checked_id
 from mrlab_ros.core.trajectory.trajectory import Source, Trajectory
 
 MOST_FRAMES = 2_000_000  # of a message that is sampled: five hours and a half at 100 Hz

@@ -19,8 +19,7 @@ from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.geometry import Array, inverse_transform
 from mrlab_ros.core.conversion.diagnostics import KINEMATICS_AGREE, KINEMATICS_DIFFER
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
-from mrlab_ros.core.robots.kinematics import KinematicChain, Segment
-from mrlab_ros.core.robots.model import RobotModel
+from mrlab_ros.core.robots.model import KinematicChain, RobotModel, Segment
 
 AGREES_M, AGREES_RAD = 0.01, np.radians(1.0)
 MOST_JOINTS = 32

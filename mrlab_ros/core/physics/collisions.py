@@ -9,14 +9,14 @@ import numpy as np
 
 from mrlab_ros.core.base.geometry import Pose, add
 from mrlab_ros.core.physics import contact_rules
-from mrlab_ros.core.physics import surfaces as rooms
 from mrlab_ros.core.physics.clearance import Halt
 from mrlab_ros.core.physics.engine import BodyState, Kind, Touch
-from mrlab_ros.core.physics.events import CollisionChanged, Contact
-from mrlab_ros.core.physics.grasp import Gripper
+from mrlab_ros.core.physics.grasp.states import Gripper
+from mrlab_ros.core.physics.objects import surface_body
 from mrlab_ros.core.physics.simulated_robot import Robot
-from mrlab_ros.core.physics.surfaces import Surface
-from mrlab_ros.core.physics.world_state import WorldState
+from mrlab_ros.core.physics.world_state import CollisionChanged, Contact, WorldState
+from mrlab_ros.core.scene import surfaces as rooms
+from mrlab_ros.core.scene.surfaces import Surface
 
 # From this distance on, m, the fingers have left what they released.
 LEFT = 0.002
@@ -149,7 +149,7 @@ class Collisions:
         before = self._world_state.surfaces
         # A headset sends the whole room repeatedly: unchanged surfaces stay.
         kept = {n for n, s in wanted.items() if n in before and _alike(s, before[n])}
-        bodies = {n: rooms.body(s, most) for n, s in wanted.items() if n not in kept}
+        bodies = {n: surface_body(s, most) for n, s in wanted.items() if n not in kept}
         for name in before:
             if name not in kept:
                 self._engine.remove_surface(name)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from mrlab_ros.core.base.geometry import dot, rotate
 from mrlab_ros.core.physics.engine import Kind, Touch
-from mrlab_ros.core.physics.grasp import INWARDS, Gripper
+from mrlab_ros.core.physics.grasp.states import INWARDS, Gripper
 from mrlab_ros.core.physics.simulated_robot import Pressed, Robot
 from mrlab_ros.core.physics.world_state import WorldState
 

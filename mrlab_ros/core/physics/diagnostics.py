@@ -190,29 +190,6 @@ SHAPE_AND_PARTS = Code(
 
 # surfaces
 
-BAD_SOURCE = Code(
-    "bad_source",
-    "The source {source} has {count:integer} characters; expected at most {most:integer} that can "
-    "be printed, such as an id of the headset.",
-    meaning="The name of who measured the surfaces of a room.",
-)
-SURFACES_OF_ONE_NAME = Code(
-    "surfaces_of_one_name",
-    "Two surfaces have the name {name}.",
-    "Give each its own.",
-    meaning="Surfaces of a room are told apart by their names.",
-)
-SURFACE_WITHOUT_NAME = Code(
-    "surface_without_name",
-    "A surface has no name.",
-    "Give each its own, such as table_1.",
-    meaning="Surfaces of a room are told apart by their names.",
-)
-SURFACE_HALF_TRIANGLE = Code(
-    "surface_half_triangle",
-    "Surface {surface} has {count:integer} triangle indices; expected three a triangle.",
-    meaning="The triangles of a surface are not whole.",
-)
 SURFACE_BEYOND = Code(
     "surface_beyond",
     "Surface {surface} has a vertex that is not finite or beyond 1 km.",

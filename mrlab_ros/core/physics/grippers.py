@@ -28,8 +28,8 @@ from mrlab_ros.core.physics.diagnostics import (
     TOO_WIDE,
 )
 from mrlab_ros.core.physics.engine import BodyState, Kind, Touch
-from mrlab_ros.core.physics.grasp import INWARDS, Grasp, GraspEvent, Gripper
-from mrlab_ros.core.physics.grasp_load import Grip, fingers_grip
+from mrlab_ros.core.physics.grasp.load import Grip, fingers_grip
+from mrlab_ros.core.physics.grasp.states import INWARDS, Grasp, GraspEvent, Gripper
 from mrlab_ros.core.physics.holding import Holding
 from mrlab_ros.core.physics.seal import OUT, leak, lip
 from mrlab_ros.core.physics.simulated_robot import COMMANDING, Robot

@@ -18,10 +18,9 @@ from mrlab_ros.core.base.geometry import (
 )
 from mrlab_ros.core.physics.diagnostics import CAME_OFF_CUP, SLIPPED_OUT
 from mrlab_ros.core.physics.engine import BodyState
-from mrlab_ros.core.physics.events import GraspChanged, LoadChanged
-from mrlab_ros.core.physics.grasp_load import Grip, Load, attached, bears, remark
+from mrlab_ros.core.physics.grasp.load import Grip, Load, attached, bears, remark
 from mrlab_ros.core.physics.simulated_robot import Held, Robot
-from mrlab_ros.core.physics.world_state import SceneObject, WorldState
+from mrlab_ros.core.physics.world_state import GraspChanged, LoadChanged, SceneObject, WorldState
 
 # An object that slid so far between the fingers, m, falls: a pad is 25 mm high.
 SLID = 0.012

@@ -6,9 +6,18 @@ import itertools
 import math
 from collections.abc import Mapping
 
+import numpy as np
+
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.base.errors import Misuse
-from mrlab_ros.core.base.geometry import WORLD_SIZE, Pose, Vector, add, checked_vector, scale
+from mrlab_ros.core.base.errors import BadInput, Misuse
+from mrlab_ros.core.base.geometry import (
+    WORLD_SIZE,
+    Pose,
+    Vector,
+    add,
+    checked_vector,
+    scale,
+)
 from mrlab_ros.core.base.names import checked_name
 from mrlab_ros.core.physics.catalogue import Catalogue, ObjectType
 from mrlab_ros.core.physics.diagnostics import (
@@ -17,11 +26,21 @@ from mrlab_ros.core.physics.diagnostics import (
     MADE_ROOM,
     NO_FREE_PLACE,
     NO_SURFACE_BELOW,
+    SURFACE_BEYOND,
+    SURFACE_IS_LINE,
+    SURFACE_NO_VERTEX,
+    SURFACE_OUTLINE,
+    SURFACE_TOO_FINE,
 )
-from mrlab_ros.core.physics.engine import BodyState
-from mrlab_ros.core.physics.events import ObjectRemoved
+from mrlab_ros.core.physics.engine import Body, BodyState, Part, Shape
 from mrlab_ros.core.physics.grippers import Grippers
-from mrlab_ros.core.physics.world_state import HAND, SceneObject, WorldState
+from mrlab_ros.core.physics.world_state import HAND, ObjectRemoved, SceneObject, WorldState
+from mrlab_ros.core.scene.surfaces import Surface
+
+# A detected plane gets this thickness behind it, m: a headset sees no back side.
+THICKNESS = 0.02
+FLOOR_SIZE = 200.0  # m
+MAX_OUTLINE = 1000
 
 # An object beyond WORLD_SIZE, or this far below the floor, m, is removed.
 WORLD_DEPTH = 10.0
@@ -205,3 +224,39 @@ class Inventory:
     def _announce(self, thing: SceneObject, why: Diagnostic) -> None:
         stage = self._world_state
         stage.events.append(ObjectRemoved(stage.now_ns, thing.name, thing.type.id, why))
+
+
+def surface_body(surface: Surface, max_triangles: int) -> Body:
+    """Return the surface as a static body; raise BadInput where it is none.
+
+    A plane becomes a slab behind its front: the convex hull of its outline.
+    """
+    name, vertices, triangles = surface.name, surface.vertices, surface.triangles
+    if not np.isfinite(vertices).all() or (len(vertices) and np.abs(vertices).max() > 1000):
+        raise BadInput(SURFACE_BEYOND(surface=name))
+    if len(triangles):
+        if len(triangles) > max_triangles:
+            raise BadInput(
+                SURFACE_TOO_FINE(surface=name, count=len(triangles), most=max_triangles)
+            )
+        if triangles.min() < 0 or triangles.max() >= len(vertices):
+            vertex = int(triangles.max() if triangles.min() >= 0 else triangles.min())
+            raise BadInput(SURFACE_NO_VERTEX(surface=name, vertex=vertex, count=len(vertices)))
+        # Unused vertices would enlarge the bounding box.
+        named, places = np.unique(triangles, return_inverse=True)
+        part = Part(
+            Shape.MESH,
+            vertices=vertices[named],
+            triangles=places.reshape(-1, 3).astype(np.int32),
+        )
+    elif surface.endless:
+        part = Part(Shape.BOX, (FLOOR_SIZE, FLOOR_SIZE, 1.0), Pose((0.0, 0.0, -0.5)))
+    else:
+        if not 3 <= len(vertices) <= MAX_OUTLINE:
+            raise BadInput(SURFACE_OUTLINE(surface=name, count=len(vertices), most=MAX_OUTLINE))
+        across = vertices - vertices.mean(axis=0)
+        if np.linalg.svd(across, compute_uv=False)[1] < 1e-4:
+            raise BadInput(SURFACE_IS_LINE(surface=name))
+        behind = vertices - [0.0, 0.0, THICKNESS]
+        part = Part(Shape.HULL, vertices=np.concatenate([vertices, behind]))
+    return Body((part,), 0.0)

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.base.geometry import Pose, pose_between
 from mrlab_ros.core.physics.engine import BodyState
-from mrlab_ros.core.physics.grasp import Grasp, GraspEvent
+from mrlab_ros.core.physics.grasp.states import Grasp, GraspEvent
 from mrlab_ros.core.physics.grippers import Grippers
 from mrlab_ros.core.physics.simulated_robot import Playing, Robot
 from mrlab_ros.core.physics.snapshots import (

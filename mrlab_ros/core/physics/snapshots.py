@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 
 from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.physics.engine import BodyState
-from mrlab_ros.core.physics.grasp import Grasp
-from mrlab_ros.core.physics.grasp_load import Grip
+from mrlab_ros.core.physics.grasp.load import Grip
+from mrlab_ros.core.physics.grasp.states import Grasp
 
 
 @dataclass(frozen=True)

@@ -2,34 +2,32 @@
 
 The caller owns time: joint states, clocks and commands carry stamps, and `advance(now_ns)` steps
 on a fixed grid. `take_events()` and `take_contacts()` return what happened. The same inputs give
-the same events.
+the same events. An object that a robot held before a restart is pending until it is held again.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.errors import Misuse
 from mrlab_ros.core.base.geometry import Pose, Vector, compose, relative
-from mrlab_ros.core.physics.arm_motion import ArmMotion
 from mrlab_ros.core.physics.catalogue import Catalogue
 from mrlab_ros.core.physics.collisions import Collisions
 from mrlab_ros.core.physics.diagnostics import ALREADY_IN_WORLD
 from mrlab_ros.core.physics.engine import BodyState, Engine, LinkPairs
-from mrlab_ros.core.physics.events import Contact, Event
-from mrlab_ros.core.physics.grasp import Gripper
-from mrlab_ros.core.physics.grasp_load import Tool
+from mrlab_ros.core.physics.grasp.load import Tool
+from mrlab_ros.core.physics.grasp.states import Gripper
 from mrlab_ros.core.physics.grippers import Grippers
 from mrlab_ros.core.physics.objects import Inventory
-from mrlab_ros.core.physics.rest import Rest
 from mrlab_ros.core.physics.scrubbing import Rewind
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.simulated_robot import GripperProgram, Playing, Robot
-from mrlab_ros.core.physics.step_grid import ROOM_STEPS, SLOW_STEPS, StepGrid
-from mrlab_ros.core.physics.surfaces import Surface
-from mrlab_ros.core.physics.world_state import SceneObject, WorldState
+from mrlab_ros.core.physics.stepping import ROOM_STEPS, SLOW_STEPS, ArmMotion, Rest, StepGrid
+from mrlab_ros.core.physics.world_state import Contact, Event, SceneObject, WorldState
+from mrlab_ros.core.scene.surfaces import Surface
 
 # A gap longer than this between two calls of advance(), ns, counts as a stall, not as silence of
 # an arm.
@@ -343,3 +341,55 @@ class World:
                 if robot.held:
                     self._grippers.weigh(robot, now_ns, duration * divisions * SLOW_STEPS)
             self._rest.compare(self._inventory.motions)
+
+
+# Fingers have this long to close on the object before it is attached, ns.
+CLOSING_NS = SECOND
+
+
+class PendingGrasp:
+    """Brings an object back to the hand that held it: fingers close on it, or it is attached.
+
+    in_hand: T_hand_object. absent_ns: until when, on the caller's clock, a robot that the lab
+    does not have may still come.
+    """
+
+    def __init__(self, name: str, robot: str, in_hand: Pose, absent_ns: int) -> None:
+        self.name = name
+        self.robot = robot
+        self.in_hand = in_hand
+        self._absent_ns = absent_ns
+        self._since_ns: int | None = None
+
+    def keep(self, world: World, state: BodyState) -> None:
+        """Hold the object where it is to be, for its robot alone."""
+        world.move(
+            self.name, state.pose, state.linear, state.angular, held=True, kept_for=self.robot
+        )
+
+    def check(self, world: World, now_ns: int, *, absent: bool) -> bool:
+        """Move the object along with the hand; return whether nothing is left to do.
+
+        absent: whether the lab is known not to have the robot. Past absent_ns the object is let
+        go then; until its robot is in the world it stays where it is.
+        """
+        present = {thing.name for thing in world.objects}
+        if self.name not in present:
+            return True
+        if absent and now_ns > self._absent_ns:
+            motion = world.motion(self.name)
+            world.move(self.name, motion.pose, motion.linear, motion.angular, held=False)
+            return True
+        if self.robot not in world.robots or world.robot(self.robot).placed is None:
+            return False
+        if world.robot(self.robot).held == self.name:
+            return True
+        state = BodyState(compose(world.hand(self.robot).pose, self.in_hand))
+        self.keep(world, state)
+        if self._since_ns is None:
+            self._since_ns = now_ns
+        if now_ns - self._since_ns < CLOSING_NS:
+            return False
+        # It was in the hand like this before.
+        world.attach(self.robot, self.name, math.inf)
+        return True

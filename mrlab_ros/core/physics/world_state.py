@@ -1,19 +1,24 @@
-"""State that all parts of the world share: engine, robots, objects, surfaces and time."""
+"""State that all parts of the world share, and the events of the world.
+
+The state is the engine, the robots, objects and surfaces, and the time.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.diagnostics import NO_ROBOT_IN_SCENE
 from mrlab_ros.core.base.errors import Misuse
 from mrlab_ros.core.base.names import close_to
 from mrlab_ros.core.physics.catalogue import ObjectType
 from mrlab_ros.core.physics.diagnostics import NO_OBJECT_IN_SCENE
-from mrlab_ros.core.physics.engine import BodyState, Engine
-from mrlab_ros.core.physics.events import Event
+from mrlab_ros.core.physics.engine import BodyState, Engine, Touch
+from mrlab_ros.core.physics.grasp.load import Load
+from mrlab_ros.core.physics.grasp.states import Grasp
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.simulated_robot import Robot
-from mrlab_ros.core.physics.surfaces import Surface
+from mrlab_ros.core.scene.surfaces import Surface
 
 HAND = "hand"
 
@@ -71,3 +76,62 @@ class WorldState:
     def hand(self, robot: Robot) -> BodyState:
         """Return pose and velocity of the link that a robot's objects are fixed to."""
         return self.engine.link(robot.name, robot.arm.hand)
+
+
+@dataclass(frozen=True)
+class Contact:
+    """A touch with its stamp and the source frame of the robot's trajectory."""
+
+    stamp_ns: int
+    robot: str
+    frame: int
+    touch: Touch
+
+
+@dataclass(frozen=True)
+class CollisionChanged:
+    """contact: the first of the collision, None when it ended. clearance: m."""
+
+    stamp_ns: int
+    robot: str
+    colliding: bool
+    contact: Contact | None
+    clearance: float
+
+
+@dataclass(frozen=True)
+class GraspChanged:
+    """State of a gripper. positions, forces: of the fingers, in the arm's order.
+
+    reason: what is to be said of it, None: nothing. load: what the grasp bears, None unless it is
+    known.
+    """
+
+    stamp_ns: int
+    robot: str
+    state: Grasp
+    object: str
+    positions: tuple[float, ...]
+    forces: tuple[float, ...]
+    reason: Diagnostic | None = None
+    load: Load | None = None
+
+
+@dataclass(frozen=True)
+class LoadChanged:
+    """The grasp of a robot as before, but it bears something else, or something is to be said."""
+
+    grasp: GraspChanged
+
+
+@dataclass(frozen=True)
+class ObjectRemoved:
+    """An object that the world itself removed, and why."""
+
+    stamp_ns: int
+    name: str
+    type: str
+    why: Diagnostic
+
+
+Event = CollisionChanged | GraspChanged | LoadChanged | ObjectRemoved

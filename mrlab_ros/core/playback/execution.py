@@ -17,8 +17,7 @@ from mrlab_ros.core.playback import diagnostics as say
 from mrlab_ros.core.playback.states import MOVING, TABLE, Event, State
 from mrlab_ros.core.playback.stream import Stream
 from mrlab_ros.core.robots.model import RobotModel
-from mrlab_ros.core.trajectory.fit import check_fits
-from mrlab_ros.core.trajectory.trajectory import Trajectory
+from mrlab_ros.core.trajectory.trajectory import Trajectory, check_fits
 
 
 @dataclass(frozen=True)

@@ -16,8 +16,7 @@ from mrlab_ros.core.base.clock import SECOND, PlaybackClock
 from mrlab_ros.core.base.diagnostic import Diagnostic, plain
 from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.recording.diagnostics import RUN_BEGAN, RUN_ENDED, SESSION_SUMMARY
-from mrlab_ros.core.recording.run_figures import figures_of
-from mrlab_ros.core.recording.runs import Deed, Result, Run
+from mrlab_ros.core.recording.runs import Deed, Result, Run, figures_of
 
 Array = NDArray[np.float64]
 PLAYING = "PLAYING"

@@ -1,4 +1,4 @@
-"""Finds the runs of a session in what its messages said."""
+"""Finds the runs of a session in its messages, each with its instant on the session's time."""
 
 from __future__ import annotations
 
@@ -207,3 +207,16 @@ def _let_go(
     off = None if place is None or target is None else math.dist(place, target)
     said = RUN_RELEASED(object=name, robot=robot.name, place=place, target=target, distance=off)
     return Action(time, Deed.RELEASED, said)
+
+
+# A recorder on a busy machine receives this late at most, s. A stamp that is further from the
+# receipt is of another clock: simulated time, or a replay's.
+LATEST_S = 1.0
+
+
+def time_of(received: float, stamp: float, before: float) -> float:
+    """Return the time of a message, s of the session; never earlier than that of the one before.
+
+    received, stamp: when the recorder received it and what its header says, s of the session.
+    """
+    return max(stamp if abs(stamp - received) <= LATEST_S else received, before)

@@ -11,8 +11,7 @@ from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.geometry import Array
 from mrlab_ros.core.base.records import bad_value
 from mrlab_ros.core.robots.diagnostics import NO_SPHERICAL_WRIST
-from mrlab_ros.core.robots.kinematics import KinematicChain
-from mrlab_ros.core.robots.model import RobotModel
+from mrlab_ros.core.robots.model import KinematicChain, RobotModel
 
 Distance = Callable[[Array], Array]
 

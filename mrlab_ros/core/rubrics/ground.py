@@ -11,13 +11,13 @@ from mrlab_ros.core.base.diagnostics import NO_ROBOT_IN_SCENE
 from mrlab_ros.core.base.names import close_to
 from mrlab_ros.core.checking.motion import CheckedRobot
 from mrlab_ros.core.physics.catalogue import ObjectType
-from mrlab_ros.core.physics.surfaces import FLOOR
 from mrlab_ros.core.rubrics.diagnostics import (
     OBJECT_IS_FIXED,
     OBJECT_NOT_IN_SCENE,
     THING_NOT_IN_SCENE,
 )
 from mrlab_ros.core.scene.document import SceneDocument
+from mrlab_ros.core.scene.surfaces import FLOOR
 
 ITSELF = "itself"
 

@@ -12,7 +12,6 @@ import numpy as np
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.geometry import Array, Pose, add, inverse, rotate
 from mrlab_ros.core.physics.catalogue import ObjectType
-from mrlab_ros.core.physics.surfaces import FLOOR
 from mrlab_ros.core.rubrics.checked import Checked
 from mrlab_ros.core.rubrics.contacts import recording
 from mrlab_ros.core.rubrics.diagnostics import (
@@ -25,6 +24,7 @@ from mrlab_ros.core.rubrics.grasps import at_the_end, let_go
 from mrlab_ros.core.rubrics.ground import Ground
 from mrlab_ros.core.rubrics.rubric import Measure, Outcome
 from mrlab_ros.core.rubrics.sentences import Form, Gaps, Given
+from mrlab_ros.core.scene.surfaces import FLOOR
 
 # What lies on something is so near to its top, m.
 ON = 0.015

@@ -32,7 +32,6 @@ from mrlab_ros.core.base.records import (
     raise_all,
     unknown_field,
 )
-from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.scene.diagnostics import (
     CELL_NOT_SCENE,
     HELD_IN_PART,
@@ -43,6 +42,7 @@ from mrlab_ros.core.scene.diagnostics import (
     ROBOT_NOT_AMONG,
     SCENE_NOT_CELL,
 )
+from mrlab_ros.core.scene.surfaces import Surface
 from mrlab_ros.core.systems.cell_file import (
     POSITION,
     RATE,

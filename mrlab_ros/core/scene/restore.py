@@ -12,7 +12,6 @@ from dataclasses import dataclass, field, replace
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.errors import BadInput, LabError
-from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.scene.diagnostics import (
     CONTENTS_LEFT_OUT,
     CREATE_SYSTEM,
@@ -29,6 +28,7 @@ from mrlab_ros.core.scene.diagnostics import (
     TRAJECTORY_NOT_FITTING,
 )
 from mrlab_ros.core.scene.document import ObjectEntry, RobotEntry, SceneDocument, SystemEntry
+from mrlab_ros.core.scene.surfaces import Surface
 from mrlab_ros.core.systems.members import Loaded
 from mrlab_ros.core.systems.timeline import Member, Timeline
 from mrlab_ros.core.systems.waits import parse as parse_wait

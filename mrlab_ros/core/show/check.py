@@ -12,12 +12,12 @@ from mrlab_ros.core.base.diagnostic import plain
 from mrlab_ros.core.base.geometry import Array
 from mrlab_ros.core.checking.diagnostics import CLAIM
 from mrlab_ros.core.checking.motion import MotionFigures
-from mrlab_ros.core.checking.recording import Course, Distances, Rehearsed
+from mrlab_ros.core.checking.rehearsed import Course, Distances, Rehearsed
 from mrlab_ros.core.checking.report import CheckReport
 from mrlab_ros.core.physics.catalogue import ObjectType
 from mrlab_ros.core.physics.engine import Kind, Shape
-from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.rubrics.marking import Marks
+from mrlab_ros.core.scene.surfaces import Surface
 from mrlab_ros.core.show.packed import packed
 from mrlab_ros.core.show.session import SCHEMA, Track, drawn
 from mrlab_ros.core.trajectory.trajectory import Trajectory

@@ -18,6 +18,9 @@ from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.trajectory.diagnostics import (
     CHANNEL_SHAPE,
     FRAME_RATE_NOT_POSITIVE,
+    OF_ANOTHER_END_EFFECTOR,
+    OF_ANOTHER_MODEL,
+    OF_OTHER_JOINTS,
     POSITIONS_NOT_FINITE,
     POSITIONS_SHAPE,
 )
@@ -160,3 +163,21 @@ class Trajectory:
 def size_of(shape: tuple[int, ...]) -> str:
     """Return the dimensions of an array as MATLAB's whos writes them, such as 450x6."""
     return "x".join(map(str, shape))
+
+
+# A model, its joints in order (empty: unknown), and an end effector (empty: none).
+Arm = tuple[str, tuple[str, ...], str]
+
+
+def check_fits(trajectory_id: str, made_for: Arm, robot: Arm) -> None:
+    """Raise BadInput where a trajectory that was made for one arm cannot be played on another."""
+    model, joints, end_effector = made_for
+    found, found_joints, carried = robot
+    if model != found:
+        raise BadInput(OF_ANOTHER_MODEL(id=trajectory_id, made_for=model, robot_model=found))
+    if joints and joints != found_joints:
+        raise BadInput(OF_OTHER_JOINTS(id=trajectory_id, found=joints, expected=found_joints))
+    if end_effector not in ("", carried):
+        raise BadInput(
+            OF_ANOTHER_END_EFFECTOR(id=trajectory_id, made_for=end_effector, carried=carried)
+        )

@@ -11,7 +11,7 @@ from fastapi.concurrency import run_in_threadpool
 
 from mrlab_ros.adapters.checking.in_lab import Task
 from mrlab_ros.core.base.errors import LabError, Unavailable
-from mrlab_ros.core.trajectory.record import Record, Version
+from mrlab_ros.core.trajectory.catalogue import Record, Version
 from mrlab_ros.gateway.checks import answers
 from mrlab_ros.gateway.checks.desk import CheckDesk, Key, answer
 from mrlab_ros.gateway.checks.scene import SceneWatch

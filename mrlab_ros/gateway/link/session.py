@@ -10,7 +10,7 @@ from typing import Any
 import orjson
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, plain
-from mrlab_ros.core.bridge.policy import Verb
+from mrlab_ros.core.bridge.access import Verb
 from mrlab_ros.gateway.lab.connection import Unsubscribe
 from mrlab_ros.gateway.link import frames
 from mrlab_ros.gateway.link.credit import Credit

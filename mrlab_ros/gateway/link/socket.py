@@ -15,7 +15,7 @@ from starlette.websockets import WebSocketDisconnect
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.errors import BadInput, LabError
-from mrlab_ros.core.bridge.policy import Policy, Verb
+from mrlab_ros.core.bridge.access import Policy, Verb
 from mrlab_ros.core.runtime.freezes import LOOK_PERIOD_S, Freezes
 from mrlab_ros.gateway.diagnostics import GATEWAY_WITHOUT_LAB
 from mrlab_ros.gateway.errors import SOCKET_REFUSED, NotAllowed, TooMany, close

@@ -10,7 +10,7 @@ import io
 import segno
 from fastapi import APIRouter, Request, Response
 
-from mrlab_ros.core.bridge.policy import Policy, Verb
+from mrlab_ros.core.bridge.access import Policy, Verb
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.gateway.errors import NotAllowed, NotFound, NotSignedIn
 from mrlab_ros.gateway.people import answers

@@ -13,7 +13,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from mrlab_ros.adapters.zenoh.port import Session
-from mrlab_ros.core.bridge.keys import key_of
+from mrlab_ros.core.bridge.links import key_of
 from mrlab_ros.core.bridge.rules import Direction, TopicQos, TopicRule
 
 

@@ -25,7 +25,7 @@ from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge import rules
 from mrlab_ros.core.bridge.diagnostics import ALLOW_LIST_NOT_READ
 from mrlab_ros.core.bridge.latency import Ledger, clock_answer
-from mrlab_ros.core.bridge.pace import Pace
+from mrlab_ros.core.bridge.links import Pace
 from mrlab_ros.core.bridge.rules import Direction, ServiceRule, TopicRule
 from mrlab_ros.core.runtime.identity import Neighbours
 from mrlab_ros.messages import qos

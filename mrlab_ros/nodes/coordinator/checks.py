@@ -15,7 +15,7 @@ from mrlab_ros.core.playback.diagnostics import MEMBER_OF_SYSTEM, NOT_STANDING
 from mrlab_ros.core.playback.states import State
 from mrlab_ros.core.systems.diagnostics import NO_TRAJECTORY_LOADED
 from mrlab_ros.core.systems.robot_system import RobotSystem
-from mrlab_ros.core.trajectory.fit import check_fits
+from mrlab_ros.core.trajectory.trajectory import check_fits
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes.coordinator.fleet import FIND_TIMEOUT_S, MemberClient
 from mrlab_ros.ros.calls import call_all

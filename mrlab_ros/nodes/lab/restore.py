@@ -15,7 +15,6 @@ from rclpy.node import Node
 
 from mrlab_ros.core.base.diagnostic import Code, Diagnostic, heard
 from mrlab_ros.core.base.errors import LabError, Misuse
-from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.scene.diagnostics import STEP_FAILED
 from mrlab_ros.core.scene.document import ObjectEntry, RobotEntry, SceneDocument, SystemEntry
 from mrlab_ros.core.scene.restore import (
@@ -30,6 +29,7 @@ from mrlab_ros.core.scene.restore import (
     Step,
     plan_return,
 )
+from mrlab_ros.core.scene.surfaces import Surface
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.physics import surface_to_message
 from mrlab_ros.messages.scenes import create_system_request, placement_to_message

@@ -14,10 +14,9 @@ from mrlab_ros.core.base.diagnostics import IN_PLACE
 from mrlab_ros.core.base.errors import BadInput, LabError
 from mrlab_ros.core.base.names import checked_name
 from mrlab_ros.core.physics.engine import BodyState
-from mrlab_ros.core.physics.pending_grasp import PendingGrasp
-from mrlab_ros.core.physics.surfaces import Surface
-from mrlab_ros.core.physics.world import World
+from mrlab_ros.core.physics.world import PendingGrasp, World
 from mrlab_ros.core.scene.document import ObjectEntry, SceneDocument
+from mrlab_ros.core.scene.surfaces import Surface
 from mrlab_ros.nodes.physics.diagnostics import (
     CANNOT_HOLD_FIXED,
     CONTENTS_NOT_BACK,

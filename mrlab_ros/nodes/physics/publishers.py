@@ -13,9 +13,9 @@ from sensor_msgs.msg import JointState
 
 from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.physics.engine import BodyState
-from mrlab_ros.core.physics.events import CollisionChanged, Event, LoadChanged, ObjectRemoved
-from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.physics.world import World
+from mrlab_ros.core.physics.world_state import CollisionChanged, Event, LoadChanged, ObjectRemoved
+from mrlab_ros.core.scene.surfaces import Surface
 from mrlab_ros.messages import physics as messages
 from mrlab_ros.messages import qos
 

@@ -23,11 +23,16 @@ from mrlab_ros.adapters.journal import Journal
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.base.state_machine import Machine
-from mrlab_ros.core.recording import journal as entries
+from mrlab_ros.core.recording import recorder as entries
 from mrlab_ros.core.recording.diagnostics import REPLAY_OVER
 from mrlab_ros.core.recording.metadata import GAP, Gap
-from mrlab_ros.core.recording.states import TABLE, RecorderEvent, RecorderState, reason
-from mrlab_ros.core.recording.timeline import ReplayTimeline
+from mrlab_ros.core.recording.recorder import (
+    TABLE,
+    RecorderEvent,
+    RecorderState,
+    ReplayTimeline,
+    reason,
+)
 from mrlab_ros.core.recording.topics import Split, Topics
 from mrlab_ros.core.runtime.watch import RESTART_SHOWN_S
 from mrlab_ros.messages import qos

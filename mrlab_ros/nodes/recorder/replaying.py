@@ -22,7 +22,7 @@ from mrlab_ros.core.base.errors import BadInput, LabError, Misuse
 from mrlab_ros.core.base.foreign_text import for_shell
 from mrlab_ros.core.recording.diagnostics import LEFT_OUT, NOTHING_TO_REPLAY
 from mrlab_ros.core.recording.metadata import Topic
-from mrlab_ros.core.recording.timeline import ReplayTimeline, is_state
+from mrlab_ros.core.recording.recorder import ReplayTimeline, is_state
 from mrlab_ros.core.recording.topics import OF_THE_PRESENT, Topics
 from mrlab_ros.messages.definitions import definition
 from mrlab_ros.messages.qos import message_class, profile

@@ -28,7 +28,7 @@ from mrlab_ros.commands.record import record
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.errors import LabError, Misuse
 from mrlab_ros.core.recording.diagnostics import RECORDING_GAP
-from mrlab_ros.core.recording.states import RecorderState
+from mrlab_ros.core.recording.recorder import RecorderState
 from mrlab_ros.core.runtime.watch import Sign
 from mrlab_ros.messages.diagnostics import signs_to_message
 from mrlab_ros.ros.calls import NoAnswer

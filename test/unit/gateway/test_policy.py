@@ -5,7 +5,7 @@ from __future__ import annotations
 from fastapi.routing import APIRoute, APIWebSocketRoute
 from gateway_side import Gateway, code_of, values_of
 
-from mrlab_ros.core.bridge.policy import Verb
+from mrlab_ros.core.bridge.access import Verb
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.gateway.app import ROUTERS
 from mrlab_ros.gateway.people.person import Person

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from mrlab_msgs import srv
 
-from mrlab_ros.core.bridge.policy import Policy
+from mrlab_ros.core.bridge.access import Policy
 from mrlab_ros.ros.moves import _rules, moves
 
 

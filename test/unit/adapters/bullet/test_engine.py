@@ -23,13 +23,13 @@ from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics.engine import Body, BodyState, Kind, Part, Shape
-from mrlab_ros.core.physics.events import CollisionChanged, GraspChanged
-from mrlab_ros.core.physics.grasp import Grasp, Gripper
+from mrlab_ros.core.physics.grasp.states import Grasp, Gripper
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.simulated_robot import GripperProgram, Playing
-from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.physics.world import World
+from mrlab_ros.core.physics.world_state import CollisionChanged, GraspChanged
 from mrlab_ros.core.playback.states import State
+from mrlab_ros.core.scene.surfaces import Surface
 
 ROOT = Path(__file__).parents[4]
 LIBRARY = RobotLibrary(ROOT / "robots")

@@ -7,8 +7,8 @@ import pytest
 from physics_stage import HANDOVER, LIBRARY, SCENES, Stage
 
 from mrlab_ros.core.base.clock import SECOND
-from mrlab_ros.core.physics.events import GraspChanged
-from mrlab_ros.core.physics.grasp import Grasp, Gripper
+from mrlab_ros.core.physics.grasp.states import Grasp, Gripper
+from mrlab_ros.core.physics.world_state import GraspChanged
 
 
 @pytest.fixture

@@ -21,9 +21,9 @@ from mrlab_ros.core.physics.diagnostics import (
     TOO_WIDE,
 )
 from mrlab_ros.core.physics.engine import Kind
-from mrlab_ros.core.physics.grasp import Grasp
+from mrlab_ros.core.physics.grasp.states import Grasp
 from mrlab_ros.core.physics.simulated_robot import GripperProgram
-from mrlab_ros.core.physics.surfaces import Surface
+from mrlab_ros.core.scene.surfaces import Surface
 
 OPEN, CLOSING, HOLDING, EMPTY = Grasp.OPEN, Grasp.CLOSING, Grasp.HOLDING, Grasp.EMPTY
 HELD = [OPEN, CLOSING, HOLDING]

@@ -11,7 +11,7 @@ from physics_cell import ROOT, Cell
 from mrlab_ros.adapters.robots import checks
 from mrlab_ros.adapters.robots.importing import import_robot
 from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.core.physics.grasp import Grasp, Gripper
+from mrlab_ros.core.physics.grasp.states import Grasp, Gripper
 
 # m: height of the shoulder, length of both arms, from the wrist to the middle of the pads.
 SHOULDER, ARM, GRIP = 0.3, 0.4, 0.13

@@ -28,9 +28,9 @@ from mrlab_ros.core.base.diagnostics import (
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.physics import catalogue
-from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.scene.diagnostics import NAMED_TWICE
 from mrlab_ros.core.scene.document import RobotEntry, SceneDocument, parse, parse_cell, plain
+from mrlab_ros.core.scene.surfaces import Surface
 
 ROOT = Path(__file__).parents[4]
 SHIPPED = ROOT / "config" / "scenes"

@@ -18,7 +18,6 @@ from mrlab_ros.adapters.diagnostics import NO_ROOM_ON_DISK
 from mrlab_ros.adapters.scenes.state_file import StateFile
 from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.base.geometry import Pose
-from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.scene.document import (
     MemberEntry,
     ObjectEntry,
@@ -27,6 +26,7 @@ from mrlab_ros.core.scene.document import (
     SystemEntry,
     plain,
 )
+from mrlab_ros.core.scene.surfaces import Surface
 
 WAIT = "frame 0: object a free"
 ROBOTS = (

@@ -21,8 +21,8 @@ from mrlab_ros.adapters.trajectories.files import TrajectoryFiles
 from mrlab_ros.adapters.trajectories.npz_file import Damaged
 from mrlab_ros.adapters.trajectories.plain_folder import import_folder
 from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.trajectory.catalogue import TrajectoryName
 from mrlab_ros.core.trajectory.diagnostics import NO_TRAJECTORY_OF_NAME, OVER_QUOTA
-from mrlab_ros.core.trajectory.names import TrajectoryName
 
 DAY_NS = 86_400 * 10**9
 

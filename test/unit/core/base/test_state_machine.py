@@ -14,9 +14,10 @@ from refusals import refused
 from mrlab_ros.core.base.diagnostics import ILLEGAL_EVENT
 from mrlab_ros.core.base.errors import IllegalEvent, Misuse
 from mrlab_ros.core.base.state_machine import Machine, Table
-from mrlab_ros.core.physics import clearance, grasp
+from mrlab_ros.core.physics import clearance
+from mrlab_ros.core.physics.grasp.states import states
 from mrlab_ros.core.playback import states as playback
-from mrlab_ros.core.recording import states as recording
+from mrlab_ros.core.recording import recorder as recording
 from mrlab_ros.core.systems import states as systems
 
 PACKAGE = Path(__file__).parents[4] / "mrlab_ros"
@@ -24,7 +25,7 @@ TABLES: dict[str, Table] = {
     "playback": playback.TABLE,
     "system": systems.TABLE,
     "recorder": recording.TABLE,
-    "grasp": grasp.TABLE,
+    "grasp": states.TABLE,
     "clearance": clearance.TABLE,
 }
 

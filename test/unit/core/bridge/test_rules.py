@@ -11,7 +11,7 @@ from refusals import refused
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge import rules as br
 from mrlab_ros.core.bridge.diagnostics import RULE_GOES_OUT
-from mrlab_ros.core.bridge.keys import key_of
+from mrlab_ros.core.bridge.links import key_of
 
 JOINTS = "sensor_msgs/msg/JointState"
 COMMAND_MEMBERS = "mrlab_msgs/srv/CommandMembers"

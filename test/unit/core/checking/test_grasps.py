@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from mrlab_ros.core.checking.evidence import of_grasps
-from mrlab_ros.core.checking.recording import GraspChange, Rehearsed
-from mrlab_ros.core.physics.grasp import Grasp
+from mrlab_ros.core.checking.rehearsed import GraspChange, Rehearsed
+from mrlab_ros.core.physics.grasp.states import Grasp
 
 TAKES = GraspChange(2.0, "giver", Grasp.HOLDING, "rod")
 LETS_GO = GraspChange(4.6, "giver", Grasp.OPEN, "")

@@ -8,8 +8,8 @@ import pytest
 
 from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.checking.lab_scene import LabScene, changed
-from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.scene.document import ObjectEntry, RobotEntry, SceneDocument
+from mrlab_ros.core.scene.surfaces import Surface
 
 TABLE = Surface("table_1", "table", Pose(), np.zeros((4, 3)), np.zeros((0, 3), np.int32))
 DOCUMENT = SceneDocument(

@@ -14,10 +14,10 @@ from mrlab_ros.core.checking.rehearsal import FARTHEST, Actor, Rehearsal
 from mrlab_ros.core.checking.report import CheckReport, digest, in_order
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics.engine import Kind
-from mrlab_ros.core.physics.grasp import Gripper
+from mrlab_ros.core.physics.grasp.states import Gripper
 from mrlab_ros.core.physics.settings import Settings
-from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.physics.world import World
+from mrlab_ros.core.scene.surfaces import Surface
 from mrlab_ros.core.systems.waits import parse
 from mrlab_ros.core.trajectory.trajectory import Channels, Source, Trajectory
 

@@ -10,7 +10,7 @@ from fakes import make_model
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.core.conversion.kinematics_match import findings, match, robots_in
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
-from mrlab_ros.core.robots.kinematics import KinematicChain, Segment
+from mrlab_ros.core.robots.model import KinematicChain, Segment
 
 ROBOTS_FOLDER = Path(__file__).parents[4] / "robots"
 ROBOTS = RobotLibrary(ROBOTS_FOLDER)

@@ -14,12 +14,12 @@ from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics.diagnostics import NO_SEAL_AT_EDGE, OUT_OF_ATTACH_REACH
 from mrlab_ros.core.physics.engine import BodyState
-from mrlab_ros.core.physics.events import GraspChanged, LoadChanged
-from mrlab_ros.core.physics.grasp import Grasp, Gripper
-from mrlab_ros.core.physics.grasp_load import Grip, Tool, bears
+from mrlab_ros.core.physics.grasp.load import Grip, Tool, bears
+from mrlab_ros.core.physics.grasp.states import Grasp, Gripper
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.simulated_robot import GripperProgram, Playing
 from mrlab_ros.core.physics.world import World
+from mrlab_ros.core.physics.world_state import GraspChanged, LoadChanged
 from mrlab_ros.core.playback.states import State
 
 MS = SECOND // 1000

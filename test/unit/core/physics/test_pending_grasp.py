@@ -12,10 +12,9 @@ from mrlab_ros.core.base.errors import Misuse
 from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics.diagnostics import FIXED_OBJECT
-from mrlab_ros.core.physics.grasp import Gripper
-from mrlab_ros.core.physics.pending_grasp import CLOSING_NS, PendingGrasp
+from mrlab_ros.core.physics.grasp.states import Gripper
 from mrlab_ros.core.physics.settings import Settings
-from mrlab_ros.core.physics.world import World
+from mrlab_ros.core.physics.world import CLOSING_NS, PendingGrasp, World
 from mrlab_ros.core.physics.world_state import HAND
 
 TYPES = {

@@ -28,10 +28,8 @@ from mrlab_ros.core.base.diagnostics import (
 from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.base.geometry import Pose, compose, inverse, relative
 from mrlab_ros.core.physics import catalogue
-from mrlab_ros.core.physics import surfaces as rooms
 from mrlab_ros.core.physics.clearance import Clearance, Halt
 from mrlab_ros.core.physics.diagnostics import (
-    BAD_SOURCE,
     FIXED_OBJECT,
     FIXED_WITH_MASS,
     HOLDS_ALREADY,
@@ -47,18 +45,20 @@ from mrlab_ros.core.physics.diagnostics import (
     SURFACE_IS_LINE,
     SURFACE_NO_VERTEX,
     SURFACE_TOO_FINE,
-    SURFACES_OF_ONE_NAME,
 )
 from mrlab_ros.core.physics.engine import BodyState, Kind, Touch
-from mrlab_ros.core.physics.events import CollisionChanged, GraspChanged, ObjectRemoved
-from mrlab_ros.core.physics.grasp import Grasp, Gripper
+from mrlab_ros.core.physics.grasp.states import Grasp, Gripper
 from mrlab_ros.core.physics.joint_stream import JointStream
+from mrlab_ros.core.physics.objects import surface_body
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.simulated_robot import GripperProgram, Playing
 from mrlab_ros.core.physics.snapshots import Snapshot, Snapshots
-from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.physics.world import World
+from mrlab_ros.core.physics.world_state import CollisionChanged, GraspChanged, ObjectRemoved
 from mrlab_ros.core.playback.states import State
+from mrlab_ros.core.scene import surfaces as rooms
+from mrlab_ros.core.scene.diagnostics import BAD_SOURCE, SURFACES_OF_ONE_NAME
+from mrlab_ros.core.scene.surfaces import Surface
 
 MS = SECOND // 1000
 TYPES = {"ball": {"shape": "sphere", "size": [0.05], "mass": 0.1}}
@@ -510,7 +510,7 @@ def test_a_surface_in_the_robot_counts_once_the_arm_has_left_it():
 def test_a_mesh_is_made_of_the_vertices_its_triangles_name():
     vertices = np.arange(3_000_000, dtype=np.float64).reshape(-1, 3) / 1e4
     triangles = np.array([[9, 70, 800], [70, 9, 5]], np.int32)
-    (part,) = rooms.body(Surface("m", "mesh", Pose(), vertices, triangles), 100).parts
+    (part,) = surface_body(Surface("m", "mesh", Pose(), vertices, triangles), 100).parts
     assert len(part.vertices) == 4
     assert np.array_equal(part.vertices[part.triangles], vertices[triangles])
 

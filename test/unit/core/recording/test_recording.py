@@ -32,7 +32,7 @@ from mrlab_ros.core.recording.metadata import (
     paths_in,
     quality_from,
 )
-from mrlab_ros.core.recording.timeline import RATE_RANGE, ReplayTimeline, is_state
+from mrlab_ros.core.recording.recorder import RATE_RANGE, ReplayTimeline, is_state
 from mrlab_ros.core.recording.topics import (
     LAB_TOPICS,
     OF_THE_PRESENT,

@@ -9,7 +9,7 @@ from made_motions import MODEL, QUINTIC, ROBOT, checked, outcome, reach, recorde
 from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.checking.joints import StatedLimits
 from mrlab_ros.core.checking.motion import CheckedRobot
-from mrlab_ros.core.checking.recording import Collision, Distances
+from mrlab_ros.core.checking.rehearsed import Collision, Distances
 from mrlab_ros.core.physics.engine import Kind, Near
 from mrlab_ros.core.rubrics.checked import Motion
 
@@ -195,8 +195,8 @@ def test_holds_by_their_span_and_partly():
 
 
 def test_a_hand_over_is_no_loss():
-    from mrlab_ros.core.checking.recording import GraspChange
-    from mrlab_ros.core.physics.grasp import Grasp
+    from mrlab_ros.core.checking.rehearsed import GraspChange
+    from mrlab_ros.core.physics.grasp.states import Grasp
 
     record = recorded(HELD)
     record.grasps.append(GraspChange(3.0, "kr6_1", Grasp.HOLDING, "cube_1"))

@@ -12,7 +12,6 @@ from refusals import refused
 
 from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.base.geometry import Pose
-from mrlab_ros.core.physics.surfaces import Surface
 from mrlab_ros.core.scene import diagnostics as codes
 from mrlab_ros.core.scene import restore
 from mrlab_ros.core.scene.document import (
@@ -35,6 +34,7 @@ from mrlab_ros.core.scene.restore import (
     plan_return,
     plan_scene,
 )
+from mrlab_ros.core.scene.surfaces import Surface
 from mrlab_ros.core.systems.members import Loaded
 
 A = RobotEntry("a", "ur5e", "", Pose(), "wave", 0.5)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mrlab_ros.core.checking.recording import Distances, Rehearsed
+from mrlab_ros.core.checking.rehearsed import Distances, Rehearsed
 from mrlab_ros.core.physics.engine import Kind, Near
 from mrlab_ros.core.show.check import _distances
 from mrlab_ros.core.show.packed import unpacked

@@ -20,7 +20,7 @@ from mrlab_ros.core.checking.diagnostics import (
     IN_EMPTY_ROOM,
     NO_COLLISION,
 )
-from mrlab_ros.core.checking.hardware import Condition, State
+from mrlab_ros.core.checking.report import Condition, State
 from mrlab_ros.gateway.checks import desk, scene
 from mrlab_ros.gateway.checks.desk import CheckDesk
 from mrlab_ros.gateway.errors import TooMany

@@ -15,7 +15,7 @@ from mrlab_ros.core.base.geometry import (
     transform_from_xyz_rpy,
 )
 from mrlab_ros.core.robots.diagnostics import POSITION_COUNT
-from mrlab_ros.core.robots.kinematics import KinematicChain, Segment
+from mrlab_ros.core.robots.model import KinematicChain, Segment
 
 ANGLES = st.floats(-7.0, 7.0)
 

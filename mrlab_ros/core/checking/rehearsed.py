@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.geometry import Vector
 from mrlab_ros.core.physics.engine import Kind, Near
-from mrlab_ros.core.physics.grasp import Grasp
-from mrlab_ros.core.physics.grasp_load import Load
-from mrlab_ros.core.physics.surfaces import Surface
+from mrlab_ros.core.physics.grasp.load import Load
+from mrlab_ros.core.physics.grasp.states import Grasp
+from mrlab_ros.core.scene.surfaces import Surface
 
 Other = tuple[Kind, str]
 

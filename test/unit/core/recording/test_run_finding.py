@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from mrlab_ros.core.recording.stamps import LATEST_S, time_of
+from mrlab_ros.core.recording.run_finding import LATEST_S, time_of
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ import numpy as np
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.geometry import Array
 from mrlab_ros.core.checking.diagnostics import NEAR_SINGULARITY
-from mrlab_ros.core.robots.kinematics import KinematicChain
+from mrlab_ros.core.robots.model import KinematicChain
 
 # 1/condition below this counts as nearly singular: a straight way of the tool there needs a joint
 # that turns fifty times as fast as elsewhere.

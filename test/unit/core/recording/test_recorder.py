@@ -14,7 +14,7 @@ from mrlab_ros.core.recording.diagnostics import (
     RECORDING_RUNS,
     REPLAY_RUNS,
 )
-from mrlab_ros.core.recording.states import TABLE, RecorderEvent, RecorderState, reason
+from mrlab_ros.core.recording.recorder import TABLE, RecorderEvent, RecorderState, reason
 
 
 def machine_after(*events: RecorderEvent) -> Machine:

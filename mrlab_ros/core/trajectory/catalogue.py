@@ -1,10 +1,12 @@
-"""What the catalogue keeps of one trajectory: its versions, who may see it, whether it is there.
+"""Records of the trajectory catalogue: names, versions, visibility.
 
-Every change makes a new record, so that it can be stored before it counts.
+A name is `quintic` for the lab's trajectory, `anna/quintic` for anna's; `@3` selects a version.
+Every change makes a new record, so that it is stored before it takes effect.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, fields, replace
 from functools import cached_property
@@ -12,6 +14,8 @@ from typing import Any
 
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.trajectory.diagnostics import (
+    BAD_TRAJECTORY_ID,
+    BAD_TRAJECTORY_NAME,
     DELETED_ALREADY,
     NAME_OF_ANOTHER_MODEL,
     NEWER_RECORD,
@@ -21,7 +25,6 @@ from mrlab_ros.core.trajectory.diagnostics import (
     NOT_DELETED,
     SEEN_BY_ALL,
 )
-from mrlab_ros.core.trajectory.names import LONGEST_NAME, TrajectoryName
 
 FORMAT = 1
 
@@ -201,3 +204,45 @@ def from_document(document: Mapping[str, Any]) -> Record:
 
 def _names(kind: type[Version] | type[Record]) -> Iterable[str]:
     return (field.name for field in fields(kind))
+
+
+LONGEST_NAME = 128
+ID = re.compile(rf"[A-Za-z0-9][A-Za-z0-9._-]{{0,{LONGEST_NAME - 1}}}")
+VERSION = re.compile(r"[1-9][0-9]{0,8}")
+
+
+@dataclass(frozen=True, order=True)
+class TrajectoryName:
+    """What an id says. owner: empty: the lab's. version: 0: the newest one."""
+
+    owner: str
+    name: str
+    version: int = 0
+
+    @property
+    def id(self) -> str:
+        """The id without a version, unique in the catalogue."""
+        return f"{self.owner}/{self.name}" if self.owner else self.name
+
+    def __str__(self) -> str:
+        return f"{self.id}@{self.version}" if self.version else self.id
+
+
+def checked_id(name: str) -> str:
+    """Return a trajectory's name without its owner; raise BadInput where it cannot be one."""
+    if not ID.fullmatch(name):
+        raise BadInput(BAD_TRAJECTORY_NAME(name=name, most=LONGEST_NAME))
+    return name
+
+
+def parse(text: str) -> TrajectoryName:
+    """Return what an id such as `quintic`, `anna/quintic` or `anna/quintic@3` names.
+
+    An owner may hold any characters, so the last slash ends it. Raises BadInput where the text
+    cannot be an id.
+    """
+    owner, slash, rest = text.rpartition("/")
+    name, at, version = rest.partition("@")
+    if not ID.fullmatch(name) or (slash and not owner) or (at and not VERSION.fullmatch(version)):
+        raise BadInput(BAD_TRAJECTORY_ID(id=text))
+    return TrajectoryName(owner, name, int(version) if at else 0)

@@ -3,10 +3,10 @@
 import pytest
 from refusals import refused
 
+from mrlab_ros.adapters.bags.foreign import chosen_models, columns_of
 from mrlab_ros.core.base.diagnostic import Fix
 from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.recording.diagnostics import JOINTS_OF_TOPIC, NO_SUCH_JOINTS, SEVERAL_MODELS
-from mrlab_ros.core.recording.joint_mapping import chosen_models, columns_of
 
 ARM = ("base_joint", "elbow_joint")
 MODELS = {"small": ARM, "big": ARM, "long": (*ARM, "wrist_joint"), "other": ("axis_1", "axis_2")}

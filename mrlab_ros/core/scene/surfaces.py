@@ -1,4 +1,4 @@
-"""The static surfaces of a room, as a headset detects them, made into bodies."""
+"""The static surfaces of a room, as headsets detect them."""
 
 from __future__ import annotations
 
@@ -10,21 +10,8 @@ from numpy.typing import NDArray
 
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.geometry import Array, Pose
-from mrlab_ros.core.physics.diagnostics import (
-    BAD_SOURCE,
-    SURFACE_BEYOND,
-    SURFACE_IS_LINE,
-    SURFACE_NO_VERTEX,
-    SURFACE_OUTLINE,
-    SURFACE_TOO_FINE,
-    SURFACES_OF_ONE_NAME,
-)
-from mrlab_ros.core.physics.engine import Body, Part, Shape
+from mrlab_ros.core.scene.diagnostics import BAD_SOURCE, SURFACES_OF_ONE_NAME
 
-# A detected plane gets this thickness behind it, m: a headset sees no back side.
-THICKNESS = 0.02
-FLOOR_SIZE = 200.0  # m
-MAX_OUTLINE = 1000
 FLOOR = "floor"
 LONGEST_SOURCE = 64
 
@@ -85,39 +72,3 @@ def of_source(
             name, number = f"{surface.name}_{number}", number + 1
         room[name] = replace(surface, name=name, source=source)
     return tuple(room.values())
-
-
-def body(surface: Surface, max_triangles: int) -> Body:
-    """Return the surface as a static body; raise BadInput where it is none.
-
-    A plane becomes a slab behind its front: the convex hull of its outline.
-    """
-    name, vertices, triangles = surface.name, surface.vertices, surface.triangles
-    if not np.isfinite(vertices).all() or (len(vertices) and np.abs(vertices).max() > 1000):
-        raise BadInput(SURFACE_BEYOND(surface=name))
-    if len(triangles):
-        if len(triangles) > max_triangles:
-            raise BadInput(
-                SURFACE_TOO_FINE(surface=name, count=len(triangles), most=max_triangles)
-            )
-        if triangles.min() < 0 or triangles.max() >= len(vertices):
-            vertex = int(triangles.max() if triangles.min() >= 0 else triangles.min())
-            raise BadInput(SURFACE_NO_VERTEX(surface=name, vertex=vertex, count=len(vertices)))
-        # Unused vertices would enlarge the bounding box.
-        named, places = np.unique(triangles, return_inverse=True)
-        part = Part(
-            Shape.MESH,
-            vertices=vertices[named],
-            triangles=places.reshape(-1, 3).astype(np.int32),
-        )
-    elif surface.endless:
-        part = Part(Shape.BOX, (FLOOR_SIZE, FLOOR_SIZE, 1.0), Pose((0.0, 0.0, -0.5)))
-    else:
-        if not 3 <= len(vertices) <= MAX_OUTLINE:
-            raise BadInput(SURFACE_OUTLINE(surface=name, count=len(vertices), most=MAX_OUTLINE))
-        across = vertices - vertices.mean(axis=0)
-        if np.linalg.svd(across, compute_uv=False)[1] < 1e-4:
-            raise BadInput(SURFACE_IS_LINE(surface=name))
-        behind = vertices - [0.0, 0.0, THICKNESS]
-        part = Part(Shape.HULL, vertices=np.concatenate([vertices, behind]))
-    return Body((part,), 0.0)

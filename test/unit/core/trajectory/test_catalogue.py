@@ -4,7 +4,8 @@ import pytest
 from refusals import refused
 
 from mrlab_ros.core.base.errors import BadInput
-from mrlab_ros.core.trajectory import record as records
+from mrlab_ros.core.trajectory import catalogue as records
+from mrlab_ros.core.trajectory.catalogue import Record, TrajectoryName, Version, checked_id, parse
 from mrlab_ros.core.trajectory.diagnostics import (
     BAD_TRAJECTORY_ID,
     BAD_TRAJECTORY_NAME,
@@ -15,8 +16,6 @@ from mrlab_ros.core.trajectory.diagnostics import (
     NOT_DELETED,
     SEEN_BY_ALL,
 )
-from mrlab_ros.core.trajectory.names import TrajectoryName, checked_id, parse
-from mrlab_ros.core.trajectory.record import Record, Version
 
 NAME = TrajectoryName("anna", "pick")
 

@@ -1,0 +1,1 @@
+"""States of a grasp and the load that it carries."""
