@@ -24,7 +24,7 @@ import rubrics_page
 import typescript_protocol
 
 from mrlab_ros.core.base.state_machine import Table
-from mrlab_ros.core.physics.grasp.states import states
+from mrlab_ros.core.physics.grasp import states
 from mrlab_ros.core.playback import states as playback
 from mrlab_ros.core.recording import recorder as recording
 from mrlab_ros.core.systems import states as systems
