@@ -73,6 +73,7 @@ class Catalogue(Node):
         return response
 
     def _list(self, request, response):
+        response.success = True
         response.trajectories = [
             trajectories.info_to_message(trajectory)
             for trajectory in TRAJECTORIES.values()

@@ -9,6 +9,7 @@ import zenoh
 
 from mrlab_ros.adapters.zenoh.configuration import first_line
 from mrlab_ros.adapters.zenoh.diagnostics import NO_LAB_AT, NOTHING_ANSWERS
+from mrlab_ros.adapters.zenoh.refusals import refusal
 from mrlab_ros.core.base.diagnostic import of_text
 from mrlab_ros.core.base.errors import LabError, Unavailable
 
@@ -17,7 +18,7 @@ OPEN_TIMEOUT_MS = 700
 
 
 class Refusal(LabError):
-    """The bridge answered a query with an error; its text says why."""
+    """The bridge answered a query with an error, which says why."""
 
 
 class NoQueryable(LabError):
@@ -67,5 +68,5 @@ class ZenohLink:
             if reply.ok is not None:
                 return reply.ok.payload.to_bytes()
             if reply.err is not None:
-                raise Refusal(of_text(reply.err.payload.to_string()))
+                raise Refusal(refusal(reply.err))
         raise NoQueryable(NOTHING_ANSWERS(key=key))

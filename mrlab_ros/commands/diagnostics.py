@@ -123,7 +123,7 @@ NO_PHYSICS_HERE = Code(
 BAD_PLACE = Code("bad_place", "The place is '{text}'; expected x,y,z in m, such as 0.5,0,0.8.")
 # robots and systems of the running lab
 DISSOLVED_IN_PLAY = Code("dissolved_in_play", "{system} was dissolved while it played.")
-SYSTEM_STANDS = Code("system_stands", "{system} is {state}[: {why:problem}].")
+SYSTEM_STANDS = Code("system_stands", "{system} is {state:state}[: {why:problem}].")
 NO_MODE = Code("no_mode", "The mode is '{mode}'; expected parallel or sequential.")
 YAW_WITHOUT_PLACE = Code(
     "yaw_without_place", "--yaw {yaw:number} needs a place.", "Give it with --at X,Y."
@@ -187,7 +187,9 @@ DEMO_NEVER_PLAYED = Code(
     "{robot} never said that it plays[; its last complaint: {complaint}].",
 )
 DEMO_HALTED = Code("demo_halted", "The run was halted: {why:problem}.")
-DEMO_ENDED_EARLY = Code("demo_ended_early", "The run ended too early in {state}[: {why:problem}].")
+DEMO_ENDED_EARLY = Code(
+    "demo_ended_early", "The run ended too early in {state:state}[: {why:problem}]."
+)
 DEMO_FAULT = Code(
     "demo_fault",
     "{robot}: {received:integer} of {expected:integer} frames arrived over zenoh in order and as "

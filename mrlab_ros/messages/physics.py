@@ -121,6 +121,7 @@ def grasp_to_message(event: GraspChanged, fingers: list[str]) -> msg.Grasp:
         finger_positions=event.positions,
         finger_forces=event.forces,
         **told(event.reason, "reason"),
+        severity=event.reason.severity if event.reason else msg.Diagnostic.INFO,
         **_load(event.load),
     )
 
@@ -150,7 +151,7 @@ def removed_to_message(event: ObjectRemoved) -> msg.ObjectRemoved:
         header=make_header(event.stamp_ns, WORLD),
         name=event.name,
         type=event.type,
-        reason=str(event.why),
+        **told(event.why, "reason"),
     )
 
 

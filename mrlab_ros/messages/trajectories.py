@@ -148,7 +148,7 @@ def candidate_to_message(candidate: Candidate) -> msg.Candidate:
         minimum=candidate.minimum,
         maximum=candidate.maximum,
         score=candidate.score,
-        why=candidate.why,
+        reasons=[diagnostic_to_message(each) for each in candidate.reasons],
         preview=preview_to_message(candidate.preview),
     )
 
@@ -204,7 +204,7 @@ def candidate_from_message(message: msg.Candidate) -> Candidate:
         message.variable,
         (message.rows, message.columns),
         message.score,
-        message.why,
+        tuple(map(diagnostic_from_message, message.reasons)),
         message.minimum,
         message.maximum,
         preview_from_message(message.preview),

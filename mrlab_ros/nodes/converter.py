@@ -147,13 +147,12 @@ class ConverterNode(ParameterNode[ConverterParameters]):
         try:
             answer()
         except Exception as error:
-            why = FAULT(service="the converter", error=repr(error))
+            why = FAULT(service="converter", error=repr(error))
             if isinstance(error, LabError):
                 why = error.diagnostic
             else:
                 self.get_logger().error(repr(error))
-            if hasattr(response, "success"):  # a list says nothing of what went wrong
-                tell(response, False, why)
+            tell(response, False, why)
         return response
 
     def _begin_conversion(self, request: Any, response: Any) -> Future[Any]:

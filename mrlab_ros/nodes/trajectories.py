@@ -128,6 +128,7 @@ class TrajectoryServices:
         end = request.begin + request.count if request.count else None
         response.trajectories = [self._info(record) for record in fitting[request.begin : end]]
         response.total = len(fitting)
+        response.success = True
 
     def list_any_fitting(self, request: Any, response: Any) -> None:
         self.list_fitting(request, response, private=True)

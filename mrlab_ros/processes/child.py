@@ -128,8 +128,13 @@ def describe_exit(code: int) -> str:
     """Describe how a process ended; negative codes are signals."""
     if code == WRONG_CONFIGURATION:
         return "wrong configuration"
+    return f"exit code {code}" if code >= 0 else exit_name(code)
+
+
+def exit_name(code: int) -> str:
+    """Return the name of the signal that ended a process, or its exit code, for programs."""
     if code >= 0:
-        return f"exit code {code}"
+        return str(code)
     try:
         return signal.Signals(-code).name
     except ValueError:
@@ -158,6 +163,7 @@ class Child:
         self._policy, self._emit, self._changed = policy, emit, changed
         self._phase, self._since = Phase.STARTING, time.time()
         self._restarts, self._last_exit = 0, ""
+        self._last_code: int | None = None
         self._process: subprocess.Popen[bytes] | None = None
         # Guards _process: while it is set, its process group exists and belongs to this child.
         self._lock = threading.Lock()
@@ -210,10 +216,10 @@ class Child:
         # The child inherits this thread's mask, so it starts with SIGINT blocked.
         signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
         while not self._stop.is_set():
-            code, self._last_exit = self._run_once()
+            self._last_code, self._last_exit = self._run_once()
             if self._stop.is_set():
                 break
-            if code == WRONG_CONFIGURATION:
+            if self._last_code == WRONG_CONFIGURATION:
                 self._emit(
                     SELF,
                     f"{self.spec.name} ended ({self._last_exit}) and is not started again; "
@@ -234,6 +240,7 @@ class Child:
 
     def _run_once(self) -> tuple[int | None, str]:
         """Run the process to its end; return its exit code, and in words how it ended."""
+        before = self._last_code
         command = guarded(self.spec.argv, unblock_sigint=not self.spec.unblocks_sigint)
         # Before the start: a program that cannot be started has not run since the one before it.
         self._policy.started(time.monotonic())
@@ -247,7 +254,7 @@ class Child:
                         **os.environ,
                         **self.spec.env,
                         RESTARTS: str(self._restarts),
-                        LAST_EXIT: self._last_exit,
+                        LAST_EXIT: "" if before is None else exit_name(before),
                     },
                     stdin=subprocess.DEVNULL,
                     stdout=subprocess.PIPE,

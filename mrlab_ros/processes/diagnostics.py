@@ -6,7 +6,7 @@ from mrlab_ros.core.base.diagnostic import WARNING, Code
 
 NO_PRIVATE_FOLDER = Code(
     "no_private_folder",
-    "No folder is this user's alone: {reasons:list}.",
+    "No folder is this user's alone: {reasons:reasons}.",
     "Set XDG_RUNTIME_DIR to one.",
     meaning="Where a lab keeps its socket, others must not write.",
 )

@@ -35,7 +35,7 @@ def folder() -> tuple[Path, str]:
     name = f"mrlab-{os.getuid()}"
     state = os.environ.get("XDG_STATE_HOME") or Path.home() / ".local" / "state"
     bases = (os.environ.get("XDG_RUNTIME_DIR"), tempfile.gettempdir(), state)
-    reasons = []
+    reasons: list[Diagnostic | str] = []
     for path in (Path(base) / name for base in bases if base):
         try:
             path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
@@ -44,8 +44,8 @@ def folder() -> tuple[Path, str]:
             continue
         why = private_folder.why_not(path)
         if why is None:
-            return path, "; ".join(reasons)
-        reasons.append(str(why))
+            return path, "; ".join(map(str, reasons))
+        reasons.append(why)
     raise Unavailable(NO_PRIVATE_FOLDER(reasons=reasons))
 
 

@@ -157,8 +157,8 @@ class GraphClient(ABC):
         )
 
     def catalogue(self) -> list[Any]:
-        """Return what there is to load."""
-        answer = self.call(
+        """Return what there is to load; raise Misuse where the store does not say it."""
+        answer = self.order(
             srv.ListTrajectories, "/converter/list_any", srv.ListTrajectories.Request()
         )
         infos: list[Any] = answer.trajectories

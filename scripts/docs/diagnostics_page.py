@@ -26,6 +26,7 @@ SAMPLES: dict[str, Any] = {
     "count": 3,
     "integer": 3,
     "bytes": 1536000,
+    "state": "PLAYING",
 }
 # Rooms whose texts reach a terminal only.
 TERMINAL = "mrlab_ros.commands"

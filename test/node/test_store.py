@@ -196,7 +196,7 @@ def test_a_store_in_memory_fails_when_told():
     store = MemoryStore()
     store.writes_left = 1
     store.put("a", b"1")
-    with refused(STORE_FAILED, StoreFailure, why="it is full"):
+    with refused(STORE_FAILED, StoreFailure, why="No space left on device"):
         store.put("b", b"2")
     assert store.get("a") == b"1"
     store.broken = "it is away"

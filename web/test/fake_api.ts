@@ -270,7 +270,7 @@ export class FakeApi implements Api {
             minimum: -1.6,
             maximum: 2.1,
             score: 0.62,
-            why: 'within the limits of every joint',
+            reasons: [own('within the limits of every joint')],
             preview: wave(6, 1),
           },
           {
@@ -280,7 +280,7 @@ export class FakeApi implements Api {
             minimum: -92,
             maximum: 121,
             score: 0.58,
-            why: 'named as set-points; looks like degrees',
+            reasons: [own('named as set-points; looks like degrees')],
             preview: wave(6, 60),
           },
         ],

@@ -71,7 +71,12 @@ BAD_KEY_NAME = Code(
     "Expected up to 41 letters, digits, '_', '-' and '.', beginning with a letter or digit, and "
     "not {reserved:either}.",
 )
-HAS_KEY = Code("has_key", "{name} has a key already, as {role}.", "Take that one back first.")
+HAS_KEY = Code(
+    "has_key",
+    "{name} has a key already, as "
+    "{role:choice display=display|student=student|operator=operator|instructor=instructor}.",
+    "Take that one back first.",
+)
 HAS_NO_KEY = Code("has_no_key", "{name} has no key in {folder}[; {known:list} have one].")
 ROUTER_TAKES_CERTIFICATES = Code(
     "router_takes_certificates",

@@ -7,6 +7,7 @@ from mrlab_ros.core.base.diagnostic import Code
 NOT_IN_STORE = Code(
     "not_in_store", "There is nothing under '{key}' in the store.", "Send it again."
 )
+STORE_SILENT = Code("store_silent", "it does not answer", meaning="Why a store failed.")
 STORE_FAILED = Code(
     "store_failed",
     "The store {store} failed ({why:problem}); nothing was changed.",

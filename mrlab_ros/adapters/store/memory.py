@@ -76,7 +76,7 @@ class MemoryStore(ObjectStore):
     def _check(self, *, writes: bool = False) -> None:
         if writes and self.writes_left is not None:
             if self.writes_left == 0:
-                raise StoreFailure(STORE_FAILED(store=self.place, why="it is full"))
+                raise StoreFailure(STORE_FAILED(store=self.place, why="No space left on device"))
             self.writes_left -= 1
         if self.broken:
             raise StoreFailure(STORE_FAILED(store=self.place, why=self.broken))

@@ -24,9 +24,11 @@ from mrlab_ros.adapters.store.diagnostics import (
     NOT_IN_STORE,
     STORE_FAILED,
     STORE_FOLDER_UNUSABLE,
+    STORE_SILENT,
     STORE_UNUSABLE,
 )
 from mrlab_ros.adapters.store.port import Entry, Missing, ObjectStore, StoreFailure
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.errors import BadInput
 
 MiB = 1 << 20
@@ -173,11 +175,11 @@ class ObstoreStore(ObjectStore):
             raise StoreFailure(STORE_FAILED(store=self.place, why=_reason(error))) from None
 
 
-def _reason(error: BaseException) -> str:
+def _reason(error: BaseException) -> Diagnostic | str:
     """Return the cause that obstore's text names, in one short line."""
     text = " ".join(str(error).split("Debug source:", 1)[0].split())
     if UNREACHABLE.search(text):
-        return "it does not answer"
+        return STORE_SILENT()
     if answer := SERVICE_ERROR.search(text):
         return f"{answer[1]}: {answer[2].strip(' .')}"
     # the cause stands at the end, after what was tried

@@ -16,14 +16,13 @@ from zenoh import ext
 from mrlab_ros.adapters.zenoh.configuration import first_line
 from mrlab_ros.adapters.zenoh.diagnostics import ENDPOINT_TAKEN, ZENOH_NOT_OPEN
 from mrlab_ros.adapters.zenoh.port import Declared, Publisher, Query
-from mrlab_ros.core.base.diagnostic import Diagnostic, of_text, plain
+from mrlab_ros.adapters.zenoh.refusals import encoding_of
+from mrlab_ros.core.base.diagnostic import Diagnostic, of_text
 from mrlab_ros.core.base.errors import Unavailable
 from mrlab_ros.core.bridge.guests import Link
 from mrlab_ros.core.bridge.rules import Congestion, Reliability, TopicRule
 
 # Threads that answer queries for latched topics, and how many queries may wait for them.
-# Bytes of an encoding's schema; with a longer one zenoh's pipeline panics.
-LONGEST_SCHEMA = 255
 ANSWER_THREADS = 2
 ANSWERS_WAITING = 4096
 CONGESTION = {
@@ -278,12 +277,7 @@ class _Query:
         self._query.drop()
 
     def refuse(self, reason: Diagnostic) -> None:
-        # The text for whoever prints it; code and values for whoever words it.
-        told = json.dumps({"code": reason.code, "values": plain(reason.values)})
-        if len(told) > LONGEST_SCHEMA:
-            told = json.dumps({"code": reason.code, "values": {}})
-        encoding = zenoh.Encoding.TEXT_PLAIN.with_schema(told)
-        self._query.reply_err(str(reason).encode(), encoding=encoding)
+        self._query.reply_err(str(reason).encode(), encoding=encoding_of(reason))
         self._query.drop()
 
     def ignore(self) -> None:

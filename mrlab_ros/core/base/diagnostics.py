@@ -205,13 +205,9 @@ COMMANDS = (
     "the recording|start a replay|pause the replay|resume the replay|seek in the replay|set the "
     "rate|set the loop"
 )
-STATES = (
-    "IDLE|READY|ADJUSTING|STAGING|PLAYING|PAUSED|COLLISION_HALT|COMPLETE|STOPPING|STOPPED"
-    "|RECORDING|PREPARING|REPLAYING"
-)
 ILLEGAL_EVENT = Code(
     "illegal_event",
-    f"cannot {{event:choice {COMMANDS}}} in {{state:choice {STATES}}}[; {{reason:problem}}]"
+    f"cannot {{event:choice {COMMANDS}}} in {{state:state}}[; {{reason:problem}}]"
     "[; possible now: {possible:list}]",
     meaning="A command that the present state does not allow; nothing was changed.",
 )

@@ -21,6 +21,7 @@ unit the value is stored and how it is shown, the same in terminal, page, room a
     {events:list play=start}   the same, with words of its own for those that are known
     {side:choice above=over|below=under}                    the text of one of the known words;
                                another, and one without a text, is said as it is
+    {state:state}              a state of the lab by its name, such as PLAYING
     {why:problem}              another diagnostic, or what a library said
     {all:problems}             several of them, a line each
     {all:reasons}              several of them in one sentence, parted by semicolons
@@ -232,6 +233,7 @@ QUANTITIES: dict[str, Callable[[Any, Sequence[str]], str]] = {
     "problem": lambda v, w: visible_lines(str(v)).rstrip("."),
     "problems": lambda v, w: "".join(f"\n  {visible_lines(str(each))}" for each in v),
     "reasons": lambda v, w: "; ".join(visible_lines(str(each)).rstrip(".") for each in v),
+    "state": lambda v, w: visible(str(v)),
     "measure": lambda v, w: _significant(v, 4, ""),
 }
 # The quantity of each unit that a value's `unit` may name.

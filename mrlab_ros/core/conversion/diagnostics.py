@@ -478,6 +478,12 @@ NO_NUMBER = Code(
     "it is {found:problem} where a real number is expected",
     severity=INFO,
 )
+VALUES_OF = Code(
+    "values_of",
+    "{kind:choice complex=complex|text=text}",
+    severity=INFO,
+    meaning="Values that are no real numbers; other kinds are named as MATLAB's classes.",
+)
 TIMES_OF_CLASS = Code("times_of_class", "its class is {found:problem}", severity=INFO)
 NO_RATE = Code("no_rate", "{value:number} is no rate or step of the rows", severity=INFO)
 NO_COLUMN = Code("no_column", "it is {size} where one column is expected", severity=INFO)

@@ -26,6 +26,7 @@ from mrlab_ros.core.conversion.diagnostics import (
     TIME_ROUNDED,
     TIME_UNEVEN,
     TIMES_OF_CLASS,
+    VALUES_OF,
 )
 from mrlab_ros.core.conversion.rate_scalars import RATE_NAMES, STEP_NAMES, scalar_name
 from mrlab_ros.core.conversion.time_vectors import (
@@ -186,11 +187,11 @@ def unused_times(
             single = count == 1 or v.kind in ("char", "string", "cell")
             if of_rate and single and not v.is_object and v.kind != "struct":
                 text = "text" if v.text and v.kind != "logical" else v.kind
-                why = NO_NUMBER(found=v.note or text)
+                why = NO_NUMBER(found=_kind(v.note or text))
             elif is_time_name(v.path) and rows in v.shape and v.kind != "struct":
                 texts = v.kind in ("char", "string", "cell")
                 line = f"{v.path} = str2double(string({v.path}))" if texts else ""
-                why = TIMES_OF_CLASS(found=v.note or v.kind)
+                why = TIMES_OF_CLASS(found=_kind(v.note or v.kind))
         elif count == 1:
             if of_rate:
                 why = NO_RATE(value=float(v.values.reshape(-1)[0]))
@@ -200,6 +201,10 @@ def unused_times(
             fixes = (rate_fix(default), *([Fix(matlab=line)] if line else ()))
             return RATE_UNUSED(variable=v.path, why=why, rate=default, fixes=fixes)
     return None
+
+
+def _kind(found: Diagnostic | str) -> Diagnostic:
+    return VALUES_OF(kind=found) if isinstance(found, str) else found
 
 
 def _why_unused(v: Variable, rows: int) -> Diagnostic | None:

@@ -138,7 +138,7 @@ PASSED_ALREADY = Code(
 )
 NOTHING_LOADED = Code(
     "nothing_loaded",
-    "The robot cannot move in {state}: it has no trajectory.",
+    "The robot cannot move in {state:state}: it has no trajectory.",
     "Load a trajectory first.",
     meaning="The command needs a trajectory.",
 )
@@ -157,7 +157,7 @@ MEMBER_OF_SYSTEM = Code(
 )
 NOT_STANDING = Code(
     "not_standing",
-    "The robot[ {robot}] is in {state}.",
+    "The robot[ {robot}] is in {state:state}.",
     "Stop it first.",
     meaning="A system takes only robots that stand.",
 )
@@ -176,7 +176,7 @@ NOT_DRIVEN_BY = Code(
 )
 COMMANDS_IGNORED = Code(
     "commands_ignored",
-    "The robot is in {state} and ignores the joint commands.",
+    "The robot is in {state:state} and ignores the joint commands.",
     "Play goes on with them, and so does a stream that begins again after {silence:time}.",
     meaning="The stream was paused or stopped while it goes on.",
 )
@@ -332,11 +332,11 @@ OFF_GOAL = Code(
 OFF_PATH = Code(
     "off_path",
     "{joint} is {value:angle} off the path; expected {limit:angle} at most[; the robot is in "
-    "{state}].",
+    "{state:state}].",
     meaning="A goal left its path tolerance.",
 )
 GOAL_LATE = Code(
     "goal_late",
-    "The goal was not reached {late:time} after its time[; the robot is in {state}].",
+    "The goal was not reached {late:time} after its time[; the robot is in {state:state}].",
     meaning="A goal passed its time tolerance.",
 )

@@ -48,23 +48,29 @@ SHARED_SERVICE = Code(
 
 # signs of life
 
+EXITED = Code(
+    "exited",
+    "exit code {exit_code:integer}",
+    severity=INFO,
+    meaning="How a process of the lab ended by itself.",
+)
 DIED = Code(
     "died",
-    "it died[ ({last_exit})] and was restarted {ago:integer} s ago; nothing was lost",
+    "it died[ ({last_exit:problem})] and was restarted {ago:integer} s ago; nothing was lost",
     severity=WARNING,
     meaning="A process of the lab ended, was started again, and has all that it had.",
     data=("lost",),
 )
 DIED_AND_LOST = Code(
     "died_and_lost",
-    "it died[ ({last_exit})] and was restarted {ago:integer} s ago; lost: {lost:problem}",
+    "it died[ ({last_exit:problem})] and was restarted {ago:integer} s ago; lost: {lost:problem}",
     severity=WARNING,
     meaning="A process of the lab ended and was started again; something was not brought back.",
 )
 DIED_AND_LOOKS = Code(
     "died_and_looks",
-    "it died[ ({last_exit})] and was restarted {ago:integer} s ago; what was lost is being "
-    "determined",
+    "it died[ ({last_exit:problem})] and was restarted {ago:integer} s ago; what was lost is "
+    "being determined",
     severity=WARNING,
     meaning="A process of the lab ended and was started again a moment ago.",
     data=("lost",),

@@ -31,7 +31,8 @@ class Freeze:
 class Sign:
     """What a process says of itself.
 
-    restarts: how often it was started again. last_exit: how it ended before, such as SIGKILL.
+    restarts: how often it was started again. last_exit: the signal that ended it before, such as
+    SIGKILL, or its exit code.
     lost: what could not be brought back; None: that is not known yet. failed: what went wrong
     since, newest first. freeze: the last one, of a minute.
     """
@@ -58,7 +59,9 @@ class Sign:
             died = say.DIED_AND_LOOKS if self.lost is None else say.DIED
             if lost is not None:
                 died = say.DIED_AND_LOST
-            lost = died(last_exit=self.last_exit, ago=round(age), lost=lost)
+            exit_code = int(self.last_exit) if self.last_exit.isdecimal() else None
+            how = self.last_exit if exit_code is None else say.EXITED(exit_code=exit_code)
+            lost = died(last_exit=how, ago=round(age), lost=lost)
         return joined([*said, lost] if lost else said)
 
 

@@ -15,7 +15,8 @@ from typing import Any
 import zenoh
 
 from mrlab_ros.adapters.zenoh.configuration import LOOPBACK, configuration, first_line
-from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, Severity, of_text
+from mrlab_ros.adapters.zenoh.refusals import refusal
+from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
 from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.bridge.latency import stamps
 from mrlab_ros.gateway.lab.connection import (
@@ -288,18 +289,8 @@ class ZenohLab:
 
 
 def _refusal(error: zenoh.ReplyError) -> Diagnostic | None:
-    """Return why a query is refused: a text, and in its encoding code and values as JSON.
-
-    None: nobody answered in time.
-    """
-    text = error.payload.to_string()
-    if text == ZENOH_TIMEOUT:
-        return None
-    try:
-        told = json.loads(str(error.encoding).partition(";")[2])
-        return Diagnostic(told["code"], Severity.ERROR, text, values=dict(told["values"]))
-    except (ValueError, KeyError, TypeError):
-        return of_text(text)
+    """Return why a query is refused; None: nobody answered in time."""
+    return None if error.payload.to_string() == ZENOH_TIMEOUT else refusal(error)
 
 
 def _read(sample: zenoh.Sample, root: int) -> Sample:

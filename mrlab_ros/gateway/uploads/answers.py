@@ -58,7 +58,7 @@ class Candidate(BaseModel):
     minimum: float | None
     maximum: float | None
     score: float
-    why: str
+    reasons: list[Finding]
     preview: Preview
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from mrlab_ros.core.base.diagnostic import Diagnostic, Severity, of_record
+from mrlab_ros.core.base.diagnostic import Diagnostic, Severity, of_record, plain
 from mrlab_ros.core.conversion.preview import Preview
 
 OUTCOMES = ("rejected", "accepted", "ambiguous")
@@ -46,7 +46,7 @@ def candidate_fields(message: Any) -> dict[str, Any]:
         "minimum": finite(message.minimum),
         "maximum": finite(message.maximum),
         "score": finite(message.score) or 0.0,
-        "why": message.why,
+        "reasons": [plain(of_record(each)) for each in message.reasons],
         "preview": preview_fields(message.preview),
     }
 

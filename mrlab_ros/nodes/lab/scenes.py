@@ -12,7 +12,8 @@ from rclpy.node import Node
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.scenes.files import SceneFiles
-from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.base.diagnostic import Diagnostic, heard
+from mrlab_ros.core.base.errors import Unavailable
 from mrlab_ros.core.scene import restore as core
 from mrlab_ros.core.scene.document import RobotEntry, SceneDocument
 from mrlab_ros.core.scene.restore import Present
@@ -137,7 +138,10 @@ class Scenes:
         request = srv.ListTrajectories.Request(
             robot_model=robot.model, end_effector=robot.end_effector
         )
-        return loaded_from_messages(call(self._list, request).trajectories)
+        answer = call(self._list, request)
+        if not answer.success:
+            raise Unavailable(heard(answer))
+        return loaded_from_messages(answer.trajectories)
 
 
 def _counts(scene: SceneDocument) -> dict[str, Any]:

@@ -89,7 +89,7 @@ export interface Candidate {
   readonly minimum: number | null
   readonly maximum: number | null
   readonly score: number
-  readonly why: string
+  readonly reasons: readonly Told[]
   readonly preview: Preview
 }
 

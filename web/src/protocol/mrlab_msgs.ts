@@ -61,7 +61,7 @@ export interface Candidate {
   /** 0 to 1, larger is likelier */
   score: number
   /** what speaks for and against it */
-  why: string
+  reasons: Diagnostic[]
   /** some of its rows */
   preview: Preview
 }
@@ -74,7 +74,7 @@ export function createCandidate(): Candidate {
     minimum: 0,
     maximum: 0,
     score: 0,
-    why: '',
+    reasons: [],
     preview: createPreview(),
   }
 }
@@ -86,7 +86,7 @@ export function readCandidate(from: CdrReader, into: Candidate): void {
   into.minimum = from.float64()
   into.maximum = from.float64()
   into.score = from.float64()
-  into.why = from.string(into.why)
+  into.reasons = from.messages(into.reasons, createDiagnostic, readDiagnostic)
   readPreview(from, into.preview)
 }
 
@@ -542,6 +542,8 @@ export interface Grasp {
   code: string
   /** values of that text by name; a text as it is, all else as JSON */
   values: KeyValue[]
+  /** how much the reason matters, by the constants of Diagnostic */
+  severity: number
   /** kg of the held object */
   mass: number
   /** kg that the robot with this end effector may carry; 0: not stated */
@@ -578,6 +580,7 @@ export function createGrasp(): Grasp {
     reason: '',
     code: '',
     values: [],
+    severity: 0,
     mass: 0,
     payload: 0,
     friction: 0,
@@ -597,6 +600,7 @@ export function readGrasp(from: CdrReader, into: Grasp): void {
   into.reason = from.string(into.reason)
   into.code = from.string(into.code)
   into.values = from.messages(into.values, createKeyValue, readKeyValue)
+  into.severity = from.uint8()
   into.mass = from.float64()
   into.payload = from.float64()
   into.friction = from.float64()
@@ -909,6 +913,10 @@ export interface ObjectRemoved {
   type: string
   /** why, for a person: it was the oldest, or it fell out of the room */
   reason: string
+  /** what the reason says, for programs; docs/diagnostics.md lists the codes */
+  code: string
+  /** values of that text by name; a text as it is, all else as JSON */
+  values: KeyValue[]
 }
 
 export function createObjectRemoved(): ObjectRemoved {
@@ -917,6 +925,8 @@ export function createObjectRemoved(): ObjectRemoved {
     name: '',
     type: '',
     reason: '',
+    code: '',
+    values: [],
   }
 }
 
@@ -925,6 +935,8 @@ export function readObjectRemoved(from: CdrReader, into: ObjectRemoved): void {
   into.name = from.string(into.name)
   into.type = from.string(into.type)
   into.reason = from.string(into.reason)
+  into.code = from.string(into.code)
+  into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
 export const objectRemovedReader: MessageReader<ObjectRemoved> = /* @__PURE__ */ messageReader(

@@ -16,6 +16,21 @@ export const words: Words = {
     or: 'oder',
     row: 'Zeile',
     rows: (first, last) => `Zeilen ${first} bis ${last}`,
+    states: {
+      IDLE: 'untätig',
+      READY: 'bereit',
+      ADJUSTING: 'fährt zum Start',
+      STAGING: 'fährt zum Start',
+      PLAYING: 'läuft',
+      PAUSED: 'Pause',
+      COLLISION_HALT: 'Kollisionshalt',
+      COMPLETE: 'fertig',
+      STOPPING: 'stoppt',
+      STOPPED: 'gestoppt',
+      RECORDING: 'nimmt auf',
+      PREPARING: 'bereitet vor',
+      REPLAYING: 'gibt wieder',
+    },
   },
   scene: {
     view: 'Der Roboter in 3D. Pfeiltasten drehen die Ansicht, Plus und Minus zoomen, 0 zeigt alles.',
@@ -780,22 +795,6 @@ const COMMANDS = [
   'set the loop=Ändern der Schleife',
 ].join('|')
 
-const STATES = [
-  'IDLE=untätig',
-  'READY=bereit',
-  'ADJUSTING=fährt zum Start',
-  'STAGING=fährt zum Start',
-  'PLAYING=läuft',
-  'PAUSED=Pause',
-  'COLLISION_HALT=Kollisionshalt',
-  'COMPLETE=fertig',
-  'STOPPING=stoppt',
-  'STOPPED=gestoppt',
-  'RECORDING=nimmt auf',
-  'PREPARING=bereitet vor',
-  'REPLAYING=gibt wieder',
-].join('|')
-
 /** What the lab says, by code; the placeholders are those of the English text. */
 export const diagnostics: Templates = {
   a_filled_text: ['ein Text, der nicht leer ist'],
@@ -1254,7 +1253,7 @@ export const diagnostics: Templates = {
   ],
   commands_ended: ['es kommt kein Gelenkbefehl mehr'],
   commands_ignored: [
-    'Der Roboter ist im Zustand {state} und beachtet die Gelenkbefehle nicht.',
+    'Der Roboter ist im Zustand „{state:state}“ und beachtet die Gelenkbefehle nicht.',
     'Abspielen setzt sie fort, ebenso ein Strom, der nach {silence:time} neu beginnt.',
   ],
   commas_twice: [
@@ -1324,13 +1323,13 @@ export const diagnostics: Templates = {
   ],
   did_not_run: ['stand etwa {frozen:integer} s lang still, bis vor {ago:integer} s'],
   died: [
-    'brach ab[ ({last_exit})] und wurde vor {ago:integer} s neu gestartet; nichts ging verloren',
+    'brach ab[ ({last_exit:problem})] und wurde vor {ago:integer} s neu gestartet; nichts ging verloren',
   ],
   died_and_looks: [
-    'brach ab[ ({last_exit})] und wurde vor {ago:integer} s neu gestartet; was verloren ging, wird noch ermittelt',
+    'brach ab[ ({last_exit:problem})] und wurde vor {ago:integer} s neu gestartet; was verloren ging, wird noch ermittelt',
   ],
   died_and_lost: [
-    'brach ab[ ({last_exit})] und wurde vor {ago:integer} s neu gestartet; verloren: {lost:problem}',
+    'brach ab[ ({last_exit:problem})] und wurde vor {ago:integer} s neu gestartet; verloren: {lost:problem}',
   ],
   disappeared: ['{name} ist nicht mehr da'],
   discontinuity: [
@@ -1414,6 +1413,7 @@ export const diagnostics: Templates = {
     '{place:problem}, {one:choice part=Teil|hold=Halt|member=Mitglied|robot=Roboter|object=Gegenstand|surface=Fläche|system=System} {number:integer}',
   ],
   enumeration: ['eine Aufzählung: {names:list}'],
+  exited: ['Exit-Code {exit_code:integer}'],
   fault: ['Das Labor ist an {service} gescheitert ({error}); Näheres steht in seinem Protokoll.'],
   few_rows: ['sie hat nur {rows:count Zeile|Zeilen}'],
   field: ['{place:problem}: {key}'],
@@ -1504,7 +1504,7 @@ export const diagnostics: Templates = {
   goal_cancelled: ['abgebrochen: Der Arm bleibt, wo er ist'],
   goal_halted: ['Der Arm hielt an[: {why:problem}].'],
   goal_late: [
-    'Das Ziel war {late:time} nach seiner Zeit noch nicht erreicht[; der Roboter ist im Zustand {state}].',
+    'Das Ziel war {late:time} nach seiner Zeit noch nicht erreicht[; der Roboter ist im Zustand „{state:state}“].',
   ],
   goal_lost: [
     '{robot} steht, wo er war: Das Ziel oder der Strom von Gelenkbefehlen, dem er folgte, endete mit seinem Prozess.',
@@ -1576,7 +1576,7 @@ export const diagnostics: Templates = {
     'Lass sie weg.',
   ],
   has_key: [
-    '{name} hat schon einen Schlüssel, mit der Rolle {role}.',
+    `{name} hat schon einen Schlüssel, mit der Rolle {role:choice ${ROLE}}.`,
     'Nimm diesen zuerst zurück.',
   ],
   has_multi_dof: ['Das Ziel enthält eine multi_dof_trajectory; erwartet wird keine.'],
@@ -1605,7 +1605,7 @@ export const diagnostics: Templates = {
     'Erwartet wird ein Zertifikat mit seinem Schlüssel ohne Passwort (PEM).',
   ],
   illegal_event: [
-    `{event:choice ${COMMANDS}} geht im Zustand „{state:choice ${STATES}}“ nicht[: {reason:problem}][; möglich ist jetzt: {possible:list ${COMMANDS}}]`,
+    `{event:choice ${COMMANDS}} geht im Zustand „{state:state}“ nicht[: {reason:problem}][; möglich ist jetzt: {possible:list ${COMMANDS}}]`,
   ],
   in_brackets: ['Schreibe [[{text}]]'],
   in_cell: ['in einer Zelle mit {robots:count Roboter|Robotern}'],
@@ -2178,7 +2178,7 @@ export const diagnostics: Templates = {
   no_poses: ['Es nennt keine Posen; ergänze poses: [[[[0.4, 0.2, 0.3]]]], in m in world.'],
   no_positions: ['Die Punkte haben keine Positionen; erwartet wird eine für jedes Gelenk.'],
   no_private_folder: [
-    'Kein Ordner gehört diesem Benutzer allein: {reasons:list}.',
+    'Kein Ordner gehört diesem Benutzer allein: {reasons:reasons}.',
     'Setze XDG_RUNTIME_DIR auf einen solchen Ordner.',
   ],
   no_private_key: ['{path} ist kein privater Schlüssel ohne Passwort (PEM): {why:problem}.'],
@@ -2442,7 +2442,7 @@ export const diagnostics: Templates = {
   ],
   not_set_aside: ['Sie lässt sich nicht zur Seite legen: {problem}'],
   not_signed_in: ['Niemand ist angemeldet, oder die Anmeldung ist beendet.', 'Melde dich an.'],
-  not_standing: ['Der Roboter[ {robot}] ist im Zustand {state}.', 'Stoppe ihn zuerst.'],
+  not_standing: ['Der Roboter[ {robot}] ist im Zustand „{state:state}“.', 'Stoppe ihn zuerst.'],
   not_taken_back: [
     '{why:problem}. Was geändert wurde, ließ sich nicht zurücknehmen: {error:problem}.',
     'Lade {robots:list} noch einmal.',
@@ -2459,7 +2459,7 @@ export const diagnostics: Templates = {
     'Auf {topic} kam innerhalb von {timeout:time} nichts; vielleicht läuft dieser Teil des Labors nicht.',
   ],
   nothing_loaded: [
-    'Der Roboter kann sich im Zustand {state} nicht bewegen: Er hat keine Trajektorie.',
+    'Der Roboter kann sich im Zustand „{state:state}“ nicht bewegen: Er hat keine Trajektorie.',
     'Lade zuerst eine Trajektorie.',
   ],
   nothing_near: ['Nichts kommt näher als {value:length}.'],
@@ -2534,7 +2534,7 @@ export const diagnostics: Templates = {
   of_robot: ['{robot}: {why:problem}'],
   off_goal: ['{joint} ist {value:angle} vom Ziel entfernt; erwartet: höchstens {limit:angle}.'],
   off_path: [
-    '{joint} ist {value:angle} von der Bahn entfernt; erwartet: höchstens {limit:angle}[; der Roboter ist im Zustand {state}].',
+    '{joint} ist {value:angle} von der Bahn entfernt; erwartet: höchstens {limit:angle}[; der Roboter ist im Zustand „{state:state}“].',
   ],
   one_local_user: [
     'Dieses Labor hat eine einzige Person am Rechner selbst; es gibt kein Anmelden und keine gekoppelten Geräte.',
@@ -3227,6 +3227,7 @@ export const diagnostics: Templates = {
     'Die Ablage {store} hat versagt ({why:problem}); nichts wurde geändert.',
     'Versuche es noch einmal, wenn sie wieder geht.',
   ],
+  store_silent: ['sie antwortet nicht'],
   store_folder_unusable: [
     'Der Ordner {folder} kann nicht die Ablage sein: {why:problem}.',
     'Wähle einen anderen mit dem Parameter store, oder ein anderes state_dir.',
@@ -3559,6 +3560,7 @@ export const diagnostics: Templates = {
     'Version {version:integer} wurde inzwischen entfernt.',
     'Frag sie noch einmal an.',
   ],
+  values_of: ['{kind:choice complex=komplex|text=Text}'],
   wait_beyond_end: [
     '{robot} wartet am Frame {frame:integer}; seine Trajektorie hat die Frames 0 bis {last_frame:integer}.',
   ],

@@ -15,6 +15,7 @@ export const en = {
     or: 'or',
     row: 'row',
     rows: (first: string, last: string) => `rows ${first} to ${last}`,
+    states: {},
   },
   scene: {
     view: 'The robot in 3D. Arrow keys turn the view, plus and minus zoom, 0 shows all.',

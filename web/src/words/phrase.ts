@@ -9,6 +9,8 @@ export interface Joining {
   readonly or: string
   readonly row: string
   readonly rows: (first: string, last: string) => string
+  /** States of the lab by name. */
+  readonly states: Readonly<Record<string, string>>
 }
 
 interface Placeholder {
@@ -226,6 +228,8 @@ function shown(
       return joined(value, words, joining.and)
     case 'either':
       return joined(value, words, joining.or)
+    case 'state':
+      return joining.states[String(value)] ?? String(value)
     case 'choice':
       return chosen(value, words)
     case 'problem':

@@ -10,8 +10,15 @@ const JOINING = {
     or: 'oder',
     row: 'Zeile',
     rows: (a: string, b: string) => `Zeilen ${a} bis ${b}`,
+    states: { PLAYING: 'läuft' },
   },
-  en: { and: 'and', or: 'or', row: 'row', rows: (a: string, b: string) => `rows ${a} to ${b}` },
+  en: {
+    and: 'and',
+    or: 'or',
+    row: 'row',
+    rows: (a: string, b: string) => `rows ${a} to ${b}`,
+    states: {},
+  },
 } as const
 
 for (const language of ['de', 'en'] as const) {

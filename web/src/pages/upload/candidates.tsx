@@ -1,6 +1,7 @@
 import type { Candidate } from '../../api/types'
 import { Button } from '../../design/button'
 import { Sparkline } from '../../design/plot/sparkline'
+import { spoken } from '../../words/diagnostic'
 import { number, words } from '../../words/words'
 
 interface CandidatesProps {
@@ -33,7 +34,7 @@ export function Candidates({ candidates, busy, drawn, onChoose }: CandidatesProp
                 candidate.maximum !== null &&
                 w.range(number(candidate.minimum, 2), number(candidate.maximum, 2))}
             </p>
-            <p class="small">{candidate.why}</p>
+            <p class="small">{candidate.reasons.map(spoken).join('; ')}</p>
             <Button look="primary" disabled={busy} onClick={() => onChoose(candidate.variable)}>
               {w.take(candidate.variable)}
             </Button>
