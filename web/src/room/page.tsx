@@ -12,7 +12,7 @@ import { LabCatalogue } from '../lab/catalogue'
 import type { Link } from '../link/link'
 import { courseOf } from '../playback/course'
 import { checkSignIn, session, useApi } from '../shell/session'
-import { language, words } from '../words/words'
+import { language, named, words } from '../words/words'
 import type { Person } from './board/people_tab'
 import type { Entry } from './context'
 import type { Room } from './room'
@@ -70,7 +70,7 @@ function RoomView({ link }: { link: Link }) {
       endEffectors: end_effectors.map(
         ({ id, name, thumbnail }): Entry => ({
           id,
-          name,
+          name: named(id, name),
           note: '',
           group: '',
           picture: picture(thumbnail),

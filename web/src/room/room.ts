@@ -5,6 +5,7 @@ import { type TrajectoryInfo, trajectoryCatalogueReader } from '../protocol/mrla
 import { LabScene } from '../scene/lab/lab_scene'
 import type { ShownSurface } from '../scene/lab/surfaces'
 import { MeshLibrary } from '../scene/robot/meshes'
+import { named } from '../words/words'
 import { Board } from './board/board'
 import { BoardPlace } from './board/board_place'
 import { boardTabs } from './board/board_tabs'
@@ -144,7 +145,9 @@ export class Room implements Fixtures {
     this.guide = new Guide(context, this, targets)
     this.board.tabs = boardTabs(context, this, parts.person, parts.lesson)
     this.undo = [
-      pauseNews(link, (who, names) => context.say(words.room.pausedBy(who, names.join(', ')))),
+      pauseNews(link, (who, names) =>
+        context.say(words.room.pausedBy(named(who), names.join(', '))),
+      ),
       applySettings(this.settings, this.visit, () => this.repaint()),
       link.subscribe('trajectories', trajectoryCatalogueReader, ({ trajectories }) => {
         this.trajectories = trajectories

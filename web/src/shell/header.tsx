@@ -4,7 +4,7 @@ import { Segments } from '../design/field'
 import { Icon, type IconName } from '../design/icons'
 import { useOutside } from '../design/menu'
 import { setTheme, themeName } from '../design/theme'
-import { language, languageName, languages, setLanguage, words } from '../words/words'
+import { language, languageName, languages, named, setLanguage, words } from '../words/words'
 import { navigate, path } from './router'
 import { mayAdmit, session, useApi } from './session'
 
@@ -60,15 +60,15 @@ function AccountMenu() {
         aria-expanded={open}
         aria-haspopup="true"
         onClick={() => setOpen(!open)}
-        label={user ? `${w.nav.account}: ${user.name}` : w.nav.account}
+        label={user ? `${w.nav.account}: ${named(user.name)}` : w.nav.account}
       >
-        {user ? <span class="account-name">{user.name}</span> : undefined}
+        {user ? <span class="account-name">{named(user.name)}</span> : undefined}
       </Button>
       {open && (
         <div class="menu-list account-list">
           {user && (
             <p class="account-who">
-              <strong>{user.name}</strong>
+              <strong>{named(user.name)}</strong>
               <span class="second small">{w.roles[user.role]}</span>
             </p>
           )}

@@ -1,5 +1,7 @@
 /** Every word of the pages. Sentences with numbers are functions. */
 export const en = {
+  /** Of what the lab ships, and of the local user, by id; what is missing has its own name. */
+  names: {} as Readonly<Record<string, string>>,
   close: 'Close',
   cancel: 'Cancel',
   undo: 'Undo',

@@ -54,6 +54,12 @@ export async function setLanguage(next: string, keep = true): Promise<void> {
   loaded.value = { language: code, words: file.words, diagnostics: file.diagnostics }
 }
 
+/** Return what the language calls what the lab ships and the local user; else the name itself. */
+export function named(id: string, name = id): string {
+  const own = words.value.names
+  return Object.hasOwn(own, id) ? (own[id] ?? name) : name
+}
+
 /** The person's own kind of the language, such as en-GB: dates and numbers differ. */
 const locale = computed(
   () => navigator.languages.find((tag) => tag.startsWith(language.value)) ?? language.value,

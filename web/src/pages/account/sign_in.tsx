@@ -5,7 +5,7 @@ import { Notice } from '../../design/notice'
 import { navigate, path, search } from '../../shell/router'
 import { session, useApi } from '../../shell/session'
 import { sentence } from '../../words/diagnostic'
-import { words } from '../../words/words'
+import { named, words } from '../../words/words'
 import './account.css'
 
 /** Sign in with a password, at the university, or by pairing. */
@@ -43,7 +43,7 @@ export function SignInPage() {
       )}
       {user && (
         <Notice severity="info">
-          <p>{w.already(user.name)}</p>
+          <p>{w.already(named(user.name))}</p>
           <ButtonLink href="/">{words.value.nav.upload}</ButtonLink>
         </Notice>
       )}

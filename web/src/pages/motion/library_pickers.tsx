@@ -1,6 +1,6 @@
 import type { RobotLibrary } from '../../api/types'
 import { Picker } from '../../design/picker'
-import { words } from '../../words/words'
+import { named, words } from '../../words/words'
 
 interface LibraryPickerProps {
   readonly label: string
@@ -33,7 +33,7 @@ export function EffectorPicker({ library, ...rest }: LibraryPickerProps) {
         { id: '', name: words.value.upload.noEndEffector, note: '', picture: null },
         ...library.end_effectors.map((effector) => ({
           id: effector.id,
-          name: effector.name,
+          name: named(effector.id, effector.name),
           note: '',
           picture: effector.thumbnail,
         })),

@@ -2,7 +2,7 @@ import { useSignal } from '@preact/signals'
 import { Button } from '../../design/button'
 import { OutcomeChip } from '../../design/chip'
 import { spoken } from '../../words/diagnostic'
-import { words } from '../../words/words'
+import { named, words } from '../../words/words'
 import { Findings } from '../motion/findings'
 import { optionLabels, robotMatters } from '../motion/fixes'
 import { MotionView } from '../motion/lazy'
@@ -101,7 +101,7 @@ export function Verdict({ flow, result, file }: VerdictProps) {
                 <span class="second small">{w.upload.checkedFor}</span>
                 <strong>
                   {robotName(flow, choice.robot)}
-                  {effector && ` + ${effector.name}`}
+                  {effector && ` + ${named(effector.id, effector.name)}`}
                 </strong>
                 <span class="verdict-change">{w.upload.change}</span>
               </summary>

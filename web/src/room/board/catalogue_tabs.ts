@@ -1,5 +1,6 @@
 import type { Pose } from '../../protocol/geometry_msgs'
 import { type ObjectType, spawnObjectType, triggerType } from '../../protocol/mrlab_msgs'
+import { named } from '../../words/words'
 import { type Entry, order, type RoomContext } from '../context'
 import { GAP, HIT, TEXT } from '../panels/pen'
 import { BOTTOM, drawCards, EDGE, type Tab, TOP } from './board'
@@ -59,7 +60,7 @@ export function objectsTab(
           top,
           width,
           height,
-          type.id,
+          named(type.id),
           `${cm.join('×')} cm`,
           null,
           () => {

@@ -9,7 +9,7 @@ import {
   triggerType,
 } from '../../protocol/mrlab_msgs'
 import { sentence } from '../../words/diagnostic'
-import { fixed } from '../../words/words'
+import { fixed, named } from '../../words/words'
 import { order, type RoomContext } from '../context'
 import type { Stats } from '../latency'
 import { GAP, HIT, PANEL_THEME, type Pen, TEXT } from '../panels/pen'
@@ -70,7 +70,7 @@ export function labTab(context: RoomContext, follower: LabFollower, stats: Stats
       const load = () => {
         order(context, 'lab/load_scene', sceneFileType, { name })
       }
-      pen.button(`load ${name}`, EDGE, y, COLUMN, w.loadScene(name), load, { small: true })
+      pen.button(`load ${name}`, EDGE, y, COLUMN, w.loadScene(named(name)), load, { small: true })
     })
   }
 

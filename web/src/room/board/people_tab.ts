@@ -1,4 +1,5 @@
 import type { LabFollower } from '../../lab/follower'
+import { named } from '../../words/words'
 import type { RoomContext } from '../context'
 import { GAP, HIT, TEXT } from '../panels/pen'
 import { PART_ICONS, type Part } from '../people/avatar'
@@ -38,9 +39,9 @@ export function peopleTab(
         pen.text(EDGE, y, words, TEXT.body, undefined, ink, 600)
         y += ROW
       }
-      line(own.part, `${own.name} (${w.you})`, 'ink')
+      line(own.part, `${named(own.name)} (${w.you})`, 'ink')
       const { present } = people
-      for (const { name, part } of present.slice(0, MOST_LISTED)) line(part, name, 'ink')
+      for (const { name, part } of present.slice(0, MOST_LISTED)) line(part, named(name), 'ink')
       const more = present.length - MOST_LISTED
       if (more > 0) pen.text(EDGE, y, w.andMore(more), TEXT.small, undefined, 'second')
       if (present.length === 0) pen.lines(EDGE, y, w.alone, TEXT.small, undefined, 'second')

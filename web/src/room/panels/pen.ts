@@ -14,6 +14,8 @@ export const TEXT = { head: 30, body: 22, small: 18 } as const
 /** Of what is pressed, mm; and between two of them. */
 export const HIT = 60
 export const GAP = 12
+/** Share of its size that a line too long for its place keeps. */
+const SMALLEST = 0.8
 
 /** The room is read before white walls and dark desks alike: the panels are dark in every theme. */
 export let PANEL_THEME: Theme = THEMES.dark
@@ -105,6 +107,11 @@ export class Pen {
     context.textBaseline = 'middle'
     let shown = words
     let wide = context.measureText(shown).width
+    if (wide > most) {
+      // other languages have longer words: smaller first, then cut
+      context.font = `${weight} ${Math.max(most / wide, SMALLEST) * size}px ${FONT}`
+      wide = context.measureText(shown).width
+    }
     while (shown.length > 1 && wide > most) {
       shown = `${shown.slice(0, -2).trimEnd()}…`
       wide = context.measureText(shown).width
