@@ -15,7 +15,7 @@ from mrlab_ros.core.base.diagnostics import ILLEGAL_EVENT
 from mrlab_ros.core.base.errors import IllegalEvent, Misuse
 from mrlab_ros.core.base.state_machine import Machine, Table
 from mrlab_ros.core.physics import clearance
-from mrlab_ros.core.physics.grasp.states import states
+from mrlab_ros.core.physics.grasp import states
 from mrlab_ros.core.playback import states as playback
 from mrlab_ros.core.recording import recorder as recording
 from mrlab_ros.core.systems import states as systems
