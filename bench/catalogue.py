@@ -37,11 +37,10 @@ from mrlab_msgs import msg, srv
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.store.objects import open_store
-from mrlab_ros.adapters.trajectories import json_file
+from mrlab_ros.adapters.trajectories import formats
 from mrlab_ros.adapters.trajectories.catalogue import Catalogue
 from mrlab_ros.adapters.trajectories.catalogue_writer import CatalogueWriter
-from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
-from mrlab_ros.adapters.trajectories.files import TrajectoryFiles
+from mrlab_ros.adapters.trajectories.files import TrajectoryFiles, load_coefficients
 from mrlab_ros.commands.demo.lab import claim_free_domain
 from mrlab_ros.commands.up.web import opening_url, users_file
 from mrlab_ros.core.trajectory.channels import derive
@@ -108,9 +107,9 @@ def timed(graph: Graph, kind: Any, service: str, **fields: Any) -> tuple[float, 
 
 def json_ms(trajectory: Trajectory) -> float:
     """Return the time to read the trajectory from JSON, ms."""
-    data = b"".join(bytes(c) for c in json_file.chunks(trajectory))
+    data = b"".join(bytes(c) for c in formats.chunks(trajectory))
     begin = time.perf_counter()
-    json_file.parse(data, "bench")
+    formats.parse(data, "bench")
     return (time.perf_counter() - begin) * 1e3
 
 

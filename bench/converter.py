@@ -30,12 +30,10 @@ import scipy.io
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.store.objects import open_store
-from mrlab_ros.adapters.trajectories import json_file
+from mrlab_ros.adapters.trajectories import formats
 from mrlab_ros.adapters.trajectories.catalogue_writer import CatalogueWriter
-from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
-from mrlab_ros.adapters.trajectories.files import TrajectoryFiles
-from mrlab_ros.adapters.workspaces.pool import ConversionPool
-from mrlab_ros.adapters.workspaces.reader import Limits, WorkspaceReader, opened
+from mrlab_ros.adapters.trajectories.files import TrajectoryFiles, load_coefficients
+from mrlab_ros.adapters.workspaces.reader import ConversionPool, Limits, WorkspaceReader, opened
 from mrlab_ros.adapters.workspaces.results import Task
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.trajectory.catalogue import TrajectoryName
@@ -114,7 +112,7 @@ def measure(frames: int, reader: WorkspaceReader, folder: Path, repeats: int) ->
 
     def whole() -> Trajectory:
         trajectory = files.load(*store.find(stored()))
-        json_file.write(trajectory, target)
+        formats.write(trajectory, target)
         return trajectory
 
     without, _ = timed(stored, repeats)

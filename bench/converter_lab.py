@@ -31,7 +31,7 @@ from mrlab_msgs.srv import SetLoop, Trigger
 from sensor_msgs.msg import JointState
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
+from mrlab_ros.adapters.trajectories.files import load_coefficients
 from mrlab_ros.adapters.workspaces.reader import WorkspaceReader, in_memory
 from mrlab_ros.adapters.workspaces.results import Task
 from mrlab_ros.commands.demo.lab import claim_free_domain

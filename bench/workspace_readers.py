@@ -16,8 +16,8 @@ import numpy as np
 import report
 import scipy.io
 
-from mrlab_ros.adapters.workspaces import mat5, second_reader
-from mrlab_ros.adapters.workspaces.sink import Found
+from mrlab_ros.adapters.workspaces.matlab import mat5, second_reader
+from mrlab_ros.adapters.workspaces.sinks import Found
 
 
 class Last:

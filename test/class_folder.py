@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from small_lab import make
 
-from mrlab_ros.adapters.trajectories import json_file
+from mrlab_ros.adapters.trajectories import formats
 from mrlab_ros.core.base.diagnostic import Severity, plain
 from mrlab_ros.core.checking.diagnostics import CHECK_READY, COLLISION
 from mrlab_ros.core.classroom.diagnostics import NO_FILE_HANDED_IN
@@ -72,7 +72,7 @@ def make_class(folder: Path, frames: int = 50) -> Path:
     for number, key in enumerate(("reference", "anna", "ben")):
         motion = make("ur5e", key, frames=frames)
         away = number * 0.1 * np.sin(np.linspace(0, 3, frames))[:, None]
-        json_file.write(
+        formats.write(
             replace(motion, positions=motion.positions + away),
             folder / "trajectories" / f"{key}.json",
         )

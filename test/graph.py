@@ -10,7 +10,7 @@ import rclpy
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 
-from mrlab_ros.ros.shared_memory import remove_abandoned
+from mrlab_ros.ros.environment import remove_abandoned
 from mrlab_ros.ros.spinning import SpunNode
 
 Value = TypeVar("Value")

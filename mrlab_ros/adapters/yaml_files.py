@@ -1,7 +1,8 @@
-"""YAML files whose mistakes are named."""
+"""Reads YAML files and names their mistakes; suggests the file meant by a name that is missing."""
 
 from __future__ import annotations
 
+import os
 import re
 from pathlib import Path
 from typing import Any
@@ -9,16 +10,41 @@ from typing import Any
 import yaml
 
 from mrlab_ros.adapters.diagnostics import (
+    FILE_MISSING,
     FILE_UNREADABLE,
     KEY_TWICE,
+    NOT_A_FILE,
     NOT_OF_FORMAT,
     NOT_UTF8,
     YAML_ALIAS,
     YAML_MAPPING,
 )
-from mrlab_ros.adapters.nearby import check_file
 from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.names import close_to
 from mrlab_ros.core.base.records import bad_value
+
+
+def close_file(path: Path) -> str | None:
+    """Return the entry beside `path` whose name is closest; None where none is close."""
+    try:
+        beside = os.listdir(path.parent)
+    except OSError:
+        return None
+    return close_to(path.name, (name for name in beside if not name.startswith(".")))
+
+
+def check_file(path: Path, name: str = "") -> None:
+    """Raise BadInput where `path` is no file: reading a pipe would wait forever.
+
+    name: what the error calls it; empty: the path.
+    """
+    if path.is_file():
+        return
+    name = name or str(path)
+    if not path.exists():
+        raise BadInput(FILE_MISSING(file=name, close=close_file(path)))
+    raise BadInput(NOT_A_FILE(file=name, what="folder" if path.is_dir() else "special"))
+
 
 _Safe: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 

@@ -7,10 +7,9 @@ import time
 from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.bridge.links import local_endpoint
 from mrlab_ros.processes.run_file import RunFile, domains, nobody
-from mrlab_ros.ros.calls import NoAnswer
-from mrlab_ros.ros.domain import domain_id
+from mrlab_ros.ros.environment import domain_id, skip_generator
 from mrlab_ros.ros.graph import GraphClient
-from mrlab_ros.ros.type_supports import skip_generator
+from mrlab_ros.ros.services import NoAnswer
 
 # After so many looks a node of a lab is in the graph; its topics and services may take longer.
 # They are counted, not timed: on a busy machine looks and discovery take longer alike.
@@ -31,7 +30,7 @@ def open_graph() -> GraphClient:
     if facts is None:
         return _found(_node())
     if socket := facts.get("socket"):
-        from mrlab_ros.adapters.zenoh_link import ZenohLink
+        from mrlab_ros.adapters.zenoh.links import ZenohLink
         from mrlab_ros.client.link import LinkGraph
 
         try:

@@ -23,8 +23,8 @@ from mrlab_ros.core.playback.diagnostics import OF_ROBOT
 from mrlab_ros.core.playback.states import State
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.time import time_from_message
-from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.graph import GraphClient
+from mrlab_ros.ros.services import NoAnswer
 
 T = TypeVar("T")
 # A robot of the scene has published its state by then, and moves by then after play, s.

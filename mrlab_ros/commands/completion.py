@@ -64,7 +64,7 @@ def _library(pattern: str) -> list[Path]:
 def _scene(what: str) -> list[dict[str, Any]]:
     """Return the robots or systems that the lab of `mrlab up` on this domain saved last."""
     from mrlab_ros.processes.run_file import RunFile
-    from mrlab_ros.ros.domain import domain_id
+    from mrlab_ros.ros.environment import domain_id
 
     try:
         lab = RunFile(domain_id()).read()

@@ -69,7 +69,7 @@ def gather(url: str, certificate: Path | None, state_dir: Path | None) -> Facts:
     """Return the facts of this machine and of the gateway at `url`, else of its own lab."""
     from mrlab_ros.gateway.pages import pages_folder
     from mrlab_ros.processes.run_file import RunFile
-    from mrlab_ros.ros.domain import domain_id
+    from mrlab_ros.ros.environment import domain_id
 
     run = RunFile(domain_id()).read()
     web = (run or {}).get("web") or {}

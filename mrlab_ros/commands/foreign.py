@@ -11,8 +11,8 @@ from typing import Any
 from mrlab_ros.adapters.bags.diagnostics import BAG_EXISTS, NO_BAG
 from mrlab_ros.adapters.bags.foreign import Imported, import_bag
 from mrlab_ros.adapters.bags.other import OtherBag, open_bag
-from mrlab_ros.adapters.nearby import close_file
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.yaml_files import close_file
 from mrlab_ros.commands import behind_wall
 from mrlab_ros.core.base.diagnostic import from_plain, plain
 from mrlab_ros.core.base.errors import BadInput

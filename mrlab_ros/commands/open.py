@@ -12,7 +12,7 @@ from mrlab_ros.commands.diagnostics import NO_PAGES
 from mrlab_ros.commands.up.web import open_in_browser, opening_url
 from mrlab_ros.core.base.errors import Misuse
 from mrlab_ros.processes.run_file import RunFile, domains, nobody
-from mrlab_ros.ros.domain import domain_id
+from mrlab_ros.ros.environment import domain_id
 
 
 def open_pages(

@@ -246,8 +246,8 @@ def _stop(graph: GraphClient, size: Callable[[], int]) -> Diagnostic:
     from mrlab_msgs.srv import Trigger
 
     from mrlab_ros.messages import qos
-    from mrlab_ros.messages.diagnostics import living_in
-    from mrlab_ros.ros.calls import NoAnswer
+    from mrlab_ros.messages.status import living_in
+    from mrlab_ros.ros.services import NoAnswer
 
     signs = Signs(time.monotonic())
 

@@ -6,7 +6,7 @@ import ipaddress
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from mrlab_ros.adapters.keys import private_files
+from mrlab_ros.adapters.keys import people
 from mrlab_ros.core.base.diagnostic import Fix
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.gateway.diagnostics import (
@@ -99,7 +99,7 @@ class Settings:
                 if not file.is_file():
                     make = Fix(command="keys init")
                     raise BadInput(NO_HTTPS_FILE(path=str(file), fixes=(make,)))
-            private_files.check(self.certificate_key_file)
+            people.check(self.certificate_key_file)
 
 
 def parsed_address(text: str) -> tuple[str, int]:

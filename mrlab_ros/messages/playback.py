@@ -1,18 +1,45 @@
-"""A playback's state, clock, telemetry and grasp targets as messages."""
+"""A playback's state, clock, telemetry and grasp targets as messages.
+
+Telemetry as CDR: past rclpy, which takes ten times as long.
+
+Layout of a mrlab_msgs/Telemetry: as joint_states.py describes it up to the names; then
+
+    uint32 count, zeros to a multiple of 8, float64 velocities
+    uint32 count, zeros to a multiple of 8, float64 effort proxies
+    uint32 frame, 4 zeros, float64 position, 2 booleans, 6 zeros, 7 float64 of the pose of tool0
+    string held_object, zeros to a multiple of 8
+    float64 mass, payload, slip margin, wrist moment, deadline error and its largest
+    uint32 frames sent, uint32 frames lost
+
+Goals, feedback and results of FollowJointTrajectory, and joint commands.
+
+States of what has published none. Apart: a command needs no more of the messages than this.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import struct
+from collections.abc import Callable, Iterable
+from functools import lru_cache
+from typing import Any
 
+from builtin_interfaces.msg import Duration
+from control_msgs.action import FollowJointTrajectory
 from mrlab_msgs import msg
+from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
-from mrlab_ros.core.base.clock import PlaybackClock
-from mrlab_ros.core.base.geometry import Array
+from mrlab_ros.core.base.clock import SECOND, PlaybackClock
+from mrlab_ros.core.base.geometry import Array, Pose
 from mrlab_ros.core.playback.execution import PlaybackStatus
+from mrlab_ros.core.playback.goal import Goal, Point
+from mrlab_ros.core.playback.pursuit import Bounds, Instant, Outcome
+from mrlab_ros.core.playback.stream import Sample
 from mrlab_ros.core.trajectory.trajectory import Trajectory
+from mrlab_ros.messages import cdr
+from mrlab_ros.messages.cdr import BODY, COUNT, DOUBLE_SIZE, STAMP
 from mrlab_ros.messages.poses import transform_to_pose_message
 from mrlab_ros.messages.texts import told
-from mrlab_ros.messages.time import make_header, time_to_message
+from mrlab_ros.messages.time import make_header, time_from_message, time_to_message
 
 
 def clock_to_message(clock: PlaybackClock) -> msg.PlaybackClock:
@@ -71,3 +98,137 @@ def targets_to_message(
             for (frame, closed), pose in zip(trajectory.grasp_frames, poses, strict=True)
         ],
     )
+
+
+END = struct.Struct("<6d2I")
+NO_GRASP = msg.Grasp()
+
+
+@lru_cache(maxsize=64)
+def _object(name: str) -> bytes:
+    """Return the name of an object with the zeros up to the next number."""
+    data = cdr.text(name)
+    return data + bytes(-len(data) % DOUBLE_SIZE)
+
+
+class TelemetryEncoder:
+    """Writes the telemetry of one robot."""
+
+    def __init__(self, robot: str, joint_names: tuple[str, ...]) -> None:
+        self._head = bytearray(cdr.head(robot, joint_names))
+        self._joints = joints = len(joint_names)
+        begin = len(self._head)
+        gap = cdr.doubles_at(begin, joints) - begin - COUNT.size
+        self._values = struct.Struct(f"<I{gap}x{joints}dI4x{joints}dI4xd??6x7d")
+
+    def encode(
+        self,
+        now_ns: int,
+        trajectory: Trajectory,
+        sample: Sample,
+        tool0: Pose,
+        grasp: msg.Grasp | None,
+        *,
+        sent: int,
+        lost: int,
+        error_ns: int,
+        error_max_ns: int,
+    ) -> bytes:
+        """Return the CDR of the display values of a joint state.
+
+        tool0: in the robot's base_link. grasp: what physics said last of the gripper; None: there
+        is no physics. sent, lost: frames of this run. error_ns, error_max_ns: how late the last
+        joint state was published, and the latest of the run.
+        """
+        closed = trajectory.gripper_at(sample.position)
+        STAMP.pack_into(self._head, BODY, now_ns // SECOND, now_ns % SECOND)
+        values = self._values.pack(
+            self._joints,
+            *sample.velocities.tolist(),
+            self._joints,
+            *trajectory.channels.effort_proxy[sample.frame].tolist(),
+            sample.frame,
+            sample.position,
+            closed is not None,
+            bool(closed),
+            *tool0.position,
+            *tool0.orientation,
+        )
+        bears = grasp or NO_GRASP
+        end = END.pack(
+            bears.mass,
+            bears.payload,
+            bears.slip_margin,
+            bears.wrist_moment,
+            error_ns * 1e-9,
+            error_max_ns * 1e-9,
+            sent,
+            lost,
+        )
+        return b"".join((self._head, values, _object(bears.object), end))
+
+
+def goal_from_message(message: JointTrajectory) -> Goal:
+    return Goal(
+        tuple(message.joint_names),
+        tuple(
+            Point(
+                _seconds(point.time_from_start),
+                point.positions,
+                point.velocities,
+                point.accelerations,
+                point.effort,
+            )
+            for point in message.points
+        ),
+        time_from_message(message.header.stamp),
+    )
+
+
+def bounds_from_goal(goal: Any) -> Bounds:
+    """Return the tolerances of a FollowJointTrajectory.Goal."""
+    return Bounds(
+        _positions(goal.path_tolerance),
+        _positions(goal.goal_tolerance),
+        _seconds(goal.goal_time_tolerance),
+    )
+
+
+def feedback_to_message(now_ns: int, robot: str, joints: Iterable[str], instant: Instant) -> Any:
+    return FollowJointTrajectory.Feedback(
+        header=make_header(now_ns, robot),
+        joint_names=list(joints),
+        desired=_point(instant, instant.desired, instant.desired_velocities),
+        actual=_point(instant, instant.actual),
+        error=_point(instant, instant.desired - instant.actual),
+    )
+
+
+def result_to_message(outcome: Outcome) -> Any:
+    return FollowJointTrajectory.Result(
+        error_code=outcome.code.value, error_string=str(outcome.said)
+    )
+
+
+def _positions(tolerances: Iterable[Any]) -> dict[str, float]:
+    return {tolerance.name: tolerance.position for tolerance in tolerances}
+
+
+def _seconds(duration: Duration) -> float:
+    return float(duration.sec + duration.nanosec / SECOND)
+
+
+def _point(
+    instant: Instant, positions: Array, velocities: Array | None = None
+) -> JointTrajectoryPoint:
+    whole = int(instant.elapsed * SECOND)
+    return JointTrajectoryPoint(
+        positions=positions.tolist(),
+        velocities=[] if velocities is None else velocities.tolist(),
+        time_from_start=Duration(sec=whole // SECOND, nanosec=whole % SECOND),
+    )
+
+
+def unknown_state() -> msg.PlaybackState:
+    """Return what stands for the state of a playback that has not published one."""
+    return msg.PlaybackState(label="?")

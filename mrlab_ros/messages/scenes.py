@@ -1,10 +1,14 @@
-"""Entries of a scene document from messages and as requests."""
+"""Entries of a scene document from messages and as requests.
+
+The robots of the scene as messages.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
 from mrlab_msgs import msg, srv
+from std_msgs.msg import String
 
 from mrlab_ros.core.base.clock import PlaybackClock
 from mrlab_ros.core.playback.states import State
@@ -15,7 +19,32 @@ from mrlab_ros.core.systems.robot_system import Policy
 from mrlab_ros.core.systems.states import SystemState
 from mrlab_ros.core.systems.timeline import Mode
 from mrlab_ros.messages.poses import pose_from_message, pose_to_message
-from mrlab_ros.messages.time import time_from_message
+from mrlab_ros.messages.time import make_header, time_from_message
+
+
+def robot_to_message(robot: PlacedRobot) -> msg.Robot:
+    return msg.Robot(
+        name=robot.name,
+        model=robot.model,
+        end_effector=robot.end_effector or "",
+        pose=pose_to_message(robot.pose),
+        joint_names=list(robot.joint_names),
+    )
+
+
+def robots_to_message(now_ns: int, robots: Iterable[PlacedRobot], lab: str = "") -> msg.Robots:
+    """lab: the id of the lab they stand in; empty: unknown."""
+    return msg.Robots(
+        header=make_header(now_ns, "world"),
+        robots=[robot_to_message(robot) for robot in robots],
+        lab=lab,
+    )
+
+
+def text_to_message(text: str) -> String:
+    """Return a text, such as a robot's URDF, as a message."""
+    return String(data=text)
+
 
 # In these states a position is part of what comes back; one that is READY begins at the start.
 STANDING = (State.PLAYING, State.PAUSED, State.COLLISION_HALT)

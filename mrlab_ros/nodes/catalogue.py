@@ -16,7 +16,7 @@ from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.trajectory.diagnostics import REPLACED_MEANWHILE
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.messages import qos, trajectories
-from mrlab_ros.ros.calls import call
+from mrlab_ros.ros.services import call
 
 # Frames in one answer: 17 MB for seven joints, which takes about 0.2 s.
 CHUNK = 100_000

@@ -23,11 +23,10 @@ from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.store import keys
 from mrlab_ros.adapters.store.objects import open_store
 from mrlab_ros.adapters.trajectories.catalogue_writer import CatalogueWriter
-from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
-from mrlab_ros.adapters.trajectories.files import TrajectoryFiles
+from mrlab_ros.adapters.trajectories.files import TrajectoryFiles, load_coefficients
 from mrlab_ros.adapters.workspaces.diagnostics import NO_ROOM, TOO_LARGE
-from mrlab_ros.adapters.workspaces.pool import ConversionPool
 from mrlab_ros.adapters.workspaces.reader import (
+    ConversionPool,
     Limits,
     MiB,
     TooSlow,
@@ -48,10 +47,10 @@ from mrlab_ros.nodes import parameters
 from mrlab_ros.nodes.parameters import ConverterParameters
 from mrlab_ros.nodes.trajectories import TrajectoryServices
 from mrlab_ros.ros import share
-from mrlab_ros.ros.answers import create_deferred_service
+from mrlab_ros.ros.clock import every
 from mrlab_ros.ros.diagnostics import FAULT
 from mrlab_ros.ros.parameters import ParameterNode
-from mrlab_ros.ros.timers import every
+from mrlab_ros.ros.services import create_deferred_service
 
 SWEEP_PERIOD_S = 3600.0
 

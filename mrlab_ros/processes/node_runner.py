@@ -19,11 +19,11 @@ from mrlab_ros.processes.child import RESTARTS, WRONG_CONFIGURATION
 from mrlab_ros.processes.lab import NODES, PROCESSES
 from mrlab_ros.processes.stand_aside import StandAside
 from mrlab_ros.processes.watcher import Watcher
-from mrlab_ros.ros import freezes
+from mrlab_ros.ros import clock
 from mrlab_ros.ros.diagnostics import SEVERAL_NODES_REFUSE
+from mrlab_ros.ros.environment import postpone_numpy
 from mrlab_ros.ros.parameters import WrongParameters
 from mrlab_ros.ros.spinning import SpunNode, shut_down, start_up
-from mrlab_ros.ros.type_supports import postpone_numpy
 
 # How often a process checks whether it was asked to stop, s.
 POLL_PERIOD_S = 0.1
@@ -85,7 +85,7 @@ def run(names: list[str]) -> int:
         if not all(NODES[name].in_replay for name in names):
             aside = StandAside()
         process = process_of(names)
-        freezes.PROCESS.process = process
+        clock.PROCESS.process = process
         watcher = Watcher(process)
         makers = {name: maker(name) for name in names}
         if aside is not None:

@@ -1,16 +1,30 @@
-"""The clock by which nodes stamp and schedule: wall time without steps, or /clock."""
+"""The clock by which nodes stamp and schedule: wall time without steps, or /clock.
+
+Timers by the monotonic clock: neither a clock that is set nor /clock stops them.
+
+A timer of rclpy goes by its node's clock. A wall clock that is set back by an hour would silence
+it for an hour: signs of life, journals and leases would end.
+
+When this process did not run, and which requests of services waited meanwhile.
+"""
 
 from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable
-from typing import cast
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any, cast
 
-from rclpy.clock import ROSClock
+from rclpy.callback_groups import CallbackGroup
+from rclpy.clock import Clock, ROSClock
+from rclpy.clock_type import ClockType
 from rclpy.node import Node
+from rclpy.timer import Timer
 
-from mrlab_ros.core.base.clock import LabTime
+from mrlab_ros.core.base.clock import SECOND, LabTime
+from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.runtime.freezes import Freezes
 
 # Two clocks are read at one instant where that takes no longer, ns: otherwise the thread was
 # interrupted in between.
@@ -74,3 +88,65 @@ class LabClock:
             before = after
         assert best is not None
         return best[1], best[2]
+
+
+STEADY = Clock(clock_type=ClockType.STEADY_TIME)
+
+
+def every(
+    node: Node, period: float, callback: Callable[[], object], group: CallbackGroup | None = None
+) -> Timer:
+    """Call `callback` in the node's executor every `period` s.
+
+    What it raises because the context was shut down beneath it is no mistake, and the executor
+    would log it as a fatal one.
+    """
+
+    def call() -> None:
+        try:
+            callback()
+        except Exception:
+            if node.context.ok():
+                raise
+
+    return node.create_timer(period, call, callback_group=group, clock=STEADY)
+
+
+# Every thread that spins a node says that the process runs.
+PROCESS = Freezes("lab", time.process_time)
+LOCK = threading.Lock()
+
+
+def look() -> None:
+    """Note that this process runs."""
+    with LOCK:
+        PROCESS.look(time.monotonic())
+
+
+@contextmanager
+def watching() -> Iterator[None]:
+    """Say that this thread calls look() again and again."""
+    with LOCK:
+        PROCESS.begin()
+    try:
+        yield
+    finally:
+        with LOCK:
+            PROCESS.end()
+
+
+def why_late(header: Any) -> Diagnostic | None:
+    """Return why a request is refused that came with `header`; None: it came in time.
+
+    Its age is by the wall clock, as its sender stamps it.
+    """
+    age_s = (time.time_ns() - header.source_timestamp) / SECOND
+    with LOCK:
+        now = time.monotonic()
+        return PROCESS.why_late(now - age_s, now)
+
+
+def why_doubtful() -> Diagnostic | None:
+    """Return why something without a stamp of its sender is refused; None: it is not."""
+    with LOCK:
+        return PROCESS.why_doubtful(time.monotonic())

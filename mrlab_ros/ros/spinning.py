@@ -24,9 +24,9 @@ from rclpy.node import Node
 from rclpy.task import Future
 
 from mrlab_ros.core.base.errors import BadInput
-from mrlab_ros.ros import fast_dds, freezes
+from mrlab_ros.ros import clock, environment
 from mrlab_ros.ros.diagnostics import BAD_ROS_ARGUMENTS
-from mrlab_ros.ros.type_supports import skip_generator
+from mrlab_ros.ros.environment import skip_generator
 
 # The longest the executor waits at a time, s; what arrives is handed on at once all the same.
 WAIT_S = 0.2
@@ -44,9 +44,9 @@ def spin(executor: Executor, context: Context, stop: threading.Event | None = No
     of something that another thread has just destroyed raises InvalidHandle and is forgotten.
     """
     never = Future()
-    with freezes.watching():
+    with clock.watching():
         while context.ok() and not (stop is not None and stop.is_set()):
-            freezes.look()
+            clock.look()
             try:
                 executor.spin_until_future_complete(never, timeout_sec=WAIT_S)
             except (KeyboardInterrupt, ExternalShutdownException):
@@ -61,7 +61,7 @@ def spin(executor: Executor, context: Context, stop: threading.Event | None = No
 
 def start_up() -> None:
     """Initialise the default context; raise BadInput where rcl refuses the command line."""
-    fast_dds.prepare()
+    environment.prepare()
     skip_generator()
     try:
         rclpy.init()

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from mrlab_ros.adapters.robots import urdf
-from mrlab_ros.adapters.robots.assembly import Assembly
+from mrlab_ros.adapters.robots.drawing import Assembly
 from mrlab_ros.adapters.robots.hulls import inside, samples
 from mrlab_ros.adapters.robots.library import RobotLibrary
 

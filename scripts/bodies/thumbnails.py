@@ -17,7 +17,7 @@ from picture import VIEW, surface, surfaces
 from ray_tracer import Camera, Surface, cut_out
 
 from mrlab_ros.adapters.robots import urdf
-from mrlab_ros.adapters.robots.assembly import Assembly
+from mrlab_ros.adapters.robots.drawing import Assembly
 from mrlab_ros.adapters.robots.library import END_EFFECTORS, RobotLibrary
 from mrlab_ros.adapters.scenes.object_meshes import ObjectMeshes
 from mrlab_ros.adapters.yaml_files import read_yaml

@@ -24,8 +24,9 @@ from found_matrices import matrix
 from fuzz import fuzz_matfile
 from numpy.typing import NDArray
 
-from mrlab_ros.adapters.workspaces import second_reader, worker
-from mrlab_ros.adapters.workspaces.sink import Found
+from mrlab_ros.adapters.workspaces import worker
+from mrlab_ros.adapters.workspaces.matlab import second_reader
+from mrlab_ros.adapters.workspaces.sinks import Found
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 BATCH = 50

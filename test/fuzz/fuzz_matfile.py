@@ -28,15 +28,11 @@ from found_matrices import matrix
 from rosbags.rosbag2 import Writer
 from rosbags.typesys import Stores, get_typestore
 
-from mrlab_ros.adapters.workspaces import (
-    joint_trajectories,
-    mat5,
-    mat73,
-    tables,
-    worker,
-)
-from mrlab_ros.adapters.workspaces.mat5 import Damaged, NotAWorkspace, TooLarge
-from mrlab_ros.adapters.workspaces.sink import Found
+from mrlab_ros.adapters.workspaces import joint_trajectories, worker
+from mrlab_ros.adapters.workspaces.matlab import mat5, mat73
+from mrlab_ros.adapters.workspaces.matlab.mat5 import Damaged, NotAWorkspace, TooLarge
+from mrlab_ros.adapters.workspaces.sinks import Found
+from mrlab_ros.adapters.workspaces.tables import table
 from mrlab_ros.core.conversion.workspace import JOINT_TRAJECTORY
 
 LIMIT = 1 << 24
@@ -146,7 +142,7 @@ def guided(corpus: Path, options: list[str]) -> None:
         kind = next((i for i, n in enumerate(NAMES) if Path(n).suffix == Path(name).suffix), 0)
         (corpus / f"seed-{number}").write_bytes(bytes([kind]) + data)
     # the rest of what is loaded would take minutes and teach the fuzzer nothing
-    for module in (joint_trajectories, mat5, mat73, worker, tables):
+    for module in (joint_trajectories, mat5, mat73, worker, table):
         for name, member in vars(module).items():
             if inspect.isfunction(member) and member.__module__ == module.__name__:
                 setattr(module, name, atheris.instrument_func(member))

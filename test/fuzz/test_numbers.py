@@ -23,7 +23,7 @@ from typer.testing import CliRunner
 
 from mrlab_ros.adapters.pages.motion import motion_page
 from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.adapters.trajectories import export
+from mrlab_ros.adapters.trajectories import formats
 from mrlab_ros.cli import make_app
 from mrlab_ros.commands import output
 from mrlab_ros.commands.convert import report
@@ -140,10 +140,10 @@ def test_no_file_ends_the_converter_or_a_report(tmp_path: Path) -> None:
                 motion_page(result, "ur5e", None, LIBRARY, FOLDER)
         if result.trajectory is not None:
             for to in ("json", "csv", "mat", "npz", "jointtrajectory"):
-                export.writer(to)(result.trajectory, tmp_path / "written")
-            export.plot(result.trajectory, UR5E, tmp_path / "plot.png")
+                formats.writer(to)(result.trajectory, tmp_path / "written")
+            formats.plot(result.trajectory, UR5E, tmp_path / "plot.png")
         elif shown := result.preview:
-            export.plot_refused(shown, result.diagnostics, "f", UR5E, tmp_path / "plot.png")
+            formats.plot_refused(shown, result.diagnostics, "f", UR5E, tmp_path / "plot.png")
     assert outcomes == {"ACCEPTED", "REJECTED", "AMBIGUOUS"}
 
 

@@ -29,7 +29,7 @@ from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 from mrlab_ros.core.runtime.freezes import Freezes
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes.playback import commanders
-from mrlab_ros.ros import freezes
+from mrlab_ros.ros import clock
 
 Result = FollowJointTrajectory.Result
 
@@ -149,7 +149,7 @@ def test_a_goal_that_may_have_waited_in_a_freeze_is_aborted(stage, monkeypatch) 
     thawed.begin()
     # It ran 30 s ago, and runs again from now on.
     thawed.look(time.monotonic() - 30.0)
-    monkeypatch.setattr(freezes, "PROCESS", thawed)
+    monkeypatch.setattr(clock, "PROCESS", thawed)
     done = client.result(client.send(goal(path(model, (0.2, 0.1)))))
     assert (done.status, done.result.error_code) == (
         GoalStatus.STATUS_ABORTED,

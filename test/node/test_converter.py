@@ -18,7 +18,7 @@ from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from mrlab_ros.adapters.trajectories import json_file, npz_file
+from mrlab_ros.adapters.trajectories import formats, npz_file
 from mrlab_ros.adapters.workspaces.reader import WorkspaceReader
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes.converter import ConverterNode
@@ -325,7 +325,7 @@ def test_a_start_leaves_damage_out_and_lists_a_thousand_entries(tmp_path):
         with (folder / f"m{i:04}.npz").open("w+b") as file:
             npz_file.write(make_trajectory(trajectory_id=f"m{i:04}"), file)
     (folder / "m0007.npz").write_bytes(b"no archive")
-    json_file.write(make_trajectory(trajectory_id="old"), folder / "old.json")
+    formats.write(make_trajectory(trajectory_id="old"), folder / "old.json")
     graph = ConverterGraph(SingleThreadedExecutor, tmp_path / "state")
     listed = [t.id for t in graph.call(ListTrajectories, "list").trajectories]
     assert listed == sorted({*(f"m{i:04}" for i in range(1000)), "old"} - {"m0007"})

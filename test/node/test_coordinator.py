@@ -24,7 +24,7 @@ from small_lab import (
 
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes.playback.host import PlaybackHostNode
-from mrlab_ros.ros import turns
+from mrlab_ros.ros import services
 
 
 @pytest.fixture
@@ -174,7 +174,7 @@ def test_what_waited_long_behind_a_busy_coordinator_moves_no_robot(graph, lab, m
 
     clients = [graph.client.create_client(Trigger, f"/cell/{name}") for name in ("play", "stop")]
     assert all(client.wait_for_service(15.0) for client in clients)
-    monkeypatch.setattr(turns, "time", SimpleNamespace(monotonic=monotonic))
+    monkeypatch.setattr(services, "time", SimpleNamespace(monotonic=monotonic))
     held = threading.Event()
     lab.coordinator.worker.send(lambda: (held.set(), late.wait(15.0)))
     assert held.wait(15.0)

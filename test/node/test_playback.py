@@ -28,7 +28,7 @@ from mrlab_ros.messages.time import make_header, time_from_message
 from mrlab_ros.nodes.lab.node import LabNode
 from mrlab_ros.nodes.playback import node
 from mrlab_ros.nodes.playback.host import PlaybackHostNode
-from mrlab_ros.ros import freezes
+from mrlab_ros.ros import clock
 
 
 @pytest.fixture
@@ -127,8 +127,8 @@ def thawed(monkeypatch):
         stamp = SimpleNamespace(
             monotonic=time.monotonic, time_ns=lambda: time.time_ns() + int(age * 1e9)
         )
-        monkeypatch.setattr(freezes, "PROCESS", noted)
-        monkeypatch.setattr(freezes, "time", stamp)
+        monkeypatch.setattr(clock, "PROCESS", noted)
+        monkeypatch.setattr(clock, "time", stamp)
 
     return thaw
 

@@ -42,7 +42,7 @@ from mrlab_ros.adapters.bags.reader import Bag
 from mrlab_ros.adapters.bags.repair import repair
 from mrlab_ros.adapters.bags.writer import BagWriter
 from mrlab_ros.adapters.journal import Journal
-from mrlab_ros.adapters.trajectories.json_file import chunks, parse
+from mrlab_ros.adapters.trajectories.formats import chunks, parse
 from mrlab_ros.core.base.diagnostics import BAD_POSITION
 from mrlab_ros.core.recording import recorder as entries
 from mrlab_ros.core.recording.diagnostics import (

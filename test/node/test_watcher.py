@@ -12,7 +12,7 @@ from graph import Graph, wait_for
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.playback.diagnostics import GOAL_LOST
 from mrlab_ros.messages import qos
-from mrlab_ros.messages.diagnostics import troubles_in
+from mrlab_ros.messages.status import troubles_in
 from mrlab_ros.processes.watcher import Watcher
 
 

@@ -8,8 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrlab_ros.adapters.robots import urdf
-from mrlab_ros.adapters.robots.library import TIP
-from mrlab_ros.adapters.robots.shown import joints_to
+from mrlab_ros.adapters.robots.library import TIP, joints_to
 from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.geometry import Pose, rotate

@@ -1,4 +1,9 @@
-"""Reads bags: folders with MCAP files, also those whose writer was killed or whose end is lost."""
+"""Reads bags: folders with MCAP files, also those whose writer was killed or whose end is lost.
+
+Which bags lie in a folder.
+
+Removes what a recorder left that was killed before it had written any message.
+"""
 
 from __future__ import annotations
 
@@ -24,11 +29,10 @@ from mrlab_ros.adapters.bags.mcap_file import (
     Message,
     open_file,
 )
-from mrlab_ros.adapters.bags.writer import is_being_written
-from mrlab_ros.adapters.nearby import close_file
-from mrlab_ros.adapters.yaml_files import Loader
+from mrlab_ros.adapters.bags.writer import RESERVE, TAIL, is_being_written
+from mrlab_ros.adapters.yaml_files import Loader, close_file
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput, LabError
 from mrlab_ros.core.recording.diagnostics import importing, repairing
 from mrlab_ros.core.recording.metadata import (
     GAP,
@@ -268,3 +272,58 @@ def number_of(path: Path) -> tuple[int, str]:
     """Return what sorts a bag's files as they were written."""
     last = path.stem.rpartition("_")[2]
     return (int(last) if last.isdecimal() else 0, path.name)
+
+
+# Names that an answer holds: a lab records for years.
+MOST = 200
+
+
+def bags_in(folder: Path, most: int = MOST) -> list[str]:
+    """Return the names of the newest bags in a folder, newest first; [] without the folder."""
+    found: list[tuple[float, str]] = []
+    try:
+        entries = list(folder.iterdir())
+    except OSError:
+        return []
+    for entry in entries:
+        try:
+            files = list(entry.iterdir()) if entry.is_dir() else [entry]
+            files = [file for file in files if file.suffix in (".mcap", ".db3")]
+            if files and "\n" not in entry.name:
+                found.append((max(file.stat().st_mtime for file in files), entry.name))
+        except OSError:
+            continue  # it was removed meanwhile, or is not ours to read
+    return [name for _, name in sorted(found, reverse=True)[:most]]
+
+
+def remove_empty(folder: Path) -> bool:
+    """Remove the folder of a bag without messages, or an empty one; return whether it is gone.
+
+    It stays where anything else is in it, where a file may hold more than can be read, and while
+    it is being written.
+    """
+    if not folder.is_dir() or folder.is_symlink():
+        return False
+    try:
+        files = mcap_files_in(folder)
+        known = {METADATA, f"{METADATA}.new", RESERVE, *(file.name for file in files)}
+        entries = list(folder.iterdir())
+        if any(entry.name not in known or not entry.is_file() for entry in entries):
+            return False
+        if not all(map(_is_empty, files)):
+            return False
+        for entry in entries:
+            entry.unlink()
+        folder.rmdir()
+    except (OSError, LabError):
+        return False
+    return True
+
+
+def _is_empty(path: Path) -> bool:
+    if is_being_written(path):
+        return False
+    found = open_file(path)
+    if found.chunks or any(found.counts.values()):
+        return False
+    return found.indexed or path.stat().st_size - found.data_end <= len(TAIL)

@@ -25,7 +25,7 @@ from mrlab_ros.adapters.bags.diagnostics import (
 from mrlab_ros.adapters.bags.mcap_file import DAMAGE, BagFile, open_file
 from mrlab_ros.adapters.bags.reader import METADATA, Bag, mcap_files_in
 from mrlab_ros.adapters.bags.writer import CHUNK_SIZE, RESERVE, is_being_written, metadata_text
-from mrlab_ros.adapters.nearby import close_file
+from mrlab_ros.adapters.yaml_files import close_file
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.recording.diagnostics import ENDING, importing

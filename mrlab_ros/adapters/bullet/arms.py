@@ -19,8 +19,7 @@ import pybullet
 
 from mrlab_ros.adapters.bullet.description import Description
 from mrlab_ros.adapters.bullet.diagnostics import NO_LINK, NOT_IN_WORLD
-from mrlab_ros.adapters.bullet.fingers import Fingers
-from mrlab_ros.adapters.bullet.loaded_arm import LoadedArm
+from mrlab_ros.adapters.bullet.fingers import Fingers, LoadedArm
 from mrlab_ros.adapters.bullet.shapes import NEUTRAL, STATIC_GROUP
 from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.base.geometry import Pose, Vector, add, cross, subtract

@@ -1,17 +1,19 @@
-"""The fingers of arms in a Bullet world: how they close, their drives and their couplings."""
+"""The fingers of arms in a Bullet world: how they close, their drives and their couplings.
+
+An arm as Bullet knows it.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import pybullet
 
-from mrlab_ros.adapters.bullet.description import Description
+from mrlab_ros.adapters.bullet.description import Coupling, Description
 from mrlab_ros.adapters.bullet.diagnostics import BAD_FINGERS, FINGER_BEYOND
-from mrlab_ros.adapters.bullet.loaded_arm import LoadedArm, Way
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.geometry import (
     Quaternion,
@@ -23,7 +25,7 @@ from mrlab_ros.core.base.geometry import (
     scale,
     subtract,
 )
-from mrlab_ros.core.physics.engine import FingerState
+from mrlab_ros.core.physics.engine import Arm, FingerState, LinkPairs
 
 FAR = 1.0  # m, over which fingers are looked for
 COUPLED = 1e-7  # m or rad; coupled fingers that are nearer to their places are left there
@@ -199,3 +201,40 @@ def _ways(
 
 def _mean(values: Sequence[float]) -> float:
     return sum(values) / len(values)
+
+
+@dataclass(frozen=True)
+class Way:
+    """How a joint carries a finger along while the gripper closes. index: of its link; axis: unit,
+    in the link's frame; rate: its share of the leader's speed, signed."""
+
+    index: int
+    axis: Vector
+    slides: bool
+    rate: float
+
+
+@dataclass(eq=False)
+class LoadedArm:
+    """An arm as Bullet knows it: its numbers of body, joints and links.
+
+    index: the number of each link. links: the link that each number counts as: what is fixed to
+    a finger is that finger. made_of: its URDF, its joints, its links that never touch. ways: by
+    the number of a finger's link, how it closes. present: it was moved to where it stands; before
+    that nothing touches it.
+    """
+
+    body: int
+    facts: Arm
+    joints: list[int]
+    fingers: list[int]
+    index: dict[str, int]
+    links: dict[int, str]
+    moving: list[int]
+    positions: Sequence[float]
+    couplings: tuple[Coupling, ...]
+    ignored: set[tuple[int, int]]
+    made_of: tuple[str, tuple[str, ...], LinkPairs]
+    followers: frozenset[int] = frozenset()
+    ways: dict[int, tuple[Way, ...]] = field(default_factory=dict)
+    present: bool = False

@@ -23,7 +23,7 @@ from datetime import datetime, timedelta, timezone
 from pathlib import Path
 from typing import Any
 
-from mrlab_ros.adapters.keys import certificates, private_files, zenoh_settings
+from mrlab_ros.adapters.keys import certificates, people, zenoh_settings
 from mrlab_ros.adapters.keys.certificates import Signed
 from mrlab_ros.adapters.keys.diagnostics import (
     FOLDER_NOT_EMPTY,
@@ -86,10 +86,10 @@ class Keys:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
         folder.chmod(0o700)
         (folder / "clients").mkdir(mode=0o700)
-        private_files.write(folder / ".gitignore", b"*\n")
+        people.write(folder / ".gitignore", b"*\n")
         for name, signed in (("ca", authority), ("server", server)):
-            private_files.write(folder / f"{name}.pem", signed.certificate_pem)
-            private_files.write(folder / f"{name}.key", signed.key_pem)
+            people.write(folder / f"{name}.pem", signed.certificate_pem)
+            people.write(folder / f"{name}.key", signed.key_pem)
         write_passwords(folder / "passwords.txt", {NOBODY: new_password()})
         People(login, all_hosts).write(folder / "people.json")
         keys = cls(folder)
@@ -146,7 +146,7 @@ class Keys:
         document = zenoh_settings.client_document(
             self.folder, self._people, entry, signed, password
         )
-        private_files.write(file, document.encode())
+        people.write(file, document.encode())
         if password:
             write_passwords(self._passwords, {**read_passwords(self._passwords), name: password})
         return entry
@@ -199,8 +199,8 @@ class Keys:
             all_hosts = list(dict.fromkeys([*hosts, *self.hosts]))
             authority = self._authority(now)
             server = certificates.server(authority, "MR-Lab", all_hosts, now, SERVER_LIFETIME)
-            private_files.write(self.folder / "server.pem", server.certificate_pem)
-            private_files.write(self.folder / "server.key", server.key_pem)
+            people.write(self.folder / "server.pem", server.certificate_pem)
+            people.write(self.folder / "server.key", server.key_pem)
             self._people.hosts = all_hosts
             self._people.write(self._people_file)
         return certificates.validity(server.certificate)[1]
@@ -226,12 +226,12 @@ class Keys:
         except BadInput as error:
             raise BadInput(RENEWAL_NEEDED(why=error, fixes=(self._fix("renew"),))) from error
         for secret in ("server.key", "passwords.txt"):
-            private_files.check(self.folder / secret)
+            people.check(self.folder / secret)
 
     def changed_at(self) -> tuple[int, ...]:
         """Return when what a lab reads was changed last, ns of each file; 0: it is gone."""
         files = ("people.json", "passwords.txt", "server.pem", "server.key", "ca.pem")
-        return tuple(private_files.changed_at(self.folder / name) for name in files)
+        return tuple(people.changed_at(self.folder / name) for name in files)
 
     def settings(
         self, rules: Rules, prefix: str, now: datetime, *, local: bool = False
@@ -266,12 +266,12 @@ class Keys:
                     certificates.read_certificate(self.folder / "lab.pem")
                 )
             made = certificates.client(self._authority(now), lab, now, SERVER_LIFETIME)
-            private_files.write(self.folder / "lab.pem", made.certificate_pem)
-            private_files.write(self.folder / "lab.key", made.key_pem)
+            people.write(self.folder / "lab.pem", made.certificate_pem)
+            people.write(self.folder / "lab.key", made.key_pem)
             document = zenoh_settings.router_document(
                 self.folder, self._people, rules, prefix, limits, lab, now
             )
-            private_files.write(self.folder / "router.json5", document.encode())
+            people.write(self.folder / "router.json5", document.encode())
         return self.folder / "router.json5"
 
     def lab_settings(self, now: datetime) -> dict[str, Any]:
@@ -284,7 +284,7 @@ class Keys:
         except BadInput as error:
             fixes = (self._fix("router"),)
             raise BadInput(ROUTER_KEYS_NEEDED(why=error, fixes=fixes)) from error
-        private_files.check(ours["lab.key"])
+        people.check(ours["lab.key"])
         return zenoh_settings.connecting_settings(self.folder)
 
     @property

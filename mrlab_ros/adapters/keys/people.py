@@ -1,6 +1,8 @@
 """Who may connect to a lab, and how: the files people.json and passwords.txt of a keys folder.
 
 zenoh keeps passwords as they are, so they are random ones.
+
+Files that only their owner can read.
 """
 
 from __future__ import annotations
@@ -9,17 +11,19 @@ import json
 import os
 import re
 import secrets
+import stat
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from datetime import datetime
 from pathlib import Path
 
-from mrlab_ros.adapters.keys import private_files
 from mrlab_ros.adapters.keys.diagnostics import (
     BAD_KEY_NAME,
     HAS_KEY,
+    KEY_FILE_OPEN,
     KEY_FILE_UNREADABLE,
     KEYS_DAMAGED,
+    NO_KEY_FILE,
     NO_KEYS,
 )
 from mrlab_ros.core.base.diagnostic import Fix
@@ -27,6 +31,39 @@ from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.base.foreign_text import for_shell
 from mrlab_ros.core.bridge.access import Login, Person
 from mrlab_ros.core.bridge.rules import Role
+
+
+def write(path: Path, data: bytes) -> None:
+    """Write a file that only its owner can read; a reader sees all of it or the one before."""
+    new = path.with_name(f".{path.name}.new")
+    new.unlink(missing_ok=True)
+    with open(os.open(new, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "wb") as file:
+        file.write(data)
+        file.flush()
+        os.fsync(file.fileno())
+    new.replace(path)
+
+
+def changed_at(path: Path) -> int:
+    """Return when a file was changed last, ns since 1970; 0 where it cannot be seen."""
+    try:
+        return path.stat().st_mtime_ns
+    except OSError:
+        return 0
+
+
+def check(path: Path) -> None:
+    """Raise BadInput where a file is missing, or others on this machine can read it."""
+    try:
+        mode = stat.S_IMODE(path.stat().st_mode)
+    except FileNotFoundError as error:
+        raise BadInput(NO_KEY_FILE(path=str(path), fixes=(Fix(command="keys init"),))) from error
+    except OSError as error:
+        why = os.strerror(error.errno or 0)
+        raise BadInput(KEY_FILE_UNREADABLE(path=str(path), why=why)) from error
+    if mode & 0o077:
+        raise BadInput(KEY_FILE_OPEN(path=str(path), mode=f"{mode:o}"))
+
 
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,40}")
 # A user whose password nobody knows: zenoh demands passwords only where its file has a user.
@@ -100,7 +137,7 @@ class People:
             "people": [entry.record() for entry in self.entries],
             "gateway": self.gateway.record() if self.gateway else None,
         }
-        private_files.write(path, json.dumps(document, indent=2).encode())
+        write(path, json.dumps(document, indent=2).encode())
 
     @property
     def entries(self) -> list[Entry]:
@@ -142,4 +179,4 @@ def read_passwords(path: Path) -> dict[str, str]:
 def write_passwords(path: Path, passwords: Mapping[str, str]) -> None:
     """Write name -> password as zenoh reads it, for the file's owner only."""
     lines = [f"{name}:{password}\n" for name, password in passwords.items()]
-    private_files.write(path, "".join(lines).encode())
+    write(path, "".join(lines).encode())

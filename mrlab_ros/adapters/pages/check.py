@@ -7,8 +7,7 @@ from pathlib import Path
 
 from mrlab_ros.adapters.pages import ingredients
 from mrlab_ros.adapters.pages.poster import poster
-from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.adapters.robots.shown import from_library
+from mrlab_ros.adapters.robots.library import RobotLibrary, from_library
 from mrlab_ros.core.checking.rehearsed import Rehearsed
 from mrlab_ros.core.checking.report import CheckReport
 from mrlab_ros.core.physics.catalogue import ObjectType

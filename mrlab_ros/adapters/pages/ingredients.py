@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from mrlab_ros.adapters.diagnostics import REPORT_NOT_BUILT
-from mrlab_ros.adapters.robots import quantised, urdf
+from mrlab_ros.adapters.robots import mesh_files, urdf
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.show.page import Code
 
@@ -41,7 +41,7 @@ def small(uris: Iterable[str], resolve: Callable[[str], Path]) -> dict[str, byte
     found = {}
     for uri in sorted(uris):
         try:
-            found[uri] = quantised.quantised(resolve(uri))
+            found[uri] = mesh_files.quantised(resolve(uri))
         except BadInput:
             continue
     return found

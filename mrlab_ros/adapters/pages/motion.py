@@ -9,8 +9,7 @@ import numpy as np
 from mrlab_ros.adapters.diagnostics import NOTHING_TO_SHOW
 from mrlab_ros.adapters.pages import ingredients
 from mrlab_ros.adapters.pages.poster import poster
-from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.adapters.robots.shown import from_library
+from mrlab_ros.adapters.robots.library import RobotLibrary, from_library
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.conversion.convert import ConversionResult
 from mrlab_ros.core.show import document, static

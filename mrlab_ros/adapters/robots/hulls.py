@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, cKDTree
 
 from mrlab_ros.adapters.robots import urdf
-from mrlab_ros.adapters.robots.assembly import Assembly, Resolve
 from mrlab_ros.adapters.robots.diagnostics import ROBOT_HULL
+from mrlab_ros.adapters.robots.drawing import Assembly, Resolve
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.geometry import Array
 

@@ -18,15 +18,14 @@ import yaml
 
 from mrlab_ros.adapters.diagnostics import FILE_UNREADABLE
 from mrlab_ros.adapters.robots import checks, mesh_files, urdf
-from mrlab_ros.adapters.robots.arm_and_hand import Groups, Split, split
-from mrlab_ros.adapters.robots.assembly import Assembly
+from mrlab_ros.adapters.robots.arm_and_hand import Finger, Groups, Split, fingers, split
 from mrlab_ros.adapters.robots.diagnostics import (
     BAD_ROBOT_ID,
     ROBOT_ID_TAKEN,
     ROBOT_SPEED,
     ROBOT_STILL,
 )
-from mrlab_ros.adapters.robots.hand import Finger, fingers
+from mrlab_ros.adapters.robots.drawing import Assembly
 from mrlab_ros.adapters.robots.library import MESH_PREFIX, RobotLibrary
 from mrlab_ros.adapters.robots.source import MeshFinder, description_text, packages_around
 from mrlab_ros.core.base.diagnostic import Diagnostic, Severity

@@ -1,9 +1,23 @@
-"""The library of robot models and end effectors: one folder each, composed into one URDF."""
+"""The library of robot models and end effectors: one folder each, composed into one URDF.
+
+What a description says to those that draw it: packed levels of detail, and hoses that bend.
+
+Both are elements beside the links, which readers of URDF skip:
+
+    <level_of_detail near="package://.../ur5e/lod/near.glb" far="package://.../ur5e/lod/far.glb"/>
+    <hose radius="0.02" length="0.9">
+      <end link="link_1" xyz="0 0 0" direction="0 0 1"/>
+      <end link="link_3" xyz="0 0 0" direction="1 0 0"/>
+    </hose>
+
+A robot as a page needs it: its URDF and its moving joints with their limits.
+"""
 
 from __future__ import annotations
 
 import math
 import xml.etree.ElementTree as ET
+from collections.abc import Iterable, Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -11,7 +25,7 @@ from typing import Any
 import numpy as np
 
 from mrlab_ros.adapters.diagnostics import FILE_UNREADABLE
-from mrlab_ros.adapters.robots import drawn, urdf
+from mrlab_ros.adapters.robots import urdf
 from mrlab_ros.adapters.robots.diagnostics import (
     HAND_OF_ITS_OWN,
     HOME_SIZE,
@@ -30,6 +44,7 @@ from mrlab_ros.core.base.records import bad_value
 from mrlab_ros.core.physics.grasp.load import Tool
 from mrlab_ros.core.physics.grasp.states import Gripper
 from mrlab_ros.core.robots.model import RobotModel
+from mrlab_ros.core.show.document import ShownJoint, ShownRobot
 
 END_EFFECTORS = "end_effectors"
 TIP = "tool0"
@@ -76,16 +91,16 @@ class RobotLibrary:
             text = _read(override)
         else:
             folder = self._robot_folder(robot_id)
-            beside += drawn.levels(folder, f"{MESH_PREFIX}{robot_id}") + drawn.hoses(facts)
+            beside += levels(folder, f"{MESH_PREFIX}{robot_id}") + hoses(facts)
         if not end_effector:
-            return drawn.added(text, beside)
+            return added(text, beside)
         robot = urdf.parse(text, f"{robot_id}/robot.urdf")
         tool = self.end_effector(end_effector)
         if facts.get("hand"):
             raise BadInput(HAND_OF_ITS_OWN(robot=robot_id))
         place = f"{END_EFFECTORS}/{end_effector}"
-        beside += drawn.levels(self.folder / place, f"{MESH_PREFIX}{place}")
-        return drawn.added(_composed(robot, tool, facts, end_effector), beside)
+        beside += levels(self.folder / place, f"{MESH_PREFIX}{place}")
+        return added(_composed(robot, tool, facts, end_effector), beside)
 
     def own_description(self, robot_id: str) -> str:
         """Return the bare robot's URDF with the lab's own meshes, ignoring imported ones."""
@@ -293,3 +308,83 @@ def _adapter_plate(radius: float) -> ET.Element:
             material = ET.SubElement(part, "material", name="adapter_plate")
             ET.SubElement(material, "color", rgba="0.6 0.61 0.63 1")
     return link
+
+
+LEVELS = ("near", "far")
+
+
+def levels(folder: Path, uri: str) -> list[ET.Element]:
+    """Return the packed levels of a model's folder; none where one is missing.
+
+    uri: of the folder. They stand for all meshes below <uri>/meshes/, which is not named: clients
+    fetch whatever a description names as package://.
+    """
+    if not all((folder / "lod" / f"{name}.glb").is_file() for name in LEVELS):
+        return []
+    files = {name: f"{uri}/lod/{name}.glb" for name in LEVELS}
+    return [ET.Element("level_of_detail", files)]
+
+
+def hoses(facts: Mapping[str, Any]) -> list[ET.Element]:
+    """Return the hoses of a robot.yaml: `hoses`, each with radius, length and two ends."""
+    found = []
+    for stated in facts.get("hoses", ()):
+        hose = ET.Element(
+            "hose", radius=repr(float(stated["radius"])), length=repr(float(stated["length"]))
+        )
+        for end in stated["ends"]:
+            ET.SubElement(
+                hose,
+                "end",
+                link=str(end["link"]),
+                xyz=_numbers(end["xyz"]),
+                direction=_numbers(end["direction"]),
+            )
+        found.append(hose)
+    return found
+
+
+def added(text: str, elements: Iterable[ET.Element]) -> str:
+    """Return a URDF with elements beside its links."""
+    lines = [f"  {ET.tostring(element, encoding='unicode')}\n" for element in elements]
+    head, end, rest = text.rpartition("</robot>")
+    return f"{head}{''.join(lines)}{end}{rest}"
+
+
+def _numbers(values: Iterable[float]) -> str:
+    return " ".join(repr(float(value)) for value in values)
+
+
+def shown_robot(model: str, end_effector: str, description: str, tip: str = TIP) -> ShownRobot:
+    """Return the robot of a URDF, end effector included; its joints lead to the link `tip`.
+
+    Raises BadInput where the text is not a URDF or has no such link.
+    """
+    origin = f"{model}/robot.urdf"
+    joints = joints_to(urdf.parse(description, origin), tip, origin)
+    return ShownRobot(model, end_effector, description, joints)
+
+
+def joints_to(root: ET.Element, tip: str, origin: str) -> tuple[ShownJoint, ...]:
+    """Return the moving joints that lead to the link `tip`, base first; raise BadInput."""
+    _, path = urdf.path_to(tip, urdf.joints(root, origin))
+    return tuple(_joint(joint) for joint in path if joint.moves)
+
+
+def from_library(library: RobotLibrary, model: str, end_effector: str | None) -> ShownRobot:
+    """Return a robot of the library; raise BadInput for an unknown id."""
+    tip = str(library.facts(model).get("tip_link", TIP))
+    description = library.description(model, end_effector)
+    return shown_robot(model, end_effector or "", description, tip)
+
+
+def _joint(joint: urdf.UrdfJoint) -> ShownJoint:
+    limit = joint.limit or {}
+    bounded = joint.kind != "continuous" and joint.limit is not None
+    return ShownJoint(
+        name=joint.name,
+        kind=joint.kind,
+        lower=limit.get("lower", 0.0) if bounded else None,
+        upper=limit.get("upper", 0.0) if bounded else None,
+        velocity=limit.get("velocity"),
+    )

@@ -10,13 +10,13 @@ from pathlib import Path
 import numpy as np
 
 from mrlab_ros.adapters.robots import checks, mesh_files, urdf
-from mrlab_ros.adapters.robots.assembly import Assembly
 from mrlab_ros.adapters.robots.diagnostics import (
     NO_SHARED_LINK,
     NOT_IMPORTED,
     NOT_OF_LIBRARY,
     ROBOT_FRAME,
 )
+from mrlab_ros.adapters.robots.drawing import Assembly
 from mrlab_ros.adapters.robots.library import MESH_PREFIX, RobotLibrary
 from mrlab_ros.adapters.robots.source import MeshFinder, description_text, packages_around
 from mrlab_ros.core.base.diagnostic import Diagnostic

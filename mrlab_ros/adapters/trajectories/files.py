@@ -16,8 +16,10 @@ from mrlab_ros.adapters.store.port import Missing, ObjectStore, StoreFailure
 from mrlab_ros.adapters.trajectories import npz_file
 from mrlab_ros.adapters.trajectories.npz_file import Damaged
 from mrlab_ros.adapters.whole_file import TEMPORARY, replaced
+from mrlab_ros.adapters.yaml_files import read_yaml
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.trajectory.catalogue import Record, Version, head_of
+from mrlab_ros.core.trajectory.channels import ProxyCoefficients
 from mrlab_ros.core.trajectory.diagnostics import NO_ROOM_FOR_COPY, VERSION_GONE, VERSION_REMOVED
 from mrlab_ros.core.trajectory.document import Frames
 from mrlab_ros.core.trajectory.trajectory import Trajectory
@@ -136,3 +138,8 @@ class TrajectoryFiles:
             if path != keep:
                 path.unlink(missing_ok=True)
                 total -= size
+
+
+def load_coefficients(path: Path) -> ProxyCoefficients:
+    """Read config/torque_proxy.yaml; raise BadInput that names all its mistakes."""
+    return ProxyCoefficients.from_mapping(read_yaml(path))

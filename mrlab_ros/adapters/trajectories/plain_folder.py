@@ -7,7 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from mrlab_ros.adapters.trajectories import json_file, npz_file
+from mrlab_ros.adapters.trajectories import formats, npz_file
 from mrlab_ros.adapters.trajectories.catalogue_writer import CatalogueWriter
 from mrlab_ros.adapters.trajectories.npz_file import Damaged
 from mrlab_ros.core.base.errors import BadInput
@@ -49,7 +49,7 @@ def _take(path: Path, catalogue: CatalogueWriter) -> str:
         raise Damaged(NOT_A_TRAJECTORY_FILE(file=path.name, found=found))
     if path.suffix == JSON_SUFFIX:
         try:
-            trajectory = json_file.parse(path.read_bytes(), path.name)
+            trajectory = formats.parse(path.read_bytes(), path.name)
         except BadInput as error:
             raise Damaged(error.diagnostic) from None
         head = document.metadata(trajectory)

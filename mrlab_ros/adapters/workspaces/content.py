@@ -21,7 +21,7 @@ from mrlab_ros.adapters.workspaces.diagnostics import (
     TOO_SLOW,
     UNREADABLE,
 )
-from mrlab_ros.adapters.workspaces.mat5 import INTEGERS
+from mrlab_ros.adapters.workspaces.matlab.mat5 import INTEGERS
 from mrlab_ros.core.base.diagnostic import Diagnostic, from_plain
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.conversion.workspace import Variable, Workspace

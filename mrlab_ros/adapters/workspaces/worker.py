@@ -48,15 +48,7 @@ import numpy as np
 from mrlab_ros.adapters import wall
 from mrlab_ros.adapters.guarded_streams import guard
 from mrlab_ros.adapters.inflate import Incomplete, inflate_zstd
-from mrlab_ros.adapters.workspaces import (
-    content,
-    joint_trajectories,
-    mat5,
-    objects,
-    results,
-    second_reader,
-    tables,
-)
+from mrlab_ros.adapters.workspaces import content, joint_trajectories, results
 from mrlab_ros.adapters.workspaces.diagnostics import (
     BAD_TABLE,
     NOT_INFLATED,
@@ -65,10 +57,10 @@ from mrlab_ros.adapters.workspaces.diagnostics import (
     UNREADABLE,
     UNSUPPORTED_FORMAT,
 )
-from mrlab_ros.adapters.workspaces.mat73 import read_hdf5
-from mrlab_ros.adapters.workspaces.object_sinks import ObjectSink
-from mrlab_ros.adapters.workspaces.sink import Found, Sink
-from mrlab_ros.adapters.workspaces.view import View
+from mrlab_ros.adapters.workspaces.matlab import mat5, objects, second_reader
+from mrlab_ros.adapters.workspaces.matlab.mat73 import read_hdf5
+from mrlab_ros.adapters.workspaces.sinks import Found, ObjectSink, Sink, View
+from mrlab_ros.adapters.workspaces.tables import table
 from mrlab_ros.core.base.diagnostic import Diagnostic, plain
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.conversion.dimensions import is_motion
@@ -193,15 +185,15 @@ def read(
         joint_trajectories.read_cdr(data, name[: -len(".cdr")], sink)
         return "CDR"
     if name.lower().endswith(".npz"):
-        tables.read_npz(data, sink, limit)
+        table.read_npz(data, sink, limit)
         return "NumPy npz"
     if name.lower().endswith(".json"):
-        tables.read_json(data, sink)
+        table.read_json(data, sink)
         return "JSON"
     # save -ascii of MATLAB writes a table of numbers, and calls it .mat where it is told to.
     ascii_table = form == TEXTS[0] and bytes(data[:64]).lstrip()[:1] in NUMBER_BEGINS
     if form in TEXTS and (name.lower().endswith(TABLES) or ascii_table):
-        tables.read_csv(data, sink)
+        table.read_csv(data, sink)
         return "CSV"
     raise mat5.NotAWorkspace(form)
 

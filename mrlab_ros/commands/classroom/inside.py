@@ -6,7 +6,7 @@ import contextlib
 from pathlib import Path
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
+from mrlab_ros.adapters.trajectories.files import load_coefficients
 from mrlab_ros.adapters.workspaces import content, worker
 from mrlab_ros.adapters.workspaces.reader import Limits, opened
 from mrlab_ros.adapters.workspaces.results import Task, converted, refused

@@ -28,7 +28,7 @@ import orjson
 
 from mrlab_ros.adapters import installed, wall
 from mrlab_ros.adapters.guarded_streams import guard
-from mrlab_ros.adapters.trajectories import json_file
+from mrlab_ros.adapters.trajectories import formats
 from mrlab_ros.adapters.workspaces.reader import Limits
 from mrlab_ros.commands.check.one import CELLS, CheckedFile, Setting
 from mrlab_ros.commands.classroom.diagnostics import NO_FILE
@@ -126,7 +126,7 @@ class Warm:
         has_page = self.setup.pages and found.played is not None
         if trajectory is not None:
             with (out / TRAJECTORY).open("wb") as written:
-                written.writelines(json_file.chunks(trajectory))
+                written.writelines(formats.chunks(trajectory))
         if has_page:
             self._pages(found, marks, f"{shown}: {file}", out)
         path: Any = ()

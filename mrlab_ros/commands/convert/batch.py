@@ -19,13 +19,12 @@ from pathlib import Path
 import orjson
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 
-from mrlab_ros.adapters.nearby import close_file
 from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.adapters.trajectories import export, npz_file
-from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
+from mrlab_ros.adapters.trajectories import formats, npz_file
+from mrlab_ros.adapters.trajectories.files import load_coefficients
 from mrlab_ros.adapters.workspaces.diagnostics import MISSING
-from mrlab_ros.adapters.workspaces.pool import ConversionPool
 from mrlab_ros.adapters.workspaces.reader import (
+    ConversionPool,
     Limits,
     MiB,
     TooSlow,
@@ -34,6 +33,7 @@ from mrlab_ros.adapters.workspaces.reader import (
     opened,
 )
 from mrlab_ros.adapters.workspaces.results import Task, refused, unexpected
+from mrlab_ros.adapters.yaml_files import close_file
 from mrlab_ros.commands import output
 from mrlab_ros.commands.convert import report
 from mrlab_ros.commands.convert.diagnostics import (
@@ -110,7 +110,7 @@ def run(request: Request) -> int:
     if request.end_effector:
         library.description(request.robot, request.end_effector)
     coefficients = load_coefficients(share.directory() / "config" / "torque_proxy.yaml")
-    writer = export.writer(request.to)
+    writer = formats.writer(request.to)
     results: list[ConversionResult] = []
     taken: set[str] = set()
     limits = Limits(memory=request.memory * MiB, time=request.time_limit, rows=request.row_limit)
@@ -134,7 +134,7 @@ def run(request: Request) -> int:
         path
         for task in tasks
         for path in (
-            request.out and export.path(request.to, task.trajectory_id, request.out),
+            request.out and formats.path(request.to, task.trajectory_id, request.out),
             request.plot and _plot_path(request.plot, task.trajectory_id),
         )
         if path is not None
@@ -383,11 +383,11 @@ def _plot(result: ConversionResult, robot: RobotModel, path: Path) -> None:
         _write_page(result, robot.id, path)
         return
     if result.trajectory is not None:
-        export.plot(result.trajectory, robot, path)
+        formats.plot(result.trajectory, robot, path)
         return
     shown = result.preview or next((c.preview for c in result.candidates), None)
     if shown is not None:
-        export.plot_refused(shown, result.diagnostics, result.file, robot, path)
+        formats.plot_refused(shown, result.diagnostics, result.file, robot, path)
 
 
 def _write_page(result: ConversionResult, robot: str, path: Path) -> None:

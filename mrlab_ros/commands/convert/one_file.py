@@ -65,10 +65,10 @@ def of_trajectory_file_here(file: Path) -> ConversionResult | None:
 
 
 def _parsed(file: Path) -> Trajectory:
-    from mrlab_ros.adapters.trajectories import json_file
+    from mrlab_ros.adapters.trajectories import formats
 
     try:
-        return json_file.parse(file.read_bytes(), file_name(file.name))
+        return formats.parse(file.read_bytes(), file_name(file.name))
     except OSError as error:
         raise BadInput(FILE_UNREADABLE(file=str(file), why=error.strerror)) from None
 

@@ -23,7 +23,7 @@ from mrlab_ros.processes.options import LabOptions, WebOptions, new_lab_id
 from mrlab_ros.processes.run_file import RunFile
 from mrlab_ros.processes.supervisor import Supervisor
 from mrlab_ros.processes.web import gateway_answers
-from mrlab_ros.ros.domain import domain_id
+from mrlab_ros.ros.environment import domain_id
 
 if TYPE_CHECKING:
     from rich.console import Console

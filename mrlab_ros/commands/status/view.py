@@ -154,7 +154,7 @@ class View:
             self._on_client(report)
 
     def _on_diagnostics(self, message: Any, age: float = 0.0) -> None:
-        from mrlab_ros.messages.diagnostics import restarted_in, troubles_in
+        from mrlab_ros.messages.status import restarted_in, troubles_in
 
         now = time.monotonic() - age
         found = troubles_in(message)

@@ -20,7 +20,7 @@ from mrlab_ros.processes import physics_support
 from mrlab_ros.processes.lab import parameter_file, robot_models
 from mrlab_ros.processes.options import LabOptions, new_lab_id
 from mrlab_ros.processes.run_file import RunFile
-from mrlab_ros.ros.domain import domain_id
+from mrlab_ros.ros.environment import domain_id
 
 
 def up(

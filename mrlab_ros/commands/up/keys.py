@@ -104,10 +104,10 @@ def keys_changed_at(folder: Path) -> KeyChanges:
 
 def web_keys_changed_at(folder: Path) -> tuple[int, ...]:
     """Return when the files of the gateway were changed last, ns."""
-    from mrlab_ros.adapters.keys import private_files
+    from mrlab_ros.adapters.keys import people
 
     names = ("server.pem", "server.key", "gateway.json5")
-    return tuple(private_files.changed_at(folder.expanduser() / name) for name in names)
+    return tuple(people.changed_at(folder.expanduser() / name) for name in names)
 
 
 def follow_keys(

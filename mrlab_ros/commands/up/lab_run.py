@@ -6,7 +6,7 @@ import threading
 import time
 from dataclasses import dataclass, field
 
-from mrlab_ros.adapters.scenes.state_file import SCENE_FILE
+from mrlab_ros.adapters.scenes.files import SCENE_FILE
 from mrlab_ros.commands.up.keys import follow_keys, keys_changed_at, tell_when_keys_expire
 from mrlab_ros.commands.up.refusals import Refusals
 from mrlab_ros.commands.up.speaker import Speaker

@@ -11,11 +11,11 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from mrlab_ros.adapters import private_folder
-from mrlab_ros.ros import fast_dds
+from mrlab_ros.ros import environment
 
 # Any of these says that the user has chosen whom the graph can see.
 DISCOVERY = (
-    fast_dds.RANGE,
+    environment.RANGE,
     "ROS_DISCOVERY_SERVER",
     "ROS_LOCALHOST_ONLY",
     "ROS_STATIC_PEERS",
@@ -29,8 +29,8 @@ def graph_range(asked: str = "localhost") -> dict[str, str]:
     """
     if asked == "localhost" and any(os.environ.get(name) for name in DISCOVERY):
         return {}
-    reach = {fast_dds.RANGE: asked.upper()}
-    return reach | fast_dds.settings({**os.environ, **reach})
+    reach = {environment.RANGE: asked.upper()}
+    return reach | environment.settings({**os.environ, **reach})
 
 
 def stay_on_this_machine() -> None:

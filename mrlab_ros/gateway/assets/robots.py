@@ -5,8 +5,7 @@ from __future__ import annotations
 import orjson
 from anyio import from_thread
 
-from mrlab_ros.adapters.robots.library import TIP, RobotLibrary
-from mrlab_ros.adapters.robots.shown import from_library, shown_robot
+from mrlab_ros.adapters.robots.library import TIP, RobotLibrary, from_library, shown_robot
 from mrlab_ros.core.base.errors import BadInput, LabError
 from mrlab_ros.core.bridge.assets import ROBOTS_DOCUMENT
 from mrlab_ros.core.show.document import ShownRobot

@@ -9,7 +9,7 @@ from typing import Any
 
 import orjson
 
-from mrlab_ros.adapters.trajectories import json_file
+from mrlab_ros.adapters.trajectories import formats
 from mrlab_ros.core.base.diagnostic import PLACE, Diagnostic, from_plain
 from mrlab_ros.core.base.errors import BadInput, Unavailable
 from mrlab_ros.core.trajectory.trajectory import Trajectory
@@ -89,7 +89,7 @@ class ClassFolder:
         if not path.is_relative_to(self.folder.resolve()):
             raise NotFound(MOTION_OUTSIDE(key=key))
         try:
-            return json_file.parse(_read(path, LARGEST_MOTION), path.name)
+            return formats.parse(_read(path, LARGEST_MOTION), path.name)
         except OSError as error:
             raise NotFound(MOTION_NOT_THERE(key=key, why=error.strerror)) from None
 

@@ -10,7 +10,7 @@ import orjson
 from fastapi import APIRouter, Depends, Path, Request, Response
 from fastapi.concurrency import run_in_threadpool
 
-from mrlab_ros.adapters.trajectories import json_file
+from mrlab_ros.adapters.trajectories import formats
 from mrlab_ros.core.base.diagnostic import Fix, from_plain
 from mrlab_ros.core.show import document
 from mrlab_ros.gateway.classroom import answers
@@ -78,7 +78,7 @@ async def file(graded: TheClass, key: Key) -> Response:
     """Return a submission's motion as a trajectory file."""
 
     def made() -> bytes:
-        return b"".join(json_file.chunks(graded.trajectory(key)))
+        return b"".join(formats.chunks(graded.trajectory(key)))
 
     headers = {"Content-Disposition": f'attachment; filename="{quote(key)}.json"'}
     text = await run_in_threadpool(made)

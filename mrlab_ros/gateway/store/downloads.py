@@ -27,11 +27,11 @@ def written(trajectory: Trajectory, name: str, form: str, work: Path) -> tuple[B
     name: what the trajectory is called in it. Raises StoreFailure where there is no room.
     """
     # scipy and rosbags, which the first download can wait for, not the start of the gateway
-    from mrlab_ros.adapters.trajectories import export
+    from mrlab_ros.adapters.trajectories import formats
 
     try:
         with tempfile.TemporaryDirectory(dir=work, prefix=FOLDER) as folder:
-            path = export.writer(form)(replace(trajectory, id=name), Path(folder))
+            path = formats.writer(form)(replace(trajectory, id=name), Path(folder))
             size = path.stat().st_size
             return path.open("rb"), size
     except OSError as error:

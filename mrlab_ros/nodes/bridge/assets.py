@@ -23,7 +23,7 @@ from mrlab_ros.core.bridge.assets import (
     span,
 )
 from mrlab_ros.core.bridge.diagnostics import ASSETS_BUSY
-from mrlab_ros.messages.schema import schema
+from mrlab_ros.messages.definitions import schema
 from mrlab_ros.nodes.bridge.context import BridgeContext, Count
 
 if TYPE_CHECKING:

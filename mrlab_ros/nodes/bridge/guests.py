@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable
 from functools import partial
 
-from mrlab_ros.adapters.link_sockets import LinkSockets
+from mrlab_ros.adapters.zenoh.links import LinkSockets
 from mrlab_ros.core.bridge.guests import Cut, Guests, Link
 from mrlab_ros.core.bridge.links import LOCAL_PROTOCOL
 from mrlab_ros.ros.worker import Worker

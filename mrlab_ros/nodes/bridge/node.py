@@ -29,7 +29,7 @@ from mrlab_ros.core.bridge.links import Pace
 from mrlab_ros.core.bridge.rules import Direction, ServiceRule, TopicRule
 from mrlab_ros.core.runtime.identity import Neighbours
 from mrlab_ros.messages import qos
-from mrlab_ros.messages.latency import latency_to_message
+from mrlab_ros.messages.status import latency_to_message
 from mrlab_ros.nodes import parameters
 from mrlab_ros.nodes.bridge.assets import AssetRoutes
 from mrlab_ros.nodes.bridge.context import BridgeContext
@@ -41,11 +41,10 @@ from mrlab_ros.nodes.bridge.services import Services
 from mrlab_ros.nodes.bridge.zenoh_settings import zenoh_settings
 from mrlab_ros.nodes.parameters import BridgeParameters
 from mrlab_ros.ros import share
-from mrlab_ros.ros.clock import LabClock
-from mrlab_ros.ros.graph_changes import GraphChanges
+from mrlab_ros.ros.clock import LabClock, every
+from mrlab_ros.ros.graph import GraphChanges
 from mrlab_ros.ros.parameters import ParameterNode
 from mrlab_ros.ros.spinning import SpunNode
-from mrlab_ros.ros.timers import every
 
 STATISTICS = "/@mrlab/bridge/statistics"
 CLOCK = "/@mrlab/bridge/clock"

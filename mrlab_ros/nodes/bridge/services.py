@@ -26,7 +26,7 @@ from mrlab_ros.core.bridge.rules import ServiceRule
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes.bridge.context import BridgeContext, Count
 from mrlab_ros.nodes.bridge.sender import Sender
-from mrlab_ros.ros import freezes
+from mrlab_ros.ros import clock
 
 # Calls that one service has at a time; DDS keeps ten for a server and drops older ones.
 IN_FLIGHT = 8
@@ -139,7 +139,7 @@ class Services:
             request, why_not = read(query.payload)
             if why_not is None and route.rule.moves:
                 why_not = self._why_not(route.name)
-                if why_not is None and (why_not := freezes.why_doubtful()):
+                if why_not is None and (why_not := clock.why_doubtful()):
                     self._bridge.warn_once(f"{route.name}: {why_not}")
             if why_not is not None:
                 self._refuse(route, query, why_not)

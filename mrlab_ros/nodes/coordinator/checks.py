@@ -18,7 +18,7 @@ from mrlab_ros.core.systems.robot_system import RobotSystem
 from mrlab_ros.core.trajectory.trajectory import check_fits
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes.coordinator.fleet import FIND_TIMEOUT_S, MemberClient
-from mrlab_ros.ros.calls import call_all
+from mrlab_ros.ros.services import call_all
 
 # The converter answers what it has of a trajectory within this time, s.
 CATALOGUE_TIMEOUT_S = 4.0

@@ -24,7 +24,7 @@ from mrlab_ros.messages.systems import (
     reply_from_message,
 )
 from mrlab_ros.messages.time import time_from_message
-from mrlab_ros.ros.calls import NoAnswer, call_all, call_each
+from mrlab_ros.ros.services import NoAnswer, call_all, call_each
 
 # A playback loads a trajectory within this time, and publishes its state within this time, s.
 LOAD_TIMEOUT_S = 15.0

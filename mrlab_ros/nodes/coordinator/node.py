@@ -39,12 +39,10 @@ from mrlab_ros.nodes import parameters
 from mrlab_ros.nodes.coordinator.checks import MemberChecks
 from mrlab_ros.nodes.coordinator.fleet import Hosts, MemberClient, RosFleet
 from mrlab_ros.nodes.parameters import CoordinatorParameters
-from mrlab_ros.ros.calls import NoAnswer
-from mrlab_ros.ros.clock import LabClock
+from mrlab_ros.ros.clock import LabClock, every
 from mrlab_ros.ros.parameters import ParameterNode
+from mrlab_ros.ros.services import NoAnswer, Turns
 from mrlab_ros.ros.spinning import Caller
-from mrlab_ros.ros.timers import every
-from mrlab_ros.ros.turns import Turns
 from mrlab_ros.ros.worker import Worker
 
 # Period at which an active system is polled, s.

@@ -16,13 +16,12 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
-from mrlab_ros.adapters.robots.published import together
+from mrlab_ros.adapters.robots.exporting import together
 from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.runtime.identity import Identity
 from mrlab_ros.messages import qos
-from mrlab_ros.messages.frames import transforms_to_message
-from mrlab_ros.messages.poses import pose_from_message
-from mrlab_ros.messages.robots import text_to_message
+from mrlab_ros.messages.poses import pose_from_message, transforms_to_message
+from mrlab_ros.messages.scenes import text_to_message
 from mrlab_ros.messages.time import time_from_message
 from mrlab_ros.nodes import parameters
 from mrlab_ros.nodes.frames.markers import MarkerPublishers

@@ -13,7 +13,7 @@ from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.base.geometry import Array, Pose
 from mrlab_ros.core.robots.frames import WORLD, LinkFrames
 from mrlab_ros.messages import joint_states
-from mrlab_ros.messages.frames import TransformsEncoder
+from mrlab_ros.messages.poses import TransformsEncoder
 
 
 @dataclass(eq=False)

@@ -13,10 +13,9 @@ from rclpy.parameter import Parameter
 from rclpy.publisher import Publisher
 from std_msgs.msg import String
 
+from mrlab_ros.adapters.robots.exporting import published
 from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.adapters.robots.published import published
-from mrlab_ros.adapters.scenes.files import SceneFiles
-from mrlab_ros.adapters.scenes.state_file import SCENE_FILE, StateFile
+from mrlab_ros.adapters.scenes.files import SCENE_FILE, SceneFiles, StateFile
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.base.geometry import Pose
@@ -26,8 +25,13 @@ from mrlab_ros.core.scene.restore import self_contained, with_pending
 from mrlab_ros.core.scene.robots import PlacedRobot, Scene
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.poses import pose_from_message
-from mrlab_ros.messages.robots import robot_to_message, robots_to_message, text_to_message
-from mrlab_ros.messages.scenes import robot_entry, system_entry
+from mrlab_ros.messages.scenes import (
+    robot_entry,
+    robot_to_message,
+    robots_to_message,
+    system_entry,
+    text_to_message,
+)
 from mrlab_ros.nodes import parameters
 from mrlab_ros.nodes.lab.diagnostics import (
     END_EFFECTOR_REMOVED,
@@ -44,11 +48,10 @@ from mrlab_ros.nodes.lab.restore import LabRestore, Return
 from mrlab_ros.nodes.lab.scenes import Scenes
 from mrlab_ros.nodes.parameters import LabParameters
 from mrlab_ros.ros import share
-from mrlab_ros.ros.answers import answered, create_service
-from mrlab_ros.ros.clock import LabClock
+from mrlab_ros.ros.clock import LabClock, every
 from mrlab_ros.ros.parameters import ParameterNode
+from mrlab_ros.ros.services import answered, create_service
 from mrlab_ros.ros.spinning import Caller
-from mrlab_ros.ros.timers import every
 
 # What robots have loaded and where they stand is written this often where it changed, s.
 SAVE_PERIOD_S = 2.0

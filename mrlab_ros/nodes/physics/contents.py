@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import replace
 
-from mrlab_ros.adapters.scenes.state_file import StateFile
+from mrlab_ros.adapters.scenes.files import StateFile
 from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.diagnostics import IN_PLACE

@@ -16,8 +16,8 @@ from rclpy.parameter import Parameter
 
 from mrlab_ros.adapters.bullet import support
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.scenes.files import StateFile
 from mrlab_ros.adapters.scenes.object_meshes import ObjectMeshes
-from mrlab_ros.adapters.scenes.state_file import StateFile
 from mrlab_ros.adapters.yaml_files import read_yaml
 from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.base.diagnostic import Diagnostic
@@ -45,11 +45,10 @@ from mrlab_ros.nodes.physics.diagnostics import (
 from mrlab_ros.nodes.physics.listener import GraphListener
 from mrlab_ros.nodes.physics.publishers import WorldPublishers
 from mrlab_ros.ros import share
-from mrlab_ros.ros.answers import answered, create_service
-from mrlab_ros.ros.clock import LabClock
+from mrlab_ros.ros.clock import LabClock, every
 from mrlab_ros.ros.deadlines import SWITCH_INTERVAL_S
 from mrlab_ros.ros.parameters import ParameterNode
-from mrlab_ros.ros.timers import every
+from mrlab_ros.ros.services import answered, create_service
 
 try:
     from mrlab_ros.adapters.bullet.engine import BulletEngine

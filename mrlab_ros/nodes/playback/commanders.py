@@ -23,16 +23,16 @@ from mrlab_ros.core.playback.playback import Playback
 from mrlab_ros.core.playback.pursuit import Bounds, Outcome, Pursuit
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.messages import qos
-from mrlab_ros.messages.goals import (
+from mrlab_ros.messages.playback import (
     bounds_from_goal,
     feedback_to_message,
     goal_from_message,
     result_to_message,
 )
-from mrlab_ros.ros import freezes
+from mrlab_ros.ros import clock
 from mrlab_ros.ros.actions import GoalServer
+from mrlab_ros.ros.clock import every
 from mrlab_ros.ros.deadlines import Command, Player
-from mrlab_ros.ros.timers import every
 
 # Refusals of one kind are logged so far apart, s: a stream of thousands must not fill /rosout.
 WARNING_PERIOD_S = 1.0
@@ -222,6 +222,6 @@ class Commanders:
 
 def _refuse_doubtful() -> None:
     """Raise Misuse while what comes may have waited for the end of a freeze of this process."""
-    why = freezes.why_doubtful()
+    why = clock.why_doubtful()
     if why:
         raise Misuse(why)

@@ -33,13 +33,11 @@ from mrlab_ros.nodes.catalogue import CatalogueClient
 from mrlab_ros.nodes.parameters import PlaybackParameters
 from mrlab_ros.nodes.playback.node import PlaybackNode
 from mrlab_ros.ros import share
-from mrlab_ros.ros.answers import answered, create_service
-from mrlab_ros.ros.clock import LabClock
-from mrlab_ros.ros.deadlines import Scheduler
+from mrlab_ros.ros.clock import LabClock, every
+from mrlab_ros.ros.deadlines import REALTIME, Scheduler, take_precedence
 from mrlab_ros.ros.parameters import ParameterNode
-from mrlab_ros.ros.priority import REALTIME, take_precedence
+from mrlab_ros.ros.services import answered, create_service
 from mrlab_ros.ros.spinning import Caller, SpunNode
-from mrlab_ros.ros.timers import every
 
 # Trajectories that are fetched at the same time.
 MOST_LOADS = 4

@@ -30,15 +30,14 @@ from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.joint_states import JointStateEncoder
 from mrlab_ros.messages.playback import (
+    TelemetryEncoder,
     status_to_message,
     targets_to_message,
 )
-from mrlab_ros.messages.telemetry import TelemetryEncoder
 from mrlab_ros.nodes.playback.commanders import Commanders
-from mrlab_ros.ros.answers import answered, create_deferred_service, create_service
-from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.deadlines import Command, Player, Scheduler
-from mrlab_ros.ros.raw_publish import raw_publish
+from mrlab_ros.ros.raw_streams import raw_publish
+from mrlab_ros.ros.services import NoAnswer, answered, create_deferred_service, create_service
 from mrlab_ros.ros.worker import Worker
 
 # For what a robot had before a restart, the catalogue is asked this long, s.

@@ -21,7 +21,7 @@ from rclpy.serialization import deserialize_message
 from std_msgs.msg import String
 
 from mrlab_ros.adapters.robots.library import MESH_PREFIX, RobotLibrary
-from mrlab_ros.adapters.trajectories.json_file import chunks
+from mrlab_ros.adapters.trajectories.formats import chunks
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.bridge.assets import media_type
@@ -31,8 +31,8 @@ from mrlab_ros.messages import qos, trajectories
 from mrlab_ros.nodes.catalogue import CatalogueClient
 from mrlab_ros.nodes.recorder.diagnostics import NOT_ATTACHED, PARAMETERS_NOT_ATTACHED
 from mrlab_ros.ros import share
-from mrlab_ros.ros.calls import call
 from mrlab_ros.ros.raw_streams import Received
+from mrlab_ros.ros.services import call
 from mrlab_ros.ros.spinning import Caller
 from mrlab_ros.ros.worker import Worker
 

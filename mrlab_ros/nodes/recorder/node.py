@@ -14,10 +14,8 @@ from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from mrlab_ros.adapters.bags.empty import remove_empty
-from mrlab_ros.adapters.bags.listing import bags_in
 from mrlab_ros.adapters.bags.other import open_bag
-from mrlab_ros.adapters.bags.reader import Bag, default_folder
+from mrlab_ros.adapters.bags.reader import Bag, bags_in, default_folder, remove_empty
 from mrlab_ros.adapters.bags.writer import BagWriter
 from mrlab_ros.adapters.journal import Journal
 from mrlab_ros.core.base.diagnostic import Diagnostic
@@ -37,7 +35,7 @@ from mrlab_ros.core.recording.topics import Split, Topics
 from mrlab_ros.core.runtime.watch import RESTART_SHOWN_S
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.definitions import definition
-from mrlab_ros.messages.recorder import recorder_state_to_message
+from mrlab_ros.messages.status import recorder_state_to_message
 from mrlab_ros.nodes import parameters
 from mrlab_ros.nodes.parameters import RecorderParameters
 from mrlab_ros.nodes.recorder.attachments import SessionContent, versions
@@ -59,10 +57,10 @@ from mrlab_ros.nodes.recorder.diagnostics import (
 from mrlab_ros.nodes.recorder.recording import Recording
 from mrlab_ros.nodes.recorder.replaying import Replaying
 from mrlab_ros.nodes.recorder.trajectories import ReplayedTrajectories
-from mrlab_ros.ros.answers import answered, create_service
+from mrlab_ros.ros.clock import every
 from mrlab_ros.ros.parameters import ParameterNode
+from mrlab_ros.ros.services import answered, create_service
 from mrlab_ros.ros.spinning import Caller
-from mrlab_ros.ros.timers import every
 
 MEGABYTE = 1_000_000
 

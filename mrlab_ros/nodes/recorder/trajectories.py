@@ -8,13 +8,13 @@ from mrlab_msgs import srv
 from rclpy.node import Node
 
 from mrlab_ros.adapters.bags.reader import Bag
-from mrlab_ros.adapters.trajectories.json_file import parse
+from mrlab_ros.adapters.trajectories.formats import parse
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.messages import trajectories
 from mrlab_ros.nodes.recorder.attachments import trajectory_name
 from mrlab_ros.nodes.recorder.diagnostics import BAG_TRAJECTORY
-from mrlab_ros.ros.answers import answered, create_service
+from mrlab_ros.ros.services import answered, create_service
 
 
 class ReplayedTrajectories:

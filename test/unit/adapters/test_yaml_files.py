@@ -18,7 +18,7 @@ from mrlab_ros.adapters.diagnostics import (
     YAML_ALIAS,
     YAML_MAPPING,
 )
-from mrlab_ros.adapters.yaml_files import RosLoader, read_with_lines, read_yaml
+from mrlab_ros.adapters.yaml_files import RosLoader, close_file, read_with_lines, read_yaml
 from mrlab_ros.core.base.diagnostic import Code
 from mrlab_ros.core.base.diagnostics import EMPTY_VALUE
 from mrlab_ros.core.base.errors import BadInput
@@ -97,3 +97,11 @@ def test_a_file_that_is_none_is_named(tmp_path: Path) -> None:
         read_with_lines(tmp_path)
     with refused(FILE_MISSING, close="notes.yaml"):
         read_with_lines(tmp_path / "note.yaml")
+
+
+def test_the_closest_entry_of_the_folder_is_named(tmp_path: Path) -> None:
+    for name in ("quintic_ur5e.mat", "notes.txt", ".quintic_ur5.mat.swp"):
+        (tmp_path / name).touch()
+    assert close_file(tmp_path / "quintic_ur5.mat") == "quintic_ur5e.mat"
+    assert close_file(tmp_path / "other.csv") is None
+    assert close_file(tmp_path / "nowhere" / "notes.txt") is None

@@ -13,7 +13,7 @@ from mrlab_ros.client import robot as under_test
 from mrlab_ros.client.diagnostics import RUN_SILENT
 from mrlab_ros.client.follow import Follower
 from mrlab_ros.client.robot import LabRobot, Run
-from mrlab_ros.ros.calls import NoAnswer
+from mrlab_ros.ros.services import NoAnswer
 
 
 class FakeGraph:

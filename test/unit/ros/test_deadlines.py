@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import os
 import threading
 import time
 
@@ -14,6 +15,7 @@ from graph import wait_for
 from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.playback.playback import Playback
 from mrlab_ros.core.playback.states import State
+from mrlab_ros.ros import deadlines
 from mrlab_ros.ros.clock import LabClock
 from mrlab_ros.ros.deadlines import Player, Scheduler
 
@@ -213,3 +215,35 @@ def test_clock_drives_playback_and_pauses_it():
         assert sent[-1].due_ns == 10 * SECOND + 78_000_000
     finally:
         scheduler.stop()
+
+
+def refuse(*arguments):
+    raise PermissionError
+
+
+@pytest.fixture
+def asked(monkeypatch):
+    """Record what is asked for in place of the kernel."""
+    calls = []
+    monkeypatch.setattr(os, "sched_setscheduler", lambda *a: calls.append(a))
+    monkeypatch.setattr(os, "setpriority", lambda *a: calls.append(a))
+    return calls
+
+
+def test_round_robin_is_asked_for_first_and_not_inherited(asked):
+    assert deadlines.take_precedence() == "SCHED_RR 10"
+    ((_, policy, parameter),) = asked
+    assert policy == os.SCHED_RR | os.SCHED_RESET_ON_FORK
+    assert parameter.sched_priority == 10
+
+
+def test_a_nice_level_is_asked_for_where_round_robin_is_not_permitted(asked, monkeypatch):
+    monkeypatch.setattr(os, "sched_setscheduler", refuse)
+    assert deadlines.take_precedence() == "nice -10"
+    assert len(asked) == 1
+
+
+def test_a_thread_that_gets_neither_says_so(monkeypatch):
+    monkeypatch.setattr(os, "sched_setscheduler", refuse)
+    monkeypatch.setattr(os, "setpriority", refuse)
+    assert deadlines.take_precedence().startswith("ordinary priority")

@@ -43,10 +43,8 @@ from mrlab_ros.adapters.bags.diagnostics import (
     ORIGINAL_IN_THE_WAY,
     REPAIR_RUNS,
 )
-from mrlab_ros.adapters.bags.empty import remove_empty
-from mrlab_ros.adapters.bags.listing import bags_in
 from mrlab_ros.adapters.bags.other import open_bag
-from mrlab_ros.adapters.bags.reader import Bag
+from mrlab_ros.adapters.bags.reader import Bag, bags_in, remove_empty
 from mrlab_ros.adapters.bags.repair import refresh_metadata, repair
 from mrlab_ros.adapters.bags.writer import (
     RESERVE_SIZE,

@@ -10,7 +10,7 @@ import pytest
 from refusals import refused
 
 from mrlab_ros.adapters.robots import urdf
-from mrlab_ros.adapters.robots.arm_and_hand import Groups, Split, split
+from mrlab_ros.adapters.robots.arm_and_hand import Finger, Groups, Split, fingers, split
 from mrlab_ros.adapters.robots.diagnostics import (
     ARM_MIMICS,
     ARMS_BRANCH,
@@ -27,7 +27,6 @@ from mrlab_ros.adapters.robots.diagnostics import (
     TWICE_IN_URDF,
     XACRO_REFUSED,
 )
-from mrlab_ros.adapters.robots.hand import Finger, fingers
 from mrlab_ros.adapters.robots.importing import import_robot
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.robots.source import find_description

@@ -13,9 +13,9 @@ import pytest
 import yaml
 
 from mrlab_ros.adapters.assets.files import AssetFiles
-from mrlab_ros.adapters.robots import drawn
+from mrlab_ros.adapters.robots import library
+from mrlab_ros.adapters.robots.exporting import published
 from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.adapters.robots.published import published
 
 ROBOTS = Path(__file__).resolve().parents[4] / "robots"
 LIBRARY = RobotLibrary(ROBOTS, ROBOTS / "none")
@@ -58,23 +58,23 @@ def test_a_robot_in_imported_meshes_is_drawn_from_these(tmp_path: Path) -> None:
 def test_levels_are_named_only_where_both_are(tmp_path: Path) -> None:
     (tmp_path / "lod").mkdir()
     (tmp_path / "lod" / "near.glb").write_bytes(b"")
-    assert drawn.levels(tmp_path, "package://p/r") == []
+    assert library.levels(tmp_path, "package://p/r") == []
     (tmp_path / "lod" / "far.glb").write_bytes(b"")
-    (level,) = drawn.levels(tmp_path, "package://p/r")
+    (level,) = library.levels(tmp_path, "package://p/r")
     assert level.get("near") == "package://p/r/lod/near.glb"
 
 
 def test_hoses_stand_beside_the_links() -> None:
     end = {"link": "link_1", "xyz": [0.1, 0, 0.2], "direction": [0, 0, 1]}
     facts = {"hoses": [{"radius": 0.02, "length": 1, "ends": [end, {**end, "link": "link_3"}]}]}
-    text = drawn.added('<robot name="r"><link name="link_1"/></robot>\n', drawn.hoses(facts))
+    text = library.added('<robot name="r"><link name="link_1"/></robot>\n', library.hoses(facts))
     root = ET.fromstring(text)
     assert root.find("hose").attrib == {"radius": "0.02", "length": "1.0"}  # type: ignore[union-attr]
     assert [one.attrib for one in root.iterfind("hose/end")] == [
         {"link": "link_1", "xyz": "0.1 0.0 0.2", "direction": "0.0 0.0 1.0"},
         {"link": "link_3", "xyz": "0.1 0.0 0.2", "direction": "0.0 0.0 1.0"},
     ]
-    assert drawn.hoses({}) == []
+    assert library.hoses({}) == []
     sent = ET.fromstring(published(text, "kr16_1"))
     ends = [one.get("link") for one in sent.iterfind("hose/end")]
     assert ends == ["kr16_1/link_1", "kr16_1/link_3"]

@@ -8,9 +8,9 @@ import pytest
 import trimesh
 from refusals import refused
 
-from mrlab_ros.adapters.robots import quantised as module
+from mrlab_ros.adapters.robots import mesh_files as module
 from mrlab_ros.adapters.robots.diagnostics import ROBOT_MESH_UNREADABLE
-from mrlab_ros.adapters.robots.quantised import quantised
+from mrlab_ros.adapters.robots.mesh_files import quantised
 from mrlab_ros.core.base.errors import BadInput
 
 ROBOTS = Path(__file__).parents[4] / "robots"

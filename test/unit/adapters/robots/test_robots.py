@@ -19,7 +19,7 @@ from generated_meshes import assert_same_body
 
 from mrlab_ros.adapters.robots import checks, urdf
 from mrlab_ros.adapters.robots import hulls as robots_hulls
-from mrlab_ros.adapters.robots.assembly import Assembly
+from mrlab_ros.adapters.robots.drawing import Assembly
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.core.robots.reach import reach
 

@@ -4,8 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.adapters.robots.shown import from_library, shown_robot
+from mrlab_ros.adapters.robots.library import RobotLibrary, from_library, shown_robot
 from mrlab_ros.core.base.errors import BadInput
 
 LIBRARY = RobotLibrary(Path(__file__).parents[4] / "robots", imported=Path("/nonexistent"))

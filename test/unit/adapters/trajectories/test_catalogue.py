@@ -14,7 +14,7 @@ from refusals import refused
 from mrlab_ros.adapters.store import keys
 from mrlab_ros.adapters.store.memory import MemoryStore
 from mrlab_ros.adapters.store.port import StoreFailure
-from mrlab_ros.adapters.trajectories import json_file, npz_file
+from mrlab_ros.adapters.trajectories import formats, npz_file
 from mrlab_ros.adapters.trajectories.catalogue import Catalogue, NoTrajectory
 from mrlab_ros.adapters.trajectories.catalogue_writer import DAMAGED, CatalogueWriter
 from mrlab_ros.adapters.trajectories.files import TrajectoryFiles
@@ -333,8 +333,8 @@ def plain(folder, *trajectories):
 def test_a_plain_folder_is_taken_over_and_nothing_is_lost(store, writer, tmp_path, log):
     folder = tmp_path / "trajectories"
     plain(folder, make("a", 1), make("b.c", 2))
-    json_file.write(make("old", 3), folder / "old.json")
-    json_file.write(replace(make("a", 9), created_ns=5), folder / "a.json")
+    formats.write(make("old", 3), folder / "old.json")
+    formats.write(replace(make("a", 9), created_ns=5), folder / "a.json")
     (folder / "bad.npz").write_bytes(b"no archive")
     (folder / "broken.json").write_text("{")
     (folder / "dir.npz").mkdir()

@@ -12,11 +12,11 @@ from refusals import said_in
 from rosbags.rosbag2 import CompressionFormat, CompressionMode, Reader, StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 
-from mrlab_ros.adapters.trajectories import export
-from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
+from mrlab_ros.adapters.trajectories import formats
+from mrlab_ros.adapters.trajectories.files import load_coefficients
 from mrlab_ros.adapters.workspaces import worker
 from mrlab_ros.adapters.workspaces.joint_trajectories import serialized
-from mrlab_ros.adapters.workspaces.mat5 import Damaged, NotAWorkspace, TooLarge
+from mrlab_ros.adapters.workspaces.matlab.mat5 import Damaged, NotAWorkspace, TooLarge
 from mrlab_ros.core.conversion.convert import MOST_FRAMES, Outcome, convert
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.conversion.workspace import JOINT_TRAJECTORY, Variable, Workspace
@@ -241,7 +241,7 @@ def test_what_is_written_comes_back_exactly(form, tmp_path_factory, rows, rate, 
     gripper = np.arange(rows) >= rows // 2 if gripped else None
     trajectory = made(positions, rate, gripper)
     folder = tmp_path_factory.mktemp("round")
-    path = export.writer(form)(trajectory, folder)
+    path = formats.writer(form)(trajectory, folder)
     back = converted(
         path.read_bytes(),
         path.name,
@@ -256,8 +256,8 @@ def test_what_is_written_comes_back_exactly(form, tmp_path_factory, rows, rate, 
 
 def test_the_bag_that_is_written_is_one_that_others_read(tmp_path):
     trajectory = made(np.zeros((5, 3)), 100.0, None)
-    path = export.writer("jointtrajectory")(trajectory, tmp_path)
-    export.writer("jointtrajectory")(trajectory, tmp_path)
+    path = formats.writer("jointtrajectory")(trajectory, tmp_path)
+    formats.writer("jointtrajectory")(trajectory, tmp_path)
     assert list(tmp_path.iterdir()) == [path], "written again, it is replaced"
     with Reader(path) as opened:
         ((connection, _, data),) = opened.messages()

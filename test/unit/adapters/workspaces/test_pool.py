@@ -7,10 +7,9 @@ import threading
 import pytest
 from refusals import refused
 
-from mrlab_ros.adapters.workspaces import pool as pools
+from mrlab_ros.adapters.workspaces import reader as pools
 from mrlab_ros.adapters.workspaces.diagnostics import TOO_SLOW, WAITING_FILES
-from mrlab_ros.adapters.workspaces.pool import ConversionPool
-from mrlab_ros.adapters.workspaces.reader import Limits, TooSlow
+from mrlab_ros.adapters.workspaces.reader import ConversionPool, Limits, TooSlow
 from mrlab_ros.core.base.errors import Misuse
 
 LONG = 60.0  # s; far above what any of this takes

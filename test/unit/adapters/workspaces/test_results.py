@@ -12,7 +12,7 @@ from refusals import refused
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.trajectories import npz_file
-from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
+from mrlab_ros.adapters.trajectories.files import load_coefficients
 from mrlab_ros.adapters.workspaces import results
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.conversion.convert import Outcome

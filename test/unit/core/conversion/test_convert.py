@@ -8,7 +8,7 @@ import pytest
 from fakes import make_model
 from refusals import said_in
 
-from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
+from mrlab_ros.adapters.trajectories.files import load_coefficients
 from mrlab_ros.adapters.workspaces.diagnostics import READERS_DISAGREE, UNREADABLE
 from mrlab_ros.core.base.diagnostic import Severity
 from mrlab_ros.core.base.errors import BadInput

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from converter_corpus import ACCEPT, NOT_SILENT, REFUSE, WARN, File
 
-from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
+from mrlab_ros.adapters.trajectories.files import load_coefficients
 from mrlab_ros.adapters.workspaces.reader import WorkspaceReader
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome, convert
 from mrlab_ros.core.conversion.options import Options

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import scipy.io
 
-from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
+from mrlab_ros.adapters.trajectories.files import load_coefficients
 from mrlab_ros.adapters.workspaces import diagnostics as files
 from mrlab_ros.core.base.diagnostic import Code, Severity
 from mrlab_ros.core.conversion import convert as conversion_convert

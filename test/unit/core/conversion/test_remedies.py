@@ -6,7 +6,7 @@ import pytest
 from fakes import make_model
 from refusals import said_in
 
-from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
+from mrlab_ros.adapters.trajectories.files import load_coefficients
 from mrlab_ros.core.conversion import convert as conversion_convert
 from mrlab_ros.core.conversion import joining
 from mrlab_ros.core.conversion.convert import Outcome

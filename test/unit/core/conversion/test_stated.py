@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from fakes import make_model
 
-from mrlab_ros.adapters.trajectories.coefficients import load_coefficients
+from mrlab_ros.adapters.trajectories.files import load_coefficients
 from mrlab_ros.core.conversion import convert as conversion_convert
 from mrlab_ros.core.conversion.convert import Outcome
 from mrlab_ros.core.conversion.options import Options

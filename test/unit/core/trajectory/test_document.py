@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from mrlab_ros.adapters.trajectories import json_file
+from mrlab_ros.adapters.trajectories import formats
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, Severity
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.trajectory.channels import ProxyCoefficients, derive
@@ -51,11 +51,11 @@ def make(positions, rate=100.0, gripper=None, name="pick"):
 
 
 def text(trajectory):
-    return b"".join(bytes(c) for c in json_file.chunks(trajectory))
+    return b"".join(bytes(c) for c in formats.chunks(trajectory))
 
 
 def parse(data):
-    return json_file.parse(data, "pick.json")
+    return formats.parse(data, "pick.json")
 
 
 MATRICES = hnp.arrays(
@@ -90,7 +90,7 @@ def test_the_file_is_degrees_and_counts_time_from_the_rate():
 
 
 def test_blocks_make_the_same_file_as_one_piece():
-    long = make(np.random.default_rng(1).normal(size=(2 * json_file.BLOCK + 7, 3)))
+    long = make(np.random.default_rng(1).normal(size=(2 * formats.BLOCK + 7, 3)))
     content = json.loads(text(long))
     assert list(content)[-1] == "frames"
     assert len(content["frames"]["q"]) == long.frame_count
@@ -151,14 +151,14 @@ def test_other_files_are_refused(data):
 
 def test_a_write_that_fails_leaves_the_old_file(tmp_path, monkeypatch):
     path = tmp_path / "pick.json"
-    json_file.write(make(np.zeros((3, 2))), path)
+    formats.write(make(np.zeros((3, 2))), path)
 
     def broken(trajectory):
         yield b"{"
         raise OSError("disk full")
 
-    monkeypatch.setattr(json_file, "chunks", broken)
+    monkeypatch.setattr(formats, "chunks", broken)
     with pytest.raises(OSError, match="disk full"):
-        json_file.write(make(np.ones((4, 2))), path)
+        formats.write(make(np.ones((4, 2))), path)
     assert parse(path.read_bytes()).frame_count == 3
     assert len(list(tmp_path.iterdir())) == 1

@@ -9,7 +9,7 @@ from gateway_side import Gateway, kind_of
 from refusals import refused
 
 from mrlab_ros.adapters.store.memory import MemoryStore
-from mrlab_ros.adapters.trajectories import json_file
+from mrlab_ros.adapters.trajectories import formats
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.gateway.diagnostics import NO_CLASS_FILE
@@ -53,7 +53,7 @@ def test_a_teacher_steps_through_a_class(gateway, folder):
     assert (partly["severity"], partly["first_row"]) == ("warning", 0)
     assert (collision["code"], collision["last_row"]) == ("collision", round(0.3 * rate) + 1)
     file = teacher.get("/api/class/ben/file")
-    assert json_file.parse(file.content, "ben.json").robot_model == "ur5e"
+    assert formats.parse(file.content, "ben.json").robot_model == "ur5e"
     answer = teacher.get("/api/class/cleo/motion")
     assert kind_of(answer) == (404, "not_found")
     assert answer.json()["error"]["code"] == "no_motion_to_show"

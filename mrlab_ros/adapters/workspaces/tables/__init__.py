@@ -1,0 +1,1 @@
+"""Tables of text: headings, cells, instants of time."""

@@ -1,0 +1,120 @@
+"""Reads CSV and NumPy npz files into the same variables as a workspace."""
+
+from __future__ import annotations
+
+import io
+import zipfile
+from typing import Any
+
+import numpy as np
+import orjson
+
+from mrlab_ros.adapters.workspaces.diagnostics import LIBRARY_FAILED, NO_JSON_OBJECT, NO_MATRIX_Q
+from mrlab_ros.adapters.workspaces.matlab.mat5 import INTEGERS, Damaged, TooLarge, is_vector
+from mrlab_ros.adapters.workspaces.sinks import Found, Sink, View
+from mrlab_ros.adapters.workspaces.tables import text
+from mrlab_ros.core.conversion.named_columns import GRIPPER
+
+TIME_HEADINGS = ("t", "time", "time_from_start")
+
+
+def _add(sink: Sink, name: str, values: Any, columns: tuple[str, ...] = ()) -> None:
+    kinds = {"f8": "double", "f4": "single"}
+    kind = kinds.get(values.dtype.str[1:], values.dtype.name)
+    if values.dtype.kind == "c":
+        sink.add(Found(name, "double", values.shape, note="complex"))
+        return
+    if values.dtype.kind == "b":
+        values, kind = values.astype(np.uint8), "logical"
+    shape = values.shape if values.ndim >= 2 else (values.size, 1)
+    kept = kind in ("double", "single") or (
+        kind in (*INTEGERS, "logical")
+        and is_vector(shape)
+        and values.size > 1 - (kind != "logical")
+    )
+    data = np.asfortranarray(values).tobytes(order="F") if kept else None
+    sink.add(Found(name, kind, shape, data, values.dtype.str, columns=columns))
+
+
+def read_csv(data: memoryview, sink: Sink) -> None:
+    """Hand the table to the sink as the matrix `q` with its headings, a time column as `t`.
+
+    Numbers that lines above the table name, such as a sample rate, are scalars of those names.
+    Raises NotATable with the line that is not numbers.
+    """
+    table = text.parsed(bytes(data))
+    for name, number in table.stated.items():
+        _add(sink, name, np.array([number]))
+    values, headings = table.values, list(table.headings)
+    time = table.instants
+    if time is None and len(headings) == values.shape[1]:
+        named = [i for i, h in enumerate(headings) if h.lower() in TIME_HEADINGS]
+        time = named[0] if len(named) == 1 else None
+    if time is not None:
+        _add(sink, "t", values[:, [time]])
+        values = np.delete(values, time, axis=1)
+        headings = headings[:time] + headings[time + 1 :]
+    _add(sink, "q", values, tuple(headings) if len(headings) == values.shape[1] else ())
+
+
+def read_json(data: memoryview, sink: Sink) -> None:
+    """Hand the arrays and numbers of a JSON object to the sink, each as the variable of its name.
+
+    A trajectory file of the lab (trajectory.schema.json) gives q in rad, its gripper as the last
+    column, the joints' names and fs.
+    """
+    try:
+        document = orjson.loads(data)
+    except orjson.JSONDecodeError as error:
+        raise Damaged(LIBRARY_FAILED(part="json", error=str(error))) from None
+    if not isinstance(document, dict):
+        raise Damaged(NO_JSON_OBJECT())
+    frames = document.get("frames")
+    if "schema_version" in document and isinstance(frames, dict):
+        _add_frames(document, frames, sink)
+        return
+    for name, content in document.items():
+        if (values := _numbers(content)) is not None:
+            _add(sink, str(name), values)
+
+
+def _add_frames(document: dict[str, Any], frames: dict[str, Any], sink: Sink) -> None:
+    degrees, gripper = _numbers(frames.get("q")), _numbers(frames.get("gripper"))
+    if degrees is None or degrees.ndim != 2:
+        raise Damaged(NO_MATRIX_Q())
+    values, names = np.radians(degrees), document.get("joint_names")
+    headings = [str(name) for name in names] if isinstance(names, list) else []
+    if gripper is not None and gripper.shape == values.shape[:1]:
+        values = np.column_stack([values, gripper])
+        headings.append(GRIPPER)
+    _add(sink, "q", values, tuple(headings) if len(headings) == values.shape[1] else ())
+    if (rate := _numbers(document.get("frame_rate"))) is not None:
+        _add(sink, "fs", rate)
+
+
+def _numbers(content: Any) -> Any:
+    """Return numbers, or rows of equally many, as an array; None for anything else."""
+    if isinstance(content, bool) or not isinstance(content, int | float | list) or content == []:
+        return None
+    try:
+        values = np.array(content, dtype=np.float64)
+    except (TypeError, ValueError, OverflowError):
+        return None
+    return values if values.ndim <= 2 else None
+
+
+def read_npz(data: memoryview, sink: Sink, limit: int) -> None:
+    """Hand every array of an npz file to the sink; nothing pickled is opened."""
+    try:
+        with zipfile.ZipFile(io.BufferedReader(View(data))) as archive:
+            for entry in archive.infolist():
+                if entry.file_size > limit:
+                    raise TooLarge("variable", limit, entry.file_size)
+                with archive.open(entry) as file:
+                    values = np.lib.format.read_array(file, allow_pickle=False)
+                _add(sink, entry.filename.removesuffix(".npy"), values)
+    except (TooLarge, MemoryError):
+        raise
+    except Exception as error:
+        # damage, encryption and foreign kinds of compression each raise another error
+        raise Damaged(LIBRARY_FAILED(part="npz", error=str(error))) from error

@@ -1,0 +1,149 @@
+"""Signs of life of the lab's processes as diagnostic messages, and back.
+
+Reports of the bridge's delays as messages.
+
+The state of the recorder as a message.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from mrlab_msgs import msg
+from mrlab_msgs.msg import Latency, LatencyHop
+
+from mrlab_ros.core.base.diagnostic import Diagnostic, Severity, to_texts
+from mrlab_ros.core.bridge.latency import Delays
+from mrlab_ros.core.runtime.watch import Sign, silence
+from mrlab_ros.messages.texts import told
+from mrlab_ros.messages.time import make_header
+
+# What the names of the lab's processes begin with on /diagnostics.
+PREFIX = "mrlab: "
+# What a process says of itself alone, and never of another.
+RESTARTS = "restarts"
+# That it says itself how it ended, and what was lost: for a minute after its restart.
+RESTARTED = "restarted"
+# The code of what is amiss; the values of its text by name stand beside it.
+CODE = "code"
+
+
+def signs_to_message(
+    now_ns: int, own: Sign, age: float, silent: Mapping[str, float]
+) -> DiagnosticArray:
+    """Return a process's own sign of life, and which others are silent, by process in s.
+
+    age: how long it runs, s.
+    """
+    facts = {RESTARTS: str(own.restarts), "last_exit": own.last_exit}
+    if own.restarted(age):
+        facts[RESTARTED] = "true"
+    statuses = [_status(own.process, own.trouble(age), facts, failed=bool(own.failed))]
+    statuses += [
+        _status(process, silence(seconds), {}, failed=True) for process, seconds in silent.items()
+    ]
+    return DiagnosticArray(header=make_header(now_ns), status=statuses)
+
+
+def _status(
+    process: str, trouble: Diagnostic | None, facts: Mapping[str, str], *, failed: bool
+) -> DiagnosticStatus:
+    level = DiagnosticStatus.ERROR if failed else DiagnosticStatus.WARN
+    if trouble is not None:
+        facts = {**to_texts(trouble.values), **facts, CODE: trouble.code}
+    return DiagnosticStatus(
+        level=level if trouble is not None else DiagnosticStatus.OK,
+        name=f"{PREFIX}{process}",
+        message="runs" if trouble is None else str(trouble),
+        hardware_id="mrlab",
+        values=[KeyValue(key=key, value=value) for key, value in facts.items()],
+    )
+
+
+def living_in(message: DiagnosticArray) -> list[str]:
+    """Return the processes that give a sign of life in a message."""
+    return [
+        status.name.removeprefix(PREFIX)
+        for status in message.status
+        if status.name.startswith(PREFIX) and any(v.key == RESTARTS for v in status.values)
+    ]
+
+
+def restarted_in(message: DiagnosticArray) -> set[str]:
+    """Return the processes that say themselves that they were restarted lately."""
+    return {
+        status.name.removeprefix(PREFIX)
+        for status in message.status
+        if status.name.startswith(PREFIX) and any(v.key == RESTARTED for v in status.values)
+    }
+
+
+def troubles_in(message: DiagnosticArray) -> dict[str, Diagnostic | None]:
+    """Return for each process in a message what is amiss with it; None: nothing."""
+    return {
+        status.name.removeprefix(PREFIX): (
+            None if status.level == DiagnosticStatus.OK else _trouble(status)
+        )
+        for status in message.status
+        if status.name.startswith(PREFIX)
+    }
+
+
+def _trouble(status: DiagnosticStatus) -> Diagnostic:
+    values = {each.key: each.value for each in status.values}
+    code = values.pop(CODE, "")
+    failed = status.level == DiagnosticStatus.ERROR
+    severity = Severity.ERROR if failed else Severity.WARNING
+    return Diagnostic(code, severity, status.message, values=values)
+
+
+def latency_to_message(
+    now_ns: int, observer: str, window: float, delays: Iterable[Delays]
+) -> Latency:
+    """Return a report of the way from publishing in the graph to zenoh. window: s."""
+    return Latency(
+        header=make_header(now_ns),
+        observer=observer,
+        window=window,
+        hops=[
+            LatencyHop(
+                hop=LatencyHop.PUBLISHED_TO_BRIDGED,
+                topic=delay.topic,
+                count=delay.count,
+                p50=delay.p50,
+                p95=delay.p95,
+                max=delay.max,
+            )
+            for delay in delays
+        ],
+    )
+
+
+def recorder_state_to_message(
+    now_ns: int,
+    state: int,
+    said: Diagnostic | None,
+    *,
+    bag: str = "",
+    position: float = 0.0,
+    duration: float = 0.0,
+    rate: float = 1.0,
+    messages: int = 0,
+    size: int = 0,
+) -> msg.RecorderState:
+    """state: a value of RecorderState.msg. said: the trouble. position, duration: s.
+
+    size: bytes of the bag.
+    """
+    return msg.RecorderState(
+        header=make_header(now_ns),
+        state=state,
+        **told(said),
+        bag=bag,
+        position=position,
+        duration=duration,
+        rate=rate,
+        messages=messages,
+        bytes=size,
+    )

@@ -1,0 +1,305 @@
+"""Services: failures as `success = false` with the reason, deferred answers, late requests.
+
+Services of one node whose requests are carried out one after another by one worker.
+
+Calls of one node's services by another, with a deadline and a plain error.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+import threading
+import time
+from collections import defaultdict
+from collections.abc import Callable, Sequence
+from concurrent.futures import CancelledError, Future
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from rclpy.impl.implementation_singleton import rclpy_implementation
+from rclpy.node import Node
+from rclpy.service import Service
+
+from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.base.errors import LabError, Misuse, Unreached
+from mrlab_ros.messages import qos
+from mrlab_ros.messages.texts import tell
+from mrlab_ros.ros import clock
+from mrlab_ros.ros.diagnostics import (
+    FAULT,
+    NO_ANSWER_IN_TIME,
+    NOT_OFFERED,
+    SERVICE_ENDED,
+    WAITED_TOO_LONG,
+)
+from mrlab_ros.ros.moves import moves
+from mrlab_ros.ros.worker import Worker
+
+if TYPE_CHECKING:
+    from rclpy.client import Client
+
+
+# A request that waited longer for its turn is refused, s. A caller over zenoh gives up after 5 s,
+# and an order to a host of playbacks takes up to 2 s.
+MOST_WAIT_S = 3.0
+
+
+class Turns:
+    """Offers services of `node` that `worker` carries out.
+
+    A request whose turn comes late is refused: its caller may have been told that nobody
+    answered. What stops an arm, and what changes nothing, is carried out however late, as
+    answers.create_service() says. The node's
+    thread takes every request at once, so that the time of waiting is known by its own clock.
+    """
+
+    def __init__(self, node: Node, worker: Worker) -> None:
+        self._node = node
+        self._worker = worker
+        # By name of the service.
+        self._waiting: defaultdict[str, set[Future[Any]]] = defaultdict(set)
+
+    def offer(self, kind: Any, name: str, action: Callable[[Any, Any], Diagnostic]) -> Service:
+        """Create a service whose `action(request, response)` returns what to say."""
+        may_be_late = not moves(self._node.resolve_service_name(name), kind)
+
+        @answered
+        def in_turn(_: Node, call: tuple[Any, float], response: Any) -> Diagnostic:
+            request, came = call
+            if not may_be_late:
+                _refuse_overdue(time.monotonic() - came)
+            return action(request, response)
+
+        def begin(request: Any, response: Any) -> Future[Any]:
+            call = request, time.monotonic()
+            future = self._worker.later(lambda: in_turn(self._node, call, response))
+            waiting = self._waiting[service.srv_name]
+            waiting.add(future)
+            future.add_done_callback(waiting.discard)
+            return future
+
+        service = create_deferred_service(self._node, kind, name, begin)
+        return service
+
+    def end(self, service: Service, why: Diagnostic) -> None:
+        """Refuse the requests that wait for `service`, then destroy it."""
+        for future in list(self._waiting.pop(service.srv_name, ())):
+            future.cancel()
+        end_service(self._node, service, why)
+
+    def close(self) -> None:
+        """Refuse all requests that wait."""
+        for waiting in self._waiting.values():
+            for future in list(waiting):
+                future.cancel()
+
+
+def _refuse_overdue(waited_s: float) -> None:
+    if waited_s > MOST_WAIT_S:
+        raise Misuse(WAITED_TOO_LONG(waited=waited_s))
+
+
+Response = TypeVar("Response")
+
+
+def answered(callback: Callable[..., Diagnostic | str | None]) -> Callable[..., Any]:
+    """Wrap `callback(self, request, response) -> what to say` as a rclpy service callback.
+
+    The response says success with what is returned, or failure with what the LabError says.
+    """
+
+    @functools.wraps(callback)
+    def wrapped(self: Any, request: Any, response: Response) -> Response:
+        try:
+            tell(response, True, callback(self, request, response))
+        except LabError as error:
+            tell(response, False, error.diagnostic)
+        except Exception as error:
+            self.get_logger().error(f"{callback.__name__}: {error!r}")
+            tell(response, False, FAULT(service=callback.__name__, error=repr(error)))
+        return response
+
+    return wrapped
+
+
+def refusal(kind: Any, why: Diagnostic) -> Any:
+    """Return a response of a service of type `kind` that says failure; None: it cannot say so."""
+    response = kind.Response()
+    if not hasattr(response, "success"):
+        return None
+    tell(response, False, why)
+    return response
+
+
+def end_service(node: Node, service: Any, why: Diagnostic) -> None:
+    """Refuse the requests that wait for `service` with `why`, then destroy it.
+
+    A request in the queue of a service that is destroyed would never be answered.
+    """
+    gone = rclpy_implementation.InvalidHandle, rclpy_implementation.RCLError
+    answer = refusal(service.srv_type, why)
+    with contextlib.suppress(*gone), service.handle:
+        while answer is not None:
+            _, header = service.handle.service_take_request(service.srv_type.Request)
+            if header is None:
+                break
+            Service.send_response(service, answer, header)
+    node.destroy_service(service)
+
+
+def create_service(
+    node: Node,
+    kind: Any,
+    name: str,
+    callback: Callable[[Any, Any], Any],
+    halts: Callable[[Any], bool] = lambda request: False,
+) -> Service:
+    """Create a service whose `callback(request, response)` returns the response.
+
+    A request that waited while this process did not run is refused: its caller was told that
+    nobody answered. What stops an arm, and what changes nothing, is carried out however late:
+    services that config/bridge.yaml declares with `moves: false`, and requests of which `halts`
+    says so.
+    """
+
+    def work(request: Any, response: Any, send: Callable[[Any], None]) -> None:
+        send(callback(request, response))
+
+    return _offer(node, kind, name, work, halts)
+
+
+def create_deferred_service(
+    node: Node, kind: Any, name: str, begin: Callable[[Any, Any], Future[Any]], **options: Any
+) -> Service:
+    """Create a service whose `begin(request, response)` returns a future of the response.
+
+    The executor goes on at once; the response is sent by the thread that completes the future.
+    Where the future is cancelled, the answer says that the service ended. A coroutine would be
+    polled by the executor without pause, and a callback that waits would block the other
+    callbacks of its thread. Late requests are refused as by create_service().
+    """
+
+    def work(request: Any, response: Any, send: Callable[[Any], None]) -> None:
+        def forward(done: Future[Any]) -> None:
+            try:
+                answer = done.result()
+            except CancelledError:
+                answer = refusal(kind, SERVICE_ENDED(service=service.srv_name))
+            # InvalidHandle: the service was destroyed meanwhile, nobody waits for the answer
+            with contextlib.suppress(rclpy_implementation.InvalidHandle):
+                if answer is not None and node.context.ok():
+                    send(answer)
+
+        begin(request, response).add_done_callback(forward)
+
+    service = _offer(node, kind, name, work, lambda request: False, **options)
+    return service
+
+
+def _offer(
+    node: Node,
+    kind: Any,
+    name: str,
+    work: Callable[[Any, Any, Callable[[Any], None]], None],
+    halts: Callable[[Any], bool],
+    **options: Any,
+) -> Service:
+    """Create a service whose work(request, response, send) is done where its response is sent.
+
+    Only there rclpy hands out the header, which says when the request was sent.
+    """
+    service = node.create_service(
+        kind, name, lambda *taken: taken, **options, qos_profile=qos.SERVICES
+    )
+
+    may_be_late = not moves(node.resolve_service_name(name), kind)
+
+    def carry_out(taken: tuple[Any, Any], header: Any) -> None:
+        def send(answer: Any) -> None:
+            Service.send_response(service, answer, header)
+
+        why = None if may_be_late or halts(taken[0]) else clock.why_late(header)
+        refused = None if why is None else refusal(kind, why)
+        if refused is None:
+            work(*taken, send)
+            return
+        node.get_logger().warning(f"{service.srv_name}: {why}")
+        send(refused)
+
+    service.send_response = carry_out  # type: ignore[method-assign, assignment]
+    return service
+
+
+# How often a call that waits checks whether its service is there, s.
+PRESENCE_PERIOD_S = 0.05
+
+
+class NoAnswer(Unreached):
+    """A node of the lab did not answer in time."""
+
+
+def call(client: Client, request: Any, timeout: float = 5.0) -> Any:
+    """Return the service's answer; raise NoAnswer after `timeout` s.
+
+    The client must be spun by another thread than this one: a `spinning.Caller` has such.
+    """
+    return call_all([(client, request)], timeout)[0]
+
+
+def call_all(calls: Sequence[tuple[Client, Any]], timeout: float = 5.0) -> list[Any]:
+    """Send every request at once and return the answers in order, as call() does."""
+    answers = call_each(calls, timeout)
+    for answer in answers:
+        if isinstance(answer, NoAnswer):
+            raise answer
+    return answers
+
+
+def call_each(calls: Sequence[tuple[Client, Any]], timeout: float = 5.0) -> list[Any]:
+    """Send every request at once; return the answers in order, a NoAnswer where there is none.
+
+    All of it takes `timeout` s at most. A service that is not there yet gets its request when it
+    comes, one that leaves the graph before it answers is noticed at once; neither delays others.
+    """
+    deadline = time.monotonic() + timeout
+    changed = threading.Event()
+    pending = [_Call(client, request, changed) for client, request in calls]
+    while True:
+        changed.clear()
+        waiting = [one for one in pending if one.waits()]
+        left = deadline - time.monotonic()
+        if not waiting or left <= 0:
+            return [one.answer(timeout) for one in pending]
+        changed.wait(min(left, PRESENCE_PERIOD_S))
+
+
+class _Call:
+    """One request and what became of it."""
+
+    def __init__(self, client: Client, request: Any, changed: threading.Event) -> None:
+        self._client, self._request, self._changed = client, request, changed
+        self._future: Any = None
+        self._gone = False
+
+    def waits(self) -> bool:
+        """Send the request where its service is there; return whether an answer may come."""
+        ready = self._client.service_is_ready()
+        if self._future is None:
+            if ready:
+                self._future = self._client.call_async(self._request)
+                self._future.add_done_callback(lambda _: self._changed.set())
+        elif not ready and not self._future.done():
+            self._gone = True
+        return not self._gone and (self._future is None or not self._future.done())
+
+    def answer(self, timeout: float) -> Any:
+        """Return the answer, or the NoAnswer that says why there is none."""
+        name = self._client.srv_name
+        if self._future is None:
+            return NoAnswer(NOT_OFFERED(service=name))
+        if self._future.done():
+            return self._future.result()
+        self._client.remove_pending_request(self._future)
+        if self._gone:
+            return NoAnswer(SERVICE_ENDED(service=name))
+        return NoAnswer(NO_ANSWER_IN_TIME(service=name, timeout=timeout))
