@@ -97,10 +97,9 @@ function RoomView({ link }: { link: Link }) {
           Object.assign(window, { room: made })
       })
       .catch((error: unknown) => {
-        trouble.value =
-          error instanceof Error && error.name === 'NoWebGL'
-            ? words.value.lab.noWebGL
-            : String(error)
+        const noWebGL = error instanceof Error && error.name === 'NoWebGL'
+        trouble.value = noWebGL ? words.value.lab.noWebGL : words.value.noAnswer
+        if (!noWebGL) console.error(error)
       })
     abilityOf({ secure: isSecureContext, xr: navigator.xr }).then((found) => {
       ability.value = found

@@ -1,12 +1,11 @@
 import type { ComponentType } from 'preact'
 import { useEffect, useState } from 'preact/hooks'
 import { Notice } from '../design/notice'
-import { sentence } from '../words/diagnostic'
 import { words } from '../words/words'
 
 interface Pending<Props> {
   page: ComponentType<Props> | null
-  error: string
+  failed: boolean
 }
 
 const LOADING_SHOWN_AFTER_MS = 300
@@ -17,7 +16,7 @@ export function lazy<Props extends object>(
 ): ComponentType<Props> {
   let loaded: ComponentType<Props> | null = null
   return function Lazy(props: Props) {
-    const [{ page, error }, set] = useState<Pending<Props>>({ page: loaded, error: '' })
+    const [{ page, failed }, set] = useState<Pending<Props>>({ page: loaded, failed: false })
     const [slow, setSlow] = useState(false)
     useEffect(() => {
       if (loaded) return
@@ -26,9 +25,12 @@ export function lazy<Props extends object>(
       load()
         .then((component) => {
           loaded = component
-          if (here) set({ page: component, error: '' })
+          if (here) set({ page: component, failed: false })
         })
-        .catch((problem: unknown) => here && set({ page: null, error: sentence(problem) }))
+        .catch((problem: unknown) => {
+          console.error(problem)
+          if (here) set({ page: null, failed: true })
+        })
         .finally(() => clearTimeout(timer))
       return () => {
         here = false
@@ -37,11 +39,10 @@ export function lazy<Props extends object>(
     }, [])
     const Page = page
     if (Page) return <Page {...props} />
-    if (error)
+    if (failed)
       return (
         <Notice severity="error">
           <p>{words.value.noAnswer}</p>
-          <p class="second small">{error}</p>
         </Notice>
       )
     return slow ? <p class="second">{words.value.loading}</p> : null

@@ -196,7 +196,9 @@ export const words: Words = {
       howAlike: (threshold, usual) =>
         `Gelenkwinkel bei gleichen Anteilen des Weges, gleich wie schnell; nah ist unter ${threshold}° RMS${usual ? `, wo zwei dieser Klasse meist ${usual}° entfernt sind` : ''}. Dass zwei Bewegungen ähnlich sind, sagt nicht, wie es dazu kam.`,
       asReference: (count) =>
-        `${count} sind wie die Musterlösung und werden nicht als ähnlich gezeigt.`,
+        count === 1
+          ? 'Eine ist wie die Musterlösung und wird nicht als ähnlich gezeigt.'
+          : `${count} sind wie die Musterlösung und werden nicht als ähnlich gezeigt.`,
     },
     distances: 'Abstände',
     distance: (part, other) => `${part} zu ${other}`,

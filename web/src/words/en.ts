@@ -151,7 +151,7 @@ export const en = {
       howAlike: (threshold: string, usual: string | null) =>
         `Joint angles at equal shares of the way, however a motion is timed; near is below ${threshold}° RMS${usual ? `, where two of this class are usually ${usual}° apart` : ''}. That two motions are alike says nothing of how it came about.`,
       asReference: (count: number) =>
-        `${count} are as the reference solution, and not shown as alike.`,
+        `${count} ${count === 1 ? 'is' : 'are'} as the reference solution, and not shown as alike.`,
     },
     distances: 'Distances',
     distance: (part: string, other: string) => `${part} to ${other}`,

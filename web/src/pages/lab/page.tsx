@@ -72,10 +72,9 @@ export function Lab({ link }: { link: Link }) {
         follower.attach(view.current.scene)
       })
       .catch((error: unknown) => {
-        trouble.value =
-          error instanceof Error && error.name === 'NoWebGL'
-            ? words.value.lab.noWebGL
-            : String(error)
+        const noWebGL = error instanceof Error && error.name === 'NoWebGL'
+        trouble.value = noWebGL ? words.value.lab.noWebGL : words.value.noAnswer
+        if (!noWebGL) console.error(error)
       })
     return () => {
       here = false

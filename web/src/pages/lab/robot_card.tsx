@@ -6,7 +6,7 @@ import type { LabCatalogue } from '../../lab/catalogue'
 import { removeType } from '../../protocol/mrlab_msgs'
 import { useApi } from '../../shell/session'
 import { spoken } from '../../words/diagnostic'
-import { number, words } from '../../words/words'
+import { named, number, words } from '../../words/words'
 import { CheckCard } from './check_card'
 import './check.css'
 import { order, trigger } from '../../lab/commands'
@@ -108,7 +108,7 @@ export function RobotCard({ view, catalogue, idle }: RobotCardProps) {
       <div class="lab-card-words" key="words">
         <p class="second small">
           {robot.model}
-          {robot.end_effector && ` + ${robot.end_effector}`}
+          {robot.end_effector && ` + ${named(robot.end_effector)}`}
           {playback?.system && ` · ${w.inSystem(playback.system)}`}
         </p>
         {playback?.message && (

@@ -14,7 +14,6 @@ import { Strips } from '../../design/plot/strips'
 import { courseOf } from '../../playback/course'
 import type { MotionDocument } from '../../playback/motion'
 import type { MotionPreview } from '../../scene/preview/preview'
-import { sentence } from '../../words/diagnostic'
 import { language, words } from '../../words/words'
 import './motion.css'
 
@@ -38,7 +37,7 @@ export function MotionView({ motion, compared = null, selected }: MotionViewProp
   const host = useRef<HTMLDivElement>(null)
   const preview = useRef<MotionPreview | null>(null)
   const [channel, setChannel] = useState<Channel>('angles')
-  const [error, setError] = useState('')
+  const [failed, setFailed] = useState(false)
   const course = useMemo(() => courseOf(motion), [motion])
   const channels = useMemo(() => channelsOf(motion), [motion])
   const times = useMemo(() => timesOf(course), [course])
@@ -79,7 +78,10 @@ export function MotionView({ motion, compared = null, selected }: MotionViewProp
           preview.current = null
         }
       })
-      .catch((problem: unknown) => here && setError(sentence(problem)))
+      .catch((problem: unknown) => {
+        console.error(problem)
+        if (here) setFailed(true)
+      })
     return () => {
       here = false
       dispose()
@@ -101,10 +103,9 @@ export function MotionView({ motion, compared = null, selected }: MotionViewProp
   return (
     <div class="motion-view">
       <div class="motion-scene" ref={host} />
-      {error && (
+      {failed && (
         <Notice severity="warning">
           <p>{w.noScene}</p>
-          <p class="second small">{error}</p>
         </Notice>
       )}
       <section class="card motion-plots" aria-label={w.title}>

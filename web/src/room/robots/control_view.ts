@@ -1,5 +1,6 @@
 import type { RobotView } from '../../lab/followed_robot'
 import { spoken } from '../../words/diagnostic'
+import { named } from '../../words/words'
 import type { RoomContext } from '../context'
 import { GAP, HIT, PANEL_THEME, type Pen, TEXT } from '../panels/pen'
 
@@ -37,7 +38,7 @@ export function drawStatus(
 ): void {
   const w = words.room
   const motion = playback?.trajectory_id ?? ''
-  const hand = robot.end_effector === '' ? '' : ` + ${robot.end_effector}`
+  const hand = robot.end_effector === '' ? '' : ` + ${named(robot.end_effector)}`
   const parts = [`${robot.model}${hand}`, motion || w.noMotion]
   pen.text(edge, 82, parts.join(' · '), TEXT.small, undefined, 'second')
   const width = pen.width - 2 * edge - beside
