@@ -22,6 +22,14 @@ interface Route {
 
 const SignIn = lazy(async () => (await import('./pages/account/sign_in')).SignInPage)
 
+const Room = lazy(async () => {
+  const [{ RoomPage }, { classInRoom }] = await Promise.all([
+    import('./room/page'),
+    import('./classroom/in_room'),
+  ])
+  return () => <RoomPage extra={classInRoom} />
+})
+
 const ROUTES: readonly Route[] = [
   {
     path: /^\/$/,
@@ -36,7 +44,7 @@ const ROUTES: readonly Route[] = [
   },
   {
     path: /^\/room$/,
-    page: lazy(async () => (await import('./room/page')).RoomPage),
+    page: Room,
     members: true,
     wide: true,
   },

@@ -1,10 +1,11 @@
 import { effect } from '@preact/signals'
 import type { Submission } from '../api/types'
+import { order } from '../lab/commands'
 import type { LabFollower } from '../lab/follower'
 import { loadTrajectoryType } from '../protocol/mrlab_msgs'
-import { BOARD_WIDTH, BOTTOM, EDGE, type Tab, TOP } from '../room/board/board'
-import { order, type RoomContext } from '../room/context'
+import { BOARD_WIDTH, BOTTOM, EDGE, type Tab, type TabPorts, TOP } from '../room/board/board'
 import { GAP, HIT, PANEL_THEME, type Pen, TEXT } from '../room/panels/pen'
+import type { Drawings } from '../room/scene/drawings'
 import { say, sentence, spoken } from '../words/diagnostic'
 import { number } from '../words/words'
 import { type Lesson, SUBMISSION } from './lesson'
@@ -18,16 +19,21 @@ const WORDS = 420
 
 /** Stepping through a class: each submission is a ghost beside the solution, at a robot that plays
  * the solution. */
-export function classTab(context: RoomContext, follower: LabFollower, lesson: Lesson): Tab {
+export function classTab(
+  ports: TabPorts,
+  follower: LabFollower,
+  drawings: Drawings,
+  lesson: Lesson,
+): Tab {
   const { steps } = lesson
-  const w = context.words.grades
+  const w = ports.words.grades
   let asked = false
   /** The robot at which the class is; empty: none is chosen. */
   let at = ''
   const show = () => {
     const current = steps.current.value
     if (at === '' || current === null) return
-    context.drawings.compare(at, current.motion ? `${SUBMISSION}${current.key}` : '')
+    drawings.compare(at, current.motion ? `${SUBMISSION}${current.key}` : '')
   }
   const step = (by: number) => () => {
     if (steps.step(by) !== '') show()
@@ -36,18 +42,18 @@ export function classTab(context: RoomContext, follower: LabFollower, lesson: Le
     at = robot
     show()
     if (solution === null || !solution.motion) {
-      context.say(w.noReference)
+      ports.say(w.noReference)
       return
     }
     try {
       const id = await lesson.publish(solution)
-      await order(context, `${robot}/load`, loadTrajectoryType, { id })
+      await order(ports, `${robot}/load`, loadTrajectoryType, { id })
     } catch (error) {
-      context.say(sentence(error))
+      ports.say(sentence(error))
     }
   }
   const leave = () => {
-    context.drawings.compare(at, '')
+    drawings.compare(at, '')
     at = ''
   }
 
@@ -86,19 +92,19 @@ export function classTab(context: RoomContext, follower: LabFollower, lesson: Le
     asked = true
     void steps.load()
     effect(() => {
-      if (steps.graded.value !== null || steps.problem.value !== '') context.repaintBoard()
+      if (steps.graded.value !== null || steps.problem.value !== '') ports.repaintBoard()
     })
   }
 
   return {
     id: 'class',
-    words: context.words.nav.grades,
+    words: ports.words.nav.grades,
     draw: (pen) => {
       if (!asked) read()
       const graded = steps.graded.value
       const current = steps.current.value
       if (graded === null || current === null) {
-        const text = steps.problem.value || (graded === null ? context.words.loading : w.none)
+        const text = steps.problem.value || (graded === null ? ports.words.loading : w.none)
         pen.lines(EDGE, TOP + 6, text, TEXT.body, undefined, 'second', 3)
         return
       }

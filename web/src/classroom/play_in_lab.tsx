@@ -2,7 +2,7 @@ import { useEffect, useMemo, useState } from 'preact/hooks'
 import type { Submission } from '../api/types'
 import { Button, ButtonLink } from '../design/button'
 import { LabCatalogue } from '../lab/catalogue'
-import { ask } from '../lab/commands'
+import { order } from '../lab/commands'
 import { useLink } from '../link/use_link'
 import { loadTrajectoryType, type Robot, robotsReader } from '../protocol/mrlab_msgs'
 import { useApi } from '../shell/session'
@@ -42,9 +42,8 @@ function Chooser({ submission }: { readonly submission: Submission }) {
     setError('')
     try {
       const id = await catalogue.take(await api.classFile(key), model, publishedName(key), tool)
-      const refusal = await ask(link, `${robot}/load`, loadTrajectoryType, { id })
-      if (refusal === '') setLoaded(robot)
-      else setError(refusal)
+      const lab = { link, say: setError }
+      if (await order(lab, `${robot}/load`, loadTrajectoryType, { id })) setLoaded(robot)
     } catch (problem) {
       setError(sentence(problem))
     } finally {

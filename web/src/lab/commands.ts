@@ -1,4 +1,3 @@
-import { showToast } from '../design/toast'
 import { type Link, LinkError } from '../link/link'
 import type { Commands } from '../playback/player'
 import type { ServiceType } from '../protocol/message_type'
@@ -11,39 +10,36 @@ import {
 } from '../protocol/mrlab_msgs'
 import { sentence, spoken, type Told } from '../words/diagnostic'
 
+/** The lab, and how the caller reports a refusal. */
+export interface Lab {
+  readonly link: Link
+  /** Show a sentence; warns: it reports a problem, which is the default. */
+  say(text: string, warns?: boolean): void
+}
+
 interface Answer extends Told {
   readonly success: boolean
 }
 
-/** Call a service; return why it was refused, empty where it was done. */
-export async function ask<Request, Response extends Answer>(
-  link: Link,
+/** Call a service; report a refusal. Returns the response; null if it was refused. */
+export async function order<Request, Response extends Answer>(
+  { link, say }: Lab,
   service: string,
   type: ServiceType<Request, Response>,
   request: Request,
-): Promise<string> {
+): Promise<Response | null> {
   try {
     const answer = await link.call(service, type, request)
-    return answer.success ? '' : spoken(answer) || service
+    if (answer.success) return answer
+    say(spoken(answer) || service)
   } catch (error) {
-    return sentence(error)
+    say(sentence(error))
   }
+  return null
 }
 
-/** Call a service and say what came of it where it was refused. */
-export async function order<Request, Response extends Answer>(
-  link: Link,
-  service: string,
-  type: ServiceType<Request, Response>,
-  request: Request,
-): Promise<boolean> {
-  const refusal = await ask(link, service, type, request)
-  if (refusal !== '') showToast(refusal)
-  return refusal === ''
-}
-
-export function trigger(link: Link, service: string): Promise<boolean> {
-  return order<Record<string, never>, TriggerResponse>(link, service, triggerType, {})
+export function trigger(lab: Lab, service: string): Promise<TriggerResponse | null> {
+  return order<Record<string, never>, TriggerResponse>(lab, service, triggerType, {})
 }
 
 /** Return the names of the bags that the lab can replay, newest first. Rejects with why it says none. */
@@ -53,13 +49,13 @@ export async function listBagsOf(link: Link): Promise<readonly string[]> {
   return answer.bags
 }
 
-/** Return what a robot, a robot system or the recorder's replay is told. */
-export function commandsOf(link: Link, name: string): Commands {
+/** Return the commands of a robot, of a robot system or of the recorder's replay. */
+export function commandsOf(lab: Lab, name: string): Commands {
   const play = name === 'recorder' ? 'resume' : 'play'
   return {
-    play: () => void trigger(link, `${name}/${play}`),
-    pause: () => void trigger(link, `${name}/pause`),
-    seek: (position) => void order(link, `${name}/seek`, seekType, { position }),
-    setRate: (rate) => void order(link, `${name}/set_rate`, setRateType, { rate }),
+    play: () => void trigger(lab, `${name}/${play}`),
+    pause: () => void trigger(lab, `${name}/pause`),
+    seek: (position) => void order(lab, `${name}/seek`, seekType, { position }),
+    setRate: (rate) => void order(lab, `${name}/set_rate`, setRateType, { rate }),
   }
 }

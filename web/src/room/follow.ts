@@ -3,27 +3,22 @@ import { THEMES } from '../design/tokens'
 import { commandsOf } from '../lab/commands'
 import type { CourseOf } from '../lab/followed_robot'
 import { type FollowedScene, LabFollower } from '../lab/follower'
-import type { Link } from '../link/link'
 import type { LabScene } from '../scene/lab/lab_scene'
 import type { ShownSurface } from '../scene/lab/surfaces'
 import { themeNow } from '../scene/stage/theme'
 import { sentence } from '../words/diagnostic'
 import type { Board } from './board/board'
-import type { Entry, RoomContext } from './context'
 import type { ObjectHandles } from './handles/object_handles'
+import type { Catalogue, Entry, Lab, Speech } from './ports'
 import type { RobotPanels } from './robots/robot_panels'
 import type { RoomRobots } from './robots/robots'
 import { hopsOf } from './session/hops'
 import type { SystemPanels } from './systems/system_panels'
 
 /** Return what follows the lab for a room; says which motion could not be fetched. */
-export function roomFollower(
-  link: Link,
-  { words, say }: Pick<RoomContext, 'words' | 'say'>,
-  courseOf: CourseOf,
-): LabFollower {
+export function roomFollower({ link, words, say }: Speech & Lab, courseOf: CourseOf): LabFollower {
   return new LabFollower(link, {
-    commands: (name) => commandsOf(link, name),
+    commands: (name) => commandsOf({ link, say }, name),
     word: (state) => words.states[state],
     // names stand in the picture, whose theme is the page's
     colour: (state) => THEMES[themeNow().name].states[state],
@@ -74,7 +69,7 @@ const PERIOD_S = 1
 
 /** What shows how the lab stands. */
 export interface Listeners {
-  readonly context: RoomContext
+  readonly ports: Speech & Catalogue
   readonly follower: LabFollower
   readonly board: Board
   readonly panels: RobotPanels
@@ -87,7 +82,7 @@ export interface Listeners {
 
 /** Keep the panels as the lab is; returns how to end it. */
 export function listen({
-  context,
+  ports,
   follower,
   board,
   panels,
@@ -95,7 +90,7 @@ export function listen({
   troubles,
   halt,
 }: Listeners): () => void {
-  const { words, robots, endEffectors } = context
+  const { words, robots, endEffectors } = ports
   const repaint = () => board.panel.repaint()
   /** s; NaN: the link is not open. */
   let openedAt = Number.NaN

@@ -3,9 +3,10 @@ import type { Link } from '../link/link'
 import { LatencyHop, latencyWriter } from '../protocol/mrlab_msgs'
 import { jointStateReader } from '../protocol/sensor_msgs'
 import { fixed } from '../words/words'
-import type { RoomContext } from './context'
+import type { Surroundings } from './panels/panel'
 import { Panel } from './panels/panel'
 import { type Pen, TEXT } from './panels/pen'
+import type { Lab, Speech } from './ports'
 
 /** s of a window. */
 const WINDOW = 1
@@ -29,14 +30,14 @@ export class Stats {
 
   /** board: the panel below which it is shown. */
   constructor(
-    private readonly context: RoomContext,
+    private readonly ports: Speech & Lab & Surroundings,
     board: Object3D,
   ) {
-    this.panel = new Panel(WIDTH, HEIGHT, (pen) => this.draw(pen), context)
+    this.panel = new Panel(WIDTH, HEIGHT, (pen) => this.draw(pen), ports)
     this.panel.group.position.y = -BELOW
     this.panel.group.visible = false
     board.add(this.panel.group)
-    const { link } = context
+    const { link } = ports
     // what the lab kept for who comes late is old, and was not long on its way
     let since = link.labTime()
     const opened = link.onStatus(({ phase }) => {
@@ -71,7 +72,7 @@ export class Stats {
       this.slowestBefore = this.slowest
       this.slowest = 0
       this.ages.close()
-      tell(this.context.link, this.ages)
+      tell(this.ports.link, this.ages)
       this.panel.repaint()
     }
     this.panel.update()
@@ -83,9 +84,9 @@ export class Stats {
   }
 
   private draw(pen: Pen): void {
-    const w = this.context.words.room
+    const w = this.ports.words.room
     const { p50, p95, count } = this.ages
-    const trip = this.context.link.status.roundTrip
+    const trip = this.ports.link.status.roundTrip
     const ms = (seconds: number) => fixed(seconds * 1000, seconds < 0.01 ? 1 : 0)
     const frame = w.statsFrame(fixed(this.slowestBefore, 1), fixed(this.rate, 0))
     pen.text(EDGE, 36, frame, TEXT.small, undefined, 'ink', 600)

@@ -1,23 +1,29 @@
 import { useSignal } from '@preact/signals'
 import { useEffect, useRef } from 'preact/hooks'
-import { type Api, submissionUrl, trajectoryUrl } from '../api/api'
+import { type Api, trajectoryUrl } from '../api/api'
 import { useLink } from '../link/use_link'
 import './room.css'
-import type { Session } from '../api/types'
-import { ClassSteps, publishedName } from '../classroom/class_steps'
-import { type Lesson, SUBMISSION } from '../classroom/lesson'
+import type { Rights, Session } from '../api/types'
 import { Button } from '../design/button'
 import { Notice } from '../design/notice'
-import { LabCatalogue } from '../lab/catalogue'
 import type { Link } from '../link/link'
 import { courseOf } from '../playback/course'
 import { checkSignIn, session, useApi } from '../shell/session'
 import { language, named, words } from '../words/words'
+import type { MakeTab } from './board/board'
 import type { Person } from './board/people_tab'
-import type { Entry } from './context'
+import type { Entry } from './ports'
 import type { Room } from './room'
 import { type Ability, abilityOf } from './session/features'
 import { type Hop, hopsOf, refusalOf } from './session/hops'
+
+/** A tab that another part of the pages adds to the room's board, and the motions that it shows. */
+export interface RoomExtra {
+  /** Return where the frames of a motion are; null: it is a trajectory of the lab. */
+  motionUrl(id: string): string | null
+  /** Return what makes the tab; null: the person has no right to it. */
+  tab(api: Api, may: Rights): Promise<MakeTab | null>
+}
 
 /** s between two looks at what is not there. */
 const PERIOD_S = 1
@@ -43,7 +49,7 @@ function personOf(current: Session | null): Person {
 
 /** The lab in a person's room; without a headset, seen from the desktop. link: opened by who shows
  * it. */
-function RoomView({ link }: { link: Link }) {
+function RoomView({ link, extra }: { link: Link; extra: RoomExtra }) {
   const api = useApi()
   const host = useRef<HTMLDivElement>(null)
   const room = useSignal<Room | null>(null)
@@ -77,8 +83,10 @@ function RoomView({ link }: { link: Link }) {
         }),
       ),
     }))
-    Promise.all([import('./room'), catalogue])
-      .then(([{ Room }, parts]) => {
+    const rights = session.value?.may
+    const tab = rights === undefined ? null : extra.tab(api, rights)
+    Promise.all([import('./room'), catalogue, tab])
+      .then(([{ Room }, parts, tab]) => {
         if (!here || host.current === null) return
         made = new Room({
           container: host.current,
@@ -86,10 +94,11 @@ function RoomView({ link }: { link: Link }) {
           words: words.value,
           ...parts,
           person: personOf(session.value),
-          courseOf: async (id) => courseOf(await api.motion(motionUrl(id))),
+          courseOf: async (id) =>
+            courseOf(await api.motion(extra.motionUrl(id) ?? trajectoryUrl(id, 'motion'))),
           checks: api,
           commands: session.value?.may.commands ?? false,
-          lesson: session.value?.may.grades ? lessonOf(api) : null,
+          tabs: tab === null ? [] : [tab],
         })
         room.value = made
         // for tests and the curious
@@ -109,7 +118,7 @@ function RoomView({ link }: { link: Link }) {
       room.value = null
       made?.dispose()
     }
-  }, [link, shown])
+  }, [link, shown, extra])
 
   useEffect(
     () =>
@@ -194,26 +203,8 @@ function RoomView({ link }: { link: Link }) {
   )
 }
 
-/** Return where the frames of a trajectory are, or of a submission such as class:ben. */
-function motionUrl(id: string): string {
-  return id.startsWith(SUBMISSION)
-    ? submissionUrl(id.slice(SUBMISSION.length))
-    : trajectoryUrl(id, 'motion')
-}
-
-/** Return the class of the gateway, for its teacher. */
-function lessonOf(api: Api): Lesson {
-  const steps = new ClassSteps(api)
-  const catalogue = new LabCatalogue(api)
-  return {
-    steps,
-    publish: async ({ key, robot, tool }) =>
-      catalogue.take(await api.classFile(key), robot, publishedName(key), tool),
-  }
-}
-
 /** The room, or in `--mode fake` one with made-up robots. */
-export function RoomPage() {
+export function RoomPage({ extra }: { extra: RoomExtra }) {
   const link = useLink()
-  return link.value && <RoomView link={link.value} />
+  return link.value && <RoomView link={link.value} extra={extra} />
 }

@@ -1,33 +1,42 @@
 import { signal } from '@preact/signals'
-import { Quaternion, Vector3 } from 'three'
+import { Matrix4, Quaternion, Vector3 } from 'three'
+import type { CourseOf } from '../lab/followed_robot'
 import type { LabFollower } from '../lab/follower'
+import type { Link } from '../link/link'
 import { type TrajectoryInfo, trajectoryCatalogueReader } from '../protocol/mrlab_msgs'
 import { LabScene } from '../scene/lab/lab_scene'
 import type { ShownSurface } from '../scene/lab/surfaces'
 import { MeshLibrary } from '../scene/robot/meshes'
+import type { Words } from '../words/en'
 import { named } from '../words/words'
-import { Board } from './board/board'
+import { Board, type MakeTab, type Tab, type TabPorts } from './board/board'
 import { BoardPlace } from './board/board_place'
-import { boardTabs } from './board/board_tabs'
-import type { Fixtures, RoomParts } from './fixtures'
+import { objectsTab, robotsTab } from './board/catalogue_tabs'
+import { labTab } from './board/lab_tab'
+import { type Person, peopleTab } from './board/people_tab'
+import { roomSwitches } from './board/room_switches'
+import { roomTab, settingsTab } from './board/settings_tab'
+import { systemsTab } from './board/systems_tab'
 import { followedScene, listen, roomFollower } from './follow'
-import { Frame } from './frame'
 import { ObjectHandles } from './handles/object_handles'
 import { Mouse } from './input/mouse'
 import { Targets } from './input/targets'
 import { Stats } from './latency'
 import { soundFeedback } from './panels/feedback'
+import type { Feedback, Surroundings } from './panels/panel'
 import { pauseNews } from './people/pausing'
 import { People } from './people/people'
 import { Alignment, SEATED } from './place/alignment'
 import { SceneAnchor } from './place/anchor'
 import { orderSurfaces, RoomScan } from './place/scan'
 import { Spawning } from './place/spawning'
-import { type Support, supportsOf } from './place/supports'
+import { type Ground, type Support, supportsOf } from './place/supports'
 import { TouchAlignment } from './place/touch_alignment'
+import type { Catalogue, Entry, Frames, Lab, Preferences, Speech } from './ports'
+import type { Checks } from './robots/check'
+import { ControlPanel } from './robots/control'
 import { RobotPanels } from './robots/robot_panels'
 import { RoomRobots } from './robots/robots'
-import { contextOf } from './room_context'
 import { Drawings } from './scene/drawings'
 import { Overlays } from './scene/overlays'
 import { RoomStage } from './scene/stage'
@@ -38,8 +47,47 @@ import { Creation } from './systems/creation'
 import { SystemPanels } from './systems/system_panels'
 import { Guide } from './tour/guide'
 
+/** m: distance at which text is read. */
+const READ_AT = 0.9
+/** m: distance before the eyes at which new objects are put. */
+const OBJECT_AWAY = 0.8
+/** s from the start of a frame to its display, unless the device reports it; and the most. */
+const AHEAD_S = 0.015
+const MOST_AHEAD_S = 0.05
+/** s */
+const LONGEST_STEP = 0.1
+
+const matrix = new Matrix4()
+const scale = new Vector3()
+const tip = new Vector3()
+
+/** Everything that a room is made from. */
+export interface RoomParts extends Checks {
+  readonly container: HTMLElement
+  readonly link: Link
+  readonly words: Words
+  readonly robots: readonly Entry[]
+  readonly endEffectors: readonly Entry[]
+  /** Who is signed in here. */
+  readonly person: Person
+  readonly courseOf: CourseOf
+  /** Tabs that other parts of the pages add to the board. */
+  readonly tabs: readonly MakeTab[]
+}
+
+/** All ports; each part takes those that it uses. */
+type Ports = TabPorts &
+  Speech &
+  Lab &
+  Frames &
+  Catalogue &
+  Preferences &
+  Ground &
+  Checks &
+  Surroundings
+
 /** The lab in a person's room: wires what the folders beside it do, once a frame. */
-export class Room implements Fixtures {
+export class Room {
   readonly troubles = signal<readonly string[]>([])
   readonly head = new Vector3().copy(SEATED.head)
   readonly look = new Quaternion()
@@ -61,6 +109,8 @@ export class Room implements Fixtures {
   /** Frames drawn, and ms of JavaScript of the newest one. */
   frames = 0
   frameMs = 0
+  /** s, of the frame before. */
+  private drawnAt = 0
   /** Of the room, those that have an end. */
   surfaces: readonly ShownSurface[] = []
   supports: readonly Support[] = supportsOf([])
@@ -96,43 +146,61 @@ export class Room implements Fixtures {
     this.mouse = new Mouse(this.stage, this.targets.all)
     const marked = (point: Vector3) => this.touching.touch(point)
     this.visit = new Visit(this.stage, this.targets, marked, () => this.left())
-    const context = contextOf(this, parts, this.sound.feedback)
+    const ports = this.portsOf(parts, this.sound.feedback)
     const { targets } = this
-    this.board = new Board(context)
-    this.stats = new Stats(context, this.board.panel.group)
-    this.boardPlace = new BoardPlace(this.board, context)
+    this.board = new Board(ports)
+    const repaint = () => this.board.panel.repaint()
+    this.creation = new Creation(repaint)
+    this.stats = new Stats(ports, this.board.panel.group)
+    this.boardPlace = new BoardPlace(this.board, ports)
     this.stage.panels.add(this.board.panel.group)
     targets.add(this.board.panel)
-    this.panels = new RobotPanels(context, this.stage.panels, this.scene, targets)
-    this.systems = new SystemPanels(context, this.stage.panels, this.scene, targets)
+    this.panels = new RobotPanels(
+      ports,
+      this.stage.panels,
+      this.scene,
+      targets,
+      this.creation,
+      (robot) => new ControlPanel(ports, robot, this.drawings, (name) => this.objectAt(name)),
+    )
+    this.systems = new SystemPanels(ports, this.stage.panels, this.scene, targets)
     this.anchor = new SceneAnchor(this.stage.anchor, (hold) => {
-      context.say(hold === 'session' ? words.room.anchorSession : words.room.anchorNone)
+      ports.say(hold === 'session' ? words.room.anchorSession : words.room.anchorNone)
     })
-    this.objects = new ObjectHandles(this.scene, context, targets)
+    this.objects = new ObjectHandles(
+      this.scene,
+      ports,
+      targets,
+      (place) => this.robots.fingersAt(place),
+      repaint,
+    )
     this.overlays = new Overlays(link, this.scene, this.stage.world)
     this.drawings = new Drawings(
       this.scene,
       () => this.follower,
       (text) => this.board.say(text),
     )
-    this.creation = new Creation(() => this.board.panel.repaint())
-    this.robots = new RoomRobots(this.scene, this.overlays, context, targets, {
-      touched: (name) => this.creation.touch(name),
-      stick: (pointer, axis) => this.visit.inputs?.stick(pointer, axis) ?? 0,
-    })
+    this.robots = new RoomRobots(
+      this.scene,
+      this.overlays,
+      this.drawings,
+      ports,
+      targets,
+      this.creation,
+      (pointer, axis) => this.visit.inputs?.stick(pointer, axis) ?? 0,
+    )
     const device = deviceId()
     this.scan = new RoomScan(this.stage.world, (surfaces) => {
-      orderSurfaces(context, device, surfaces)
+      orderSurfaces(ports, device, surfaces)
     })
-    const repaint = () => this.board.panel.repaint()
     const display = `${device}.${randomId(3)}`
     this.people = new People(link, this.stage.world, display, words, repaint)
     const { anchor, panels } = this.stage
-    this.touching = new TouchAlignment(this.anchor, anchor, this.scan, panels, context)
+    this.touching = new TouchAlignment(this.anchor, anchor, this.scan, panels, ports)
     const bases = () => this.robots.bases()
     this.alignment = new Alignment(this.stage, this.anchor, this.scan, bases)
-    this.spawning = new Spawning(context, this, () => this.board.panel.repaint())
-    this.follower = roomFollower(link, context, parts.courseOf)
+    this.spawning = new Spawning(ports, repaint)
+    this.follower = roomFollower(ports, parts.courseOf)
     this.follower.attach(
       followedScene({
         scene: this.scene,
@@ -142,11 +210,11 @@ export class Room implements Fixtures {
         setSurfaces: (surfaces) => this.setSurfaces(surfaces),
       }),
     )
-    this.guide = new Guide(context, this, targets)
-    this.board.tabs = boardTabs(context, this, parts.person, parts.lesson)
+    this.guide = new Guide(ports, this, targets)
+    this.board.tabs = this.tabs(ports, parts)
     this.undo = [
       pauseNews(link, (who, names) =>
-        context.say(words.room.pausedBy(named(who), names.join(', '))),
+        ports.say(words.room.pausedBy(named(who), names.join(', '))),
       ),
       applySettings(this.settings, this.visit, () => this.repaint()),
       link.subscribe('trajectories', trajectoryCatalogueReader, ({ trajectories }) => {
@@ -154,7 +222,7 @@ export class Room implements Fixtures {
         this.panels.repaint()
       }),
       listen({
-        context,
+        ports,
         follower: this.follower,
         board: this.board,
         panels: this.panels,
@@ -163,8 +231,7 @@ export class Room implements Fixtures {
         halt: () => this.sound.halt(),
       }),
     ]
-    const pictures = new Frame(this)
-    this.stage.renderer.setAnimationLoop((time, frame) => pictures.draw(time, frame))
+    this.stage.renderer.setAnimationLoop((time, frame) => this.draw(time, frame))
   }
 
   get handles(): RoomRobots['handles'] {
@@ -249,5 +316,132 @@ export class Room implements Fixtures {
     this.alignment.align(SEATED)
     this.showSurfaces()
     this.board.panel.repaint()
+  }
+
+  /** Return the ports of the room's parts. Values that change are read from the room. */
+  private portsOf(
+    { link, words, robots, endEffectors, checks, commands }: RoomParts,
+    feedback: Feedback,
+  ): Ports {
+    const room = this
+    return {
+      link,
+      words,
+      robots,
+      endEffectors,
+      checks,
+      commands,
+      feedback,
+      stir: () => room.stage.invalidate(),
+      world: room.stage.world,
+      head: room.head,
+      look: room.look,
+      readAt: READ_AT,
+      get trajectories() {
+        return room.trajectories
+      },
+      get supports() {
+        return room.supports
+      },
+      get bases() {
+        return room.robots.bases()
+      },
+      get leftHanded() {
+        return room.settings.leftHanded.value
+      },
+      get seated() {
+        return room.settings.seated.value
+      },
+      get still() {
+        return room.settings.still.value
+      },
+      get screen() {
+        return room.inside.value ? null : room.stage.camera
+      },
+      repaintBoard: () => room.board.panel.repaint(),
+      say: (text, warns) => room.board.say(text, warns),
+    }
+  }
+
+  private tabs(ports: Ports, { person, tabs }: RoomParts): Tab[] {
+    const { spawning, follower, stage, visit } = this
+    const switches = roomSwitches(ports, this, visit, stage, () => this.surfaces.length)
+    return [
+      robotsTab(ports, (entry) => spawning.spawn(entry)),
+      objectsTab(
+        ports,
+        () => spawning.types,
+        () => spawning.before(OBJECT_AWAY),
+        () => ({ here: this.objects.count, most: spawning.most }),
+      ),
+      systemsTab(ports, this.creation, follower),
+      peopleTab(ports, this.people, follower, person),
+      labTab(ports, follower, this.stats),
+      ...tabs.map((make) => make(ports, follower, this.drawings)),
+      roomTab(ports, switches),
+      settingsTab(ports, this.settings, () => this.guide.begin()),
+    ]
+  }
+
+  /** Return the object nearest to a robot's fingers; empty: none is near. */
+  private objectAt(name: string): string {
+    const robot = this.scene.robot(name)
+    if (robot === undefined) return ''
+    return this.objects.nearest(tip.setFromMatrixPosition(robot.tip.matrixWorld))
+  }
+
+  /** Draw a frame: poses, input, playback, robots, panels, picture. time: of the frame, ms; frame: of
+   * a session, undefined without a headset. */
+  private draw(time: number, frame: XRFrame | undefined): void {
+    const began = performance.now()
+    const now = began / 1000
+    const step = Math.min(now - this.drawnAt, LONGEST_STEP)
+    this.stage.measure(now - this.drawnAt)
+    this.drawnAt = now
+    let ahead = AHEAD_S
+    const space = this.stage.renderer.xr.getReferenceSpace()
+    if (frame !== undefined && space !== null) {
+      ahead = Math.max((frame.predictedDisplayTime ?? time + AHEAD_S * 1000) - began, 0) / 1000
+      this.track(frame, space, now)
+    } else if (!this.inside.value) {
+      this.stage.controls.update()
+      this.stage.camera.updateMatrixWorld()
+      this.stage.camera.matrixWorld.decompose(this.head, this.look, scale)
+      this.mouse.update(now)
+    }
+    this.robots.update(now, step)
+    this.objects.update(now)
+    if (this.follower.pose(Math.min(ahead, MOST_AHEAD_S))) this.stage.invalidate()
+    if (this.drawings.update()) this.stage.invalidate()
+    this.stage.lightAbout(this.robots.handles.values())
+    this.scene.update()
+    this.overlays.setPicked(this.creation.picked)
+    this.overlays.update(this.settings.still.value ? 0 : now)
+    if (this.boardPlace.update(this, now, step)) this.stage.invalidate()
+    this.board.update(now)
+    this.guide.update(this.visit.inputs)
+    if (this.people.update(now, step)) this.stage.invalidate()
+    this.panels.update(now, step)
+    this.systems.update(now, step)
+    if (this.stage.draw(now)) this.frames++
+    this.frameMs = performance.now() - began
+    this.stats.frame(now, this.frameMs)
+  }
+
+  /** Follow the headset, its surfaces and what it points with. now: s. */
+  private track(frame: XRFrame, space: XRReferenceSpace, now: number): void {
+    this.anchor.update(frame, space)
+    const viewer = frame.getViewerPose(space)
+    if (viewer !== undefined) {
+      matrix.fromArray(viewer.transform.matrix).decompose(this.head, this.look, scale)
+      if (this.alignment.due) {
+        this.alignment.align(this)
+        this.boardPlace.face(this.look)
+      }
+    }
+    this.scan.update(frame, space, now)
+    const { inputs } = this.visit
+    inputs?.update(frame, space, now)
+    if (inputs !== null) this.people.tell(this, inputs)
   }
 }

@@ -40,7 +40,7 @@ function lab() {
   const stir = vi.fn()
   const courseOf = vi.fn(() => Promise.resolve(new Course(10, 2, Float64Array.of(0, 0, 1, 2))))
   const follower = new LabFollower(link, {
-    commands: (name) => commandsOf(link, name),
+    commands: (name) => commandsOf({ link, say: () => undefined }, name),
     word: (state) => state.toLowerCase(),
     colour: () => '#123456',
     stir,

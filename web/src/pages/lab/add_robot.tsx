@@ -2,7 +2,7 @@ import { useEffect, useState } from 'preact/hooks'
 import type { RobotLibrary } from '../../api/types'
 import { Button } from '../../design/button'
 import { Dialog } from '../../design/dialog'
-import { ask } from '../../lab/commands'
+import { order } from '../../lab/commands'
 import { createSpawnRobotRequest, spawnRobotType } from '../../protocol/mrlab_msgs'
 import { useApi } from '../../shell/session'
 import { sentence } from '../../words/diagnostic'
@@ -34,10 +34,9 @@ export function AddRobot({ onClose }: { onClose: () => void }) {
       end_effector: effector,
       automatic: true,
     }
-    const refusal = await ask(link, 'lab/spawn_robot', spawnRobotType, request)
+    const answer = await order({ link, say: setError }, 'lab/spawn_robot', spawnRobotType, request)
     setBusy(false)
-    if (refusal === '') onClose()
-    else setError(refusal)
+    if (answer !== null) onClose()
   }
   return (
     <Dialog title={w.lab.addRobot} onClose={onClose}>

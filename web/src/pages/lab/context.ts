@@ -1,12 +1,10 @@
 import { createContext } from 'preact'
 import { useContext } from 'preact/hooks'
 import type { Rights } from '../../api/types'
-import type { Link } from '../../link/link'
+import type { Lab } from '../../lab/commands'
 
-/** What the parts of the lab page share. */
-export interface LabContext {
-  readonly link: Link
-  /** What the person may do here. */
+/** The link, the toasts and the rights that the parts of the lab page share. */
+export interface LabContext extends Lab {
   readonly may: Rights
 }
 

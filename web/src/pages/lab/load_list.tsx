@@ -35,7 +35,8 @@ function matches(info: TrajectoryInfo, text: string): boolean {
 
 /** The trajectories that a robot can play; a click loads one. */
 export function LoadList({ robot, catalogue, loaded, onLoaded }: LoadListProps) {
-  const { link, may } = useLab()
+  const lab = useLab()
+  const { may } = lab
   const [busy, setBusy] = useState('')
   const [text, setText] = useState('')
   const [error, setError] = useState('')
@@ -45,9 +46,9 @@ export function LoadList({ robot, catalogue, loaded, onLoaded }: LoadListProps) 
 
   const load = async (id: string) => {
     setBusy(id)
-    const done = await order(link, `${robot.name}/load`, loadTrajectoryType, { id })
+    const done = await order(lab, `${robot.name}/load`, loadTrajectoryType, { id })
     setBusy('')
-    if (done) onLoaded()
+    if (done !== null) onLoaded()
   }
   const takeExample = async () => {
     setError('')

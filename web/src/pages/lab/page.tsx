@@ -7,6 +7,7 @@ import './lab.css'
 import { Button } from '../../design/button'
 import { StateChip } from '../../design/chip'
 import { theme } from '../../design/theme'
+import { showToast } from '../../design/toast'
 import type { StateName } from '../../design/tokens'
 import { LabCatalogue } from '../../lab/catalogue'
 import { commandsOf, trigger } from '../../lab/commands'
@@ -27,6 +28,8 @@ import type { LabView } from './view'
 
 const NOTHING: Rights = { commands: false, scene: false, replay: false, grades: false }
 
+const say = (text: string) => showToast(text)
+
 /** The running lab: its scene, its robots and systems. link: opened by who shows the page. */
 export function Lab({ link }: { link: Link }) {
   const api = useApi()
@@ -38,11 +41,11 @@ export function Lab({ link }: { link: Link }) {
   const joining = useSignal(false)
   const trouble = useSignal('')
   const may = session.value?.may ?? NOTHING
-  const lab = useMemo(() => ({ link, may }), [link, may])
+  const lab = useMemo(() => ({ link, may, say }), [link, may])
   const follower = useMemo(
     () =>
       new LabFollower(link, {
-        commands: (name) => commandsOf(link, name),
+        commands: (name) => commandsOf({ link, say }, name),
         word: (state: StateName) => words.value.states[state],
         colour: (state: StateName) => theme.value.states[state],
         stir: () => view.current?.stir(),
@@ -94,7 +97,7 @@ export function Lab({ link }: { link: Link }) {
   const moving = robots.filter((one) => one.state === 'PLAYING' || one.state === 'ADJUSTING')
   const pauseAll = () => {
     const names = new Set(moving.map((one) => one.playback?.system || one.robot.name))
-    for (const name of names) trigger(link, `${name}/pause`)
+    for (const name of names) trigger(lab, `${name}/pause`)
   }
   const project = () => {
     projected.value = !projected.value

@@ -12,7 +12,8 @@ import { Timeline } from './timeline'
 export function ReplayCard({ follower }: { follower: LabFollower }) {
   const [bag, setBag] = useState('')
   const w = words.value.lab
-  const { link, may } = useLab()
+  const lab = useLab()
+  const { link, may } = lab
   const state = follower.recorder.value
   const [bags, setBags] = useState<readonly string[]>([])
   const doing = state?.state
@@ -28,7 +29,7 @@ export function ReplayCard({ follower }: { follower: LabFollower }) {
   const start = (event: Event) => {
     event.preventDefault()
     const request = { bag: bag.trim(), rate: 1, start: 0, loop: false }
-    if (request.bag) order(link, 'recorder/replay', replayType, request)
+    if (request.bag) order(lab, 'recorder/replay', replayType, request)
   }
   return (
     <article class="lab-card">
@@ -40,7 +41,7 @@ export function ReplayCard({ follower }: { follower: LabFollower }) {
           <p class="small">{w.replaying(state.bag)}</p>
           <Timeline key="timeline" player={follower.replay} rate={100} enabled={may.replay} />
           {may.replay && (
-            <Button onClick={() => trigger(link, 'recorder/stop')}>{w.endReplay}</Button>
+            <Button onClick={() => trigger(lab, 'recorder/stop')}>{w.endReplay}</Button>
           )}
         </>
       ) : (

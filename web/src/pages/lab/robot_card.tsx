@@ -67,7 +67,8 @@ function Targets({ view }: { view: RobotView }) {
 
 /** One robot: what it does, what it holds, its timeline, and what it can play. */
 export function RobotCard({ view, catalogue, idle }: RobotCardProps) {
-  const { link, may } = useLab()
+  const lab = useLab()
+  const { may } = lab
   const [choosing, setChoosing] = useState(false)
   const { robot, state, playback, holding, touching, player } = view
   const w = words.value.lab
@@ -96,9 +97,7 @@ export function RobotCard({ view, catalogue, idle }: RobotCardProps) {
             <Button
               look="quiet"
               icon="trash"
-              onClick={() =>
-                void order(link, 'lab/remove_robot', removeType, { name: robot.name })
-              }
+              onClick={() => void order(lab, 'lab/remove_robot', removeType, { name: robot.name })}
             >
               {w.removeRobot}
             </Button>
@@ -117,7 +116,7 @@ export function RobotCard({ view, catalogue, idle }: RobotCardProps) {
         {touching && !halted && <p class="lab-halt small">{touching}</p>}
         {holding && <p class="small">{w.holds(holding)}</p>}
         {halted && may.commands && (
-          <Button onClick={() => trigger(link, `${robot.name}/clear_halt`)}>{w.clearHalt}</Button>
+          <Button onClick={() => trigger(lab, `${robot.name}/clear_halt`)}>{w.clearHalt}</Button>
         )}
       </div>
       {loaded && (

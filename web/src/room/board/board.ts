@@ -1,6 +1,9 @@
-import type { RoomContext } from '../context'
+import type { LabFollower } from '../../lab/follower'
+import type { Surroundings } from '../panels/panel'
 import { Panel } from '../panels/panel'
 import { GAP, HIT, PANEL_THEME, type Pen, TEXT } from '../panels/pen'
+import type { Lab, Speech } from '../ports'
+import type { Drawings } from '../scene/drawings'
 
 export const BOARD_WIDTH = 760
 export const BOARD_HEIGHT = 600
@@ -24,6 +27,14 @@ export interface Tab {
   draw(pen: Pen): void
 }
 
+/** Everything that a tab with a list of the lab's needs of the room. */
+export interface TabPorts extends Speech, Lab {
+  repaintBoard(): void
+}
+
+/** Return a tab of another part of the pages. */
+export type MakeTab = (ports: TabPorts, follower: LabFollower, drawings: Drawings) => Tab
+
 /** The panel beside the person: what there is to put into the room, and the room itself. */
 export class Board {
   readonly panel: Panel
@@ -38,8 +49,8 @@ export class Board {
   /** What its tab said when it was asked last. */
   private said = ''
 
-  constructor(context: RoomContext) {
-    this.panel = new Panel(BOARD_WIDTH, BOARD_HEIGHT, (pen) => this.draw(pen), context)
+  constructor(ports: Surroundings) {
+    this.panel = new Panel(BOARD_WIDTH, BOARD_HEIGHT, (pen) => this.draw(pen), ports)
   }
 
   /** What is wrong as long as it is: shown where nothing newer is. */

@@ -1,7 +1,6 @@
 import { type Quaternion, Vector3 } from 'three'
-import type { RoomContext } from '../context'
 import { Stand } from '../panels/stand'
-import type { Viewer } from '../place/alignment'
+import type { Preferences, Viewer } from '../ports'
 import type { Board } from './board'
 
 /** rad: a board that is this far to the side of where one looks, for so long, s, comes along. */
@@ -22,7 +21,7 @@ export class BoardPlace {
 
   constructor(
     private readonly board: Board,
-    private readonly context: RoomContext,
+    private readonly ports: Preferences,
   ) {
     this.stand = new Stand(board.panel.group, 'top')
   }
@@ -36,14 +35,14 @@ export class BoardPlace {
   update({ head, look }: Viewer, now: number, step: number): boolean {
     const yaw = yawOf(look)
     const off = Math.abs(Math.atan2(Math.sin(yaw - this.yaw), Math.cos(yaw - this.yaw)))
-    if (this.context.screen !== null) this.yaw = yaw
+    if (this.ports.screen !== null) this.yaw = yaw
     else if (off < ASIDE) this.asideSince = Number.NaN
     else if (Number.isNaN(this.asideSince)) this.asideSince = now
     else if (now - this.asideSince > ASIDE_S) this.yaw = yaw
-    const side = this.yaw + (this.context.leftHanded ? -SIDE : SIDE)
+    const side = this.yaw + (this.ports.leftHanded ? -SIDE : SIDE)
     at.set(-Math.sin(side), 0, -Math.cos(side)).multiplyScalar(AWAY)
     at.add(head).setY(head.y - BELOW_EYES)
-    return this.stand.update(at, head, now, step, this.board.panel.pointers > 0, this.context)
+    return this.stand.update(at, head, now, step, this.board.panel.pointers > 0, this.ports)
   }
 }
 

@@ -1,24 +1,25 @@
+import { order } from '../../lab/commands'
 import type { Pose } from '../../protocol/geometry_msgs'
 import { type ObjectType, spawnObjectType, triggerType } from '../../protocol/mrlab_msgs'
 import { named } from '../../words/words'
-import { type Entry, order, type RoomContext } from '../context'
 import { GAP, HIT, TEXT } from '../panels/pen'
+import type { Catalogue, Entry, Lab, Speech } from '../ports'
 import { BOTTOM, drawCards, EDGE, type Tab, TOP } from './board'
 
 const CHIP = 44
 
 /** The catalogue of robots: pictures, narrowed to a maker or size. */
-export function robotsTab(context: RoomContext, choose: (entry: Entry) => void): Tab {
+export function robotsTab(ports: Speech & Catalogue, choose: (entry: Entry) => void): Tab {
   const page = { value: 0 }
   let group = ''
   return {
     id: 'robots',
-    words: context.words.room.robots,
+    words: ports.words.room.robots,
     draw: (pen) => {
-      const groups = [...new Set(context.robots.map((each) => each.group))].sort()
+      const groups = [...new Set(ports.robots.map((each) => each.group))].sort()
       let x = EDGE
       for (const each of groups.length > 1 ? ['', ...groups] : []) {
-        const words = each === '' ? context.words.room.all : each
+        const words = each === '' ? ports.words.room.all : each
         const width = Math.max(72, 26 + words.length * 10)
         const narrow = () => {
           group = each
@@ -28,9 +29,9 @@ export function robotsTab(context: RoomContext, choose: (entry: Entry) => void):
         pen.button(`group ${each}`, x, TOP - 12, width, words, narrow, look, CHIP)
         x += width + GAP
       }
-      const shown = context.robots.filter((each) => group === '' || each.group === group)
+      const shown = ports.robots.filter((each) => group === '' || each.group === group)
       if (shown.length === 0)
-        pen.text(EDGE, TOP + 90, context.words.loading, TEXT.body, 600, 'second')
+        pen.text(EDGE, TOP + 90, ports.words.loading, TEXT.body, 600, 'second')
       drawCards(pen, TOP + CHIP, shown, page, (entry, left, top, width, height) => {
         const { id, name, note, picture } = entry
         pen.card(`robot ${id}`, left, top, width, height, name, note, picture, () => choose(entry))
@@ -41,7 +42,7 @@ export function robotsTab(context: RoomContext, choose: (entry: Entry) => void):
 
 /** The catalogue of objects. */
 export function objectsTab(
-  context: RoomContext,
+  ports: Speech & Lab,
   types: () => readonly ObjectType[],
   poseFor: () => Pose,
   count: () => { readonly here: number; readonly most: number },
@@ -49,7 +50,7 @@ export function objectsTab(
   const page = { value: 0 }
   return {
     id: 'objects',
-    words: context.words.room.objects,
+    words: ports.words.room.objects,
     draw: (pen) => {
       drawCards(pen, TOP - 12, types(), page, (type, left, top, width, height) => {
         const { r, g, b } = type.color
@@ -70,7 +71,7 @@ export function objectsTab(
               automatic: true,
               pose: poseFor(),
             }
-            order(context, 'physics/spawn_object', spawnObjectType, request)
+            order(ports, 'physics/spawn_object', spawnObjectType, request)
           },
         )
         const side = Math.min(height - 90, 84)
@@ -78,10 +79,10 @@ export function objectsTab(
         pen.box(left + (width - side) / 2, top + 18, side, side, colour)
       })
       const { here, most } = count()
-      const words = context.words.room.objectCount(here, most)
+      const words = ports.words.room.objectCount(here, most)
       pen.lines(EDGE + 250 + GAP, BOTTOM - HIT / 2 - 12, words, TEXT.small, 250, 'second', 2)
-      pen.button('clear_objects', EDGE, BOTTOM - HIT, 250, context.words.room.clearObjects, () => {
-        order(context, 'physics/clear_objects', triggerType, {})
+      pen.button('clear_objects', EDGE, BOTTOM - HIT, 250, ports.words.room.clearObjects, () => {
+        order(ports, 'physics/clear_objects', triggerType, {})
       })
     },
   }

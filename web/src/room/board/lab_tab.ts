@@ -1,4 +1,4 @@
-import { listBagsOf } from '../../lab/commands'
+import { listBagsOf, order } from '../../lab/commands'
 import type { LabFollower } from '../../lab/follower'
 import {
   listScenesType,
@@ -10,10 +10,9 @@ import {
 } from '../../protocol/mrlab_msgs'
 import { sentence } from '../../words/diagnostic'
 import { fixed, named } from '../../words/words'
-import { order, type RoomContext } from '../context'
 import type { Stats } from '../latency'
 import { GAP, HIT, PANEL_THEME, type Pen, TEXT } from '../panels/pen'
-import { BOARD_WIDTH, BOTTOM, EDGE, type Tab, TOP } from './board'
+import { BOARD_WIDTH, BOTTOM, EDGE, type Tab, type TabPorts, TOP } from './board'
 
 const ROWS = 3
 const COLUMN = (BOARD_WIDTH - 2 * EDGE - GAP) / 2
@@ -27,9 +26,9 @@ export function sceneName(date: Date): string {
 }
 
 /** Scenes to save and load, sessions to record and replay, and how well the link does. */
-export function labTab(context: RoomContext, follower: LabFollower, stats: Stats): Tab {
-  const { link } = context
-  const w = context.words.room
+export function labTab(ports: TabPorts, follower: LabFollower, stats: Stats): Tab {
+  const { link } = ports
+  const w = ports.words.room
   let scenes: readonly string[] = []
   let bags: readonly string[] = []
   let listed = false
@@ -41,9 +40,9 @@ export function labTab(context: RoomContext, follower: LabFollower, stats: Stats
     listBagsOf(link)
       .then((found) => {
         bags = found
-        context.repaintBoard()
+        ports.repaintBoard()
       })
-      .catch((error: unknown) => context.say(sentence(error)))
+      .catch((error: unknown) => ports.say(sentence(error)))
   }
   const list = () => {
     listed = true
@@ -51,16 +50,16 @@ export function labTab(context: RoomContext, follower: LabFollower, stats: Stats
       .call('lab/list_scenes', listScenesType, {})
       .then((answer) => {
         scenes = answer.scenes
-        context.repaintBoard()
+        ports.repaintBoard()
       })
-      .catch((error: unknown) => context.say(sentence(error)))
+      .catch((error: unknown) => ports.say(sentence(error)))
   }
   function drawScenes(pen: Pen): void {
     pen.text(EDGE, TOP + 4, w.scenes, TEXT.body, COLUMN, 'ink', 700)
     pen.button('save_scene', EDGE, TOP + 26, COLUMN, w.saveScene, async () => {
       const name = sceneName(new Date())
-      if ((await order(context, 'lab/save_scene', sceneFileType, { name })) === null) return
-      context.say(w.savedScene(name), false)
+      if ((await order(ports, 'lab/save_scene', sceneFileType, { name })) === null) return
+      ports.say(w.savedScene(name), false)
       list()
     })
     if (listed && scenes.length === 0) {
@@ -68,7 +67,7 @@ export function labTab(context: RoomContext, follower: LabFollower, stats: Stats
     }
     firstScene = drawRows(pen, EDGE, scenes, firstScene, 'scenes', (name, y) => {
       const load = () => {
-        order(context, 'lab/load_scene', sceneFileType, { name })
+        order(ports, 'lab/load_scene', sceneFileType, { name })
       }
       pen.button(`load ${name}`, EDGE, y, COLUMN, w.loadScene(named(name)), load, { small: true })
     })
@@ -105,7 +104,7 @@ export function labTab(context: RoomContext, follower: LabFollower, stats: Stats
   function drawRecordings(pen: Pen): void {
     const state = follower.recorder.value
     const doing = state?.state ?? RecorderState.STOPPED
-    const lab = context.words.lab
+    const lab = ports.words.lab
     if (doing !== listedWhile) {
       listedWhile = doing
       listBags()
@@ -113,7 +112,7 @@ export function labTab(context: RoomContext, follower: LabFollower, stats: Stats
     pen.text(RIGHT, TOP + 4, lab.recordings, TEXT.body, COLUMN, 'ink', 700)
     const y = TOP + 26
     const stop = () => {
-      order(context, 'recorder/stop', triggerType, {})
+      order(ports, 'recorder/stop', triggerType, {})
     }
     if (doing === RecorderState.RECORDING) {
       const look = { primary: true }
@@ -122,12 +121,12 @@ export function labTab(context: RoomContext, follower: LabFollower, stats: Stats
     } else if (doing === RecorderState.STOPPED) {
       pen.button('record', RIGHT, y, COLUMN, w.record, () => {
         const request = { bag: '', topics: [], split_duration: 0 }
-        order(context, 'recorder/start', startRecordingType, request)
+        order(ports, 'recorder/start', startRecordingType, request)
       })
       if (bags.length === 0) pen.lines(RIGHT, y + 90, w.noBags, TEXT.small, COLUMN, 'second')
       firstBag = drawRows(pen, RIGHT, bags, firstBag, 'bags', (bag, at, i) => {
         const replay = () => {
-          order(context, 'recorder/replay', replayType, { bag, rate: 1, start: 0, loop: false })
+          order(ports, 'recorder/replay', replayType, { bag, rate: 1, start: 0, loop: false })
         }
         pen.button(`replay ${i}`, RIGHT, at, COLUMN, `${w.replayed} ${bag}`, replay, {
           small: true,
@@ -147,7 +146,7 @@ export function labTab(context: RoomContext, follower: LabFollower, stats: Stats
       half,
       goes ? w.pause : w.play,
       () => {
-        order(context, `recorder/${verb}`, triggerType, {})
+        order(ports, `recorder/${verb}`, triggerType, {})
       },
       { primary: true },
     )

@@ -1,10 +1,10 @@
 import type { LabFollower } from '../../lab/follower'
 import { named } from '../../words/words'
-import type { RoomContext } from '../context'
 import { GAP, HIT, TEXT } from '../panels/pen'
 import { PART_ICONS, type Part } from '../people/avatar'
 import { pauseAll } from '../people/pausing'
 import type { People } from '../people/people'
+import type { Lab, Speech } from '../ports'
 import { BOARD_WIDTH, BOTTOM, EDGE, type Tab, TOP } from './board'
 
 /** Somebody who is signed in here. */
@@ -18,16 +18,16 @@ const ROW = 36
 
 /** Who is here, and what only instructors may do to all. */
 export function peopleTab(
-  context: RoomContext,
+  ports: Speech & Lab,
   people: People,
   follower: LabFollower,
   own: Person,
 ): Tab {
-  const w = context.words.room
+  const w = ports.words.room
   const pause = async () => {
-    const { paused, failed } = await pauseAll(context.link, follower)
-    if (failed.length > 0) context.say(failed.join('; '))
-    else context.say(paused.length === 0 ? w.nothingMoves : w.pausedAll(paused.length), false)
+    const { paused, failed } = await pauseAll(ports.link, follower)
+    if (failed.length > 0) ports.say(failed.join('; '))
+    else ports.say(paused.length === 0 ? w.nothingMoves : w.pausedAll(paused.length), false)
   }
   return {
     id: 'people',

@@ -1,7 +1,7 @@
 import type { Words } from '../../words/en'
-import type { RoomContext } from '../context'
 import { GAP, HIT, TEXT } from '../panels/pen'
 import type { Hold } from '../place/anchor'
+import type { Speech } from '../ports'
 import type { Settings, Switch } from '../session/settings'
 import { BOARD_WIDTH, BOTTOM, EDGE, type Tab, TOP } from './board'
 
@@ -9,8 +9,8 @@ const SWITCH = 270
 const ABOUT = EDGE + SWITCH + 20
 
 /** What somebody chooses for their own eyes and hands. */
-export function settingsTab(context: RoomContext, settings: Settings, tour: () => void): Tab {
-  const w = context.words.room
+export function settingsTab(ports: Speech, settings: Settings, tour: () => void): Tab {
+  const w = ports.words.room
   const rows: readonly (readonly [string, Switch, string, string])[] = [
     ['left_handed', settings.leftHanded, w.leftHanded, w.leftHandedAbout],
     ['seated', settings.seated, w.seated, w.seatedAbout],
@@ -85,13 +85,13 @@ export interface RoomSwitches {
   leave(): void
 }
 
-export function roomTab(context: RoomContext, room: RoomSwitches): Tab {
+export function roomTab(ports: Speech, room: RoomSwitches): Tab {
   return {
     id: 'room',
-    words: context.words.room.room,
+    words: ports.words.room.room,
     says: () => room.lines().join(),
     draw: (pen) => {
-      const w = context.words.room
+      const w = ports.words.room
       let y = TOP + 6
       for (const line of room.lines())
         y = pen.lines(EDGE, y, line, TEXT.small, undefined, 'second') + 4

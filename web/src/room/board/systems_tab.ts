@@ -1,23 +1,24 @@
+import { order } from '../../lab/commands'
 import type { LabFollower } from '../../lab/follower'
 import {
   createCreateSystemRequest,
   createSystemMember,
   createSystemType,
 } from '../../protocol/mrlab_msgs'
-import { order, type RoomContext } from '../context'
 import { GAP, HIT, TEXT } from '../panels/pen'
+import type { Lab, Speech } from '../ports'
 import type { Creation } from '../systems/creation'
 import { BOARD_WIDTH, EDGE, type Tab, TOP } from './board'
 
 const MOST_LISTED = 6
 
 /** Making robot systems by touch, and what there is of them. */
-export function systemsTab(context: RoomContext, creation: Creation, follower: LabFollower): Tab {
+export function systemsTab(ports: Speech & Lab, creation: Creation, follower: LabFollower): Tab {
   return {
     id: 'systems',
-    words: context.words.room.systems,
+    words: ports.words.room.systems,
     draw: (pen) => {
-      const w = context.words.room
+      const w = ports.words.room
       let y = TOP + 6
       if (!creation.on) {
         y = pen.lines(EDGE, y, w.systemHint, TEXT.body)
@@ -28,10 +29,10 @@ export function systemsTab(context: RoomContext, creation: Creation, follower: L
         const list = creation.picked.map((name, i) => `${i + 1} ${name}`).join('   ')
         pen.text(EDGE, y + 66, list || w.nonePicked, TEXT.body, undefined, 'accent', 600)
         const ready = creation.picked.length >= 2
-        const make = (mode: number) => () => create(context, creation, follower, mode)
+        const make = (mode: number) => () => create(ports, creation, follower, mode)
         const width = (BOARD_WIDTH - 2 * EDGE - 2 * GAP) / 3
         const look = { primary: true, enabled: ready, small: true }
-        const { parallel, sequential } = context.words.lab
+        const { parallel, sequential } = ports.words.lab
         pen.button('parallel', EDGE, y + 100, width, parallel, make(0), look)
         pen.button('sequential', EDGE + width + GAP, y + 100, width, sequential, make(1), look)
         pen.button('end_creation', EDGE + 2 * (width + GAP), y + 100, width, w.back, () => {
@@ -49,7 +50,7 @@ export function systemsTab(context: RoomContext, creation: Creation, follower: L
 }
 
 async function create(
-  context: RoomContext,
+  ports: Speech & Lab,
   creation: Creation,
   follower: LabFollower,
   mode: number,
@@ -61,7 +62,7 @@ async function create(
     robot,
     trajectory_id: motionOf(robot),
   }))
-  const answer = await order(context, 'coordinator/create_system', createSystemType, {
+  const answer = await order(ports, 'coordinator/create_system', createSystemType, {
     ...createCreateSystemRequest(),
     members,
     mode,

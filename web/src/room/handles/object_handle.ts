@@ -1,4 +1,6 @@
 import { Matrix4, type Ray, Vector3 } from 'three'
+import { order } from '../../lab/commands'
+import type { Pose } from '../../protocol/geometry_msgs'
 import {
   attachType,
   detachType,
@@ -6,35 +8,42 @@ import {
   type SceneObject,
 } from '../../protocol/mrlab_msgs'
 import type { LabScene } from '../../scene/lab/lab_scene'
-import { order, type RoomContext } from '../context'
+import { carried, type Grab, grab } from '../grab/object'
+import { newTrace, trace, velocityOf } from '../grab/throw'
 import type { Hit, Pointer, Signal, Target } from '../input/pointer'
+import type { Surroundings } from '../panels/panel'
+import type { Frames, Lab, Speech } from '../ports'
+import { Moves } from './moves'
 
 /** m */
 const REACH = 0.06
-/** s between two poses that physics is told of. */
+/** s between two poses that are sent to physics. */
 const PERIOD = 1 / 30
-/** Samples of a throw: the last 0.1 s or so. */
-const SAMPLES = 8
-/** m/s: nobody throws faster, but a lost hand jumps. */
-const FASTEST = 6
 /** s for which an object that went with a hand is in that hand: hands are never quite still. */
 const IN_HAND = 0.5
+
+const STILL = { x: 0, y: 0, z: 0 } as const
 
 const centre = new Vector3()
 const at = new Vector3()
 const inverse = new Matrix4()
 
+/** Everything that an object's handle needs of the room. */
+export type ObjectPorts = Speech & Lab & Frames & Surroundings
+
+interface Move {
+  readonly pose: Pose
+  readonly held: boolean
+  readonly velocity: { readonly x: number; readonly y: number; readonly z: number }
+}
+
 /** An object that is picked up by a hand or a ray, carried, and thrown when it is let go. */
 export class ObjectHandle implements Target {
   private holder: Pointer | null = null
-  private near = false
-  private distance = 0
-  private readonly offset = new Vector3()
+  private grab: Grab | null = null
   private readonly position = new Vector3()
-  private readonly times = new Float64Array(SAMPLES)
-  private readonly places = new Float64Array(SAMPLES * 3)
-  private samples = 0
-  private toldAt = 0
+  private readonly trace = newTrace()
+  private readonly moves = new Moves<Move>(PERIOD, (move) => this.tell(move))
   private object: SceneObject
   /** Whether a gripper is about to let go of it. */
   private detaching = false
@@ -46,7 +55,8 @@ export class ObjectHandle implements Target {
   constructor(
     object: SceneObject,
     private readonly scene: LabScene,
-    private readonly context: RoomContext,
+    private readonly ports: ObjectPorts,
+    private readonly robotAt: (place: Vector3) => string,
   ) {
     this.object = object
   }
@@ -89,26 +99,22 @@ export class ObjectHandle implements Target {
 
   on(signal: Signal): void {
     const { pointer } = signal
-    if (signal.kind === 'enter') this.context.feedback('hover', signal)
+    if (signal.kind === 'enter') this.ports.feedback('hover', signal)
     else if (signal.kind === 'down' && this.holder === null) {
       if (this.isCarriedByOthers) {
-        this.context.say(this.context.words.room.inAnotherHand(this.object.name))
+        this.ports.say(this.ports.words.room.inAnotherHand(this.object.name))
         return
       }
-      this.context.feedback('press', signal)
-      // where it is before it is held, and goes with the hand from
-      this.near = this.reaches(pointer.place)
-      this.centre(centre)
+      this.ports.feedback('press', signal)
+      this.grab = grab(pointer, this.centre(centre), this.reaches(pointer.place))
       this.holder = pointer
-      this.distance = at.subVectors(centre, pointer.ray.origin).dot(pointer.ray.direction)
-      this.offset.copy(centre).sub(this.hand(pointer, at))
-      this.samples = 0
+      this.trace.count = 0
       this.takeFromGripper()
     } else if ((signal.kind === 'up' || signal.kind === 'cancel') && this.holder === pointer) {
-      const hand = this.context.robotAt(this.centre(centre))
+      const hand = this.robotAt(this.centre(centre))
       this.holder = null
       this.releasedAt = this.now
-      if (hand === '') this.tell(false, signal.kind === 'up')
+      if (hand === '') this.release(signal.kind === 'up')
       else this.giveTo(hand)
     }
   }
@@ -116,20 +122,17 @@ export class ObjectHandle implements Target {
   /** Before each picture: it goes with the hand. now: s. */
   update(now: number): void {
     this.now = now
-    if (this.holder === null) return
-    this.hand(this.holder, at).add(this.offset)
-    inverse.copy(this.context.world.matrixWorld).invert()
+    if (this.holder === null || this.grab === null) return
+    carried(this.grab, this.holder, at)
+    inverse.copy(this.ports.world.matrixWorld).invert()
     this.position.copy(at).applyMatrix4(inverse)
-    const sample = this.samples++ % SAMPLES
-    this.times[sample] = now
-    this.position.toArray(this.places, sample * 3)
+    trace(this.trace, now, this.position)
     this.scene.moveObject(this.object.name, this.pose(), '')
-    if (now - this.toldAt < PERIOD || this.detaching) return
-    this.toldAt = now
-    this.tell(true, false)
+    if (this.detaching || !this.moves.due(now)) return
+    this.moves.send({ pose: this.pose(), held: true, velocity: STILL }, now)
   }
 
-  /** What a page that is gone has left in the air can be taken. */
+  /** Whether another client moves it; an object that a closed page still holds can be taken. */
   private get isCarriedByOthers(): boolean {
     return this.object.held_by === 'hand' && this.now - this.movedAt < IN_HAND
   }
@@ -139,7 +142,7 @@ export class ObjectHandle implements Target {
     const { held_by: robot } = this.object
     if (robot === '' || robot === 'hand') return
     this.detaching = true
-    order(this.context, 'physics/detach', detachType, { robot }).then(() => {
+    order(this.ports, 'physics/detach', detachType, { robot }).then(() => {
       this.detaching = false
     })
   }
@@ -147,8 +150,8 @@ export class ObjectHandle implements Target {
   /** Have a gripper take it out of the hand, where it is; refused, it falls. */
   private giveTo(robot: string): void {
     const request = { robot, object: this.object.name }
-    order(this.context, 'physics/attach', attachType, request).then((answer) => {
-      if (answer === null) this.tell(false, false)
+    order(this.ports, 'physics/attach', attachType, request).then((answer) => {
+      if (answer === null) this.release(false)
     })
   }
 
@@ -160,36 +163,26 @@ export class ObjectHandle implements Target {
   /** Write its place in the scene. */
   private centre(into: Vector3): Vector3 {
     const { x, y, z } = this.holder === null ? this.object.pose.position : this.position
-    return this.context.world.localToWorld(into.set(x, y, z))
+    return this.ports.world.localToWorld(into.set(x, y, z))
   }
 
-  private hand({ ray, place }: Pointer, into: Vector3): Vector3 {
-    return this.near ? into.copy(place) : ray.at(this.distance, into)
-  }
-
-  private pose() {
+  private pose(): Pose {
     const { x, y, z } = this.position
     return { position: { x, y, z }, orientation: this.object.pose.orientation }
   }
 
-  private tell(held: boolean, thrown: boolean): void {
-    const linear = { x: 0, y: 0, z: 0 }
-    if (thrown && this.samples >= SAMPLES) {
-      const newest = (this.samples - 1) % SAMPLES
-      const oldest = this.samples % SAMPLES
-      const time = (this.times[newest] as number) - (this.times[oldest] as number)
-      const speed = (axis: number) =>
-        ((this.places[newest * 3 + axis] as number) - (this.places[oldest * 3 + axis] as number)) /
-        Math.max(time, 1e-3)
-      at.set(speed(0), speed(1), speed(2)).clampLength(0, FASTEST)
-      linear.x = at.x
-      linear.y = at.y
-      linear.z = at.z
-    }
-    order(this.context, 'physics/move_object', moveObjectType, {
+  /** Let physics move it from where it is; thrown: with the velocity of the hand. */
+  private release(thrown: boolean): void {
+    const velocity = thrown ? velocityOf(this.trace, at) : STILL
+    const { x, y, z } = velocity
+    this.moves.send({ pose: this.pose(), held: false, velocity: { x, y, z } }, this.now)
+  }
+
+  private tell({ pose, held, velocity }: Move): Promise<unknown> {
+    return order(this.ports, 'physics/move_object', moveObjectType, {
       name: this.object.name,
-      pose: this.pose(),
-      twist: { linear, angular: { x: 0, y: 0, z: 0 } },
+      pose,
+      twist: { linear: velocity, angular: STILL },
       held,
     })
   }

@@ -2,9 +2,8 @@ import type { Vector3 } from 'three'
 import type { SceneObject } from '../../protocol/mrlab_msgs'
 import type { ShownObject } from '../../scene/lab/lab_objects'
 import type { LabScene } from '../../scene/lab/lab_scene'
-import type { RoomContext } from '../context'
 import type { Targets } from '../input/targets'
-import { ObjectHandle } from './object_handle'
+import { ObjectHandle, type ObjectPorts } from './object_handle'
 
 /** m */
 const NEAR = 0.15
@@ -13,10 +12,13 @@ const NEAR = 0.15
 export class ObjectHandles {
   private readonly handles = new Map<string, ObjectHandle>()
 
+  /** robotAt: the robot whose fingers are at a place; empty: none. counted: their number changed. */
   constructor(
     private readonly scene: LabScene,
-    private readonly context: RoomContext,
+    private readonly ports: ObjectPorts,
     private readonly targets: Targets,
+    private readonly robotAt: (place: Vector3) => string,
+    private readonly counted: () => void,
   ) {}
 
   get count(): number {
@@ -37,7 +39,7 @@ export class ObjectHandles {
       this.handles.delete(name)
       this.targets.remove(handle)
     }
-    if (this.handles.size !== before) this.context.repaintBoard()
+    if (this.handles.size !== before) this.counted()
   }
 
   /** Return the free object nearest to a place of the scene; empty: none is near. */
@@ -66,7 +68,7 @@ export class ObjectHandles {
   }
 
   private add(object: SceneObject): void {
-    const handle = new ObjectHandle(object, this.scene, this.context)
+    const handle = new ObjectHandle(object, this.scene, this.ports, this.robotAt)
     this.handles.set(object.name, handle)
     this.targets.add(handle)
   }

@@ -1,5 +1,5 @@
 import { MathUtils, type Object3D, Quaternion, Vector3 } from 'three'
-import type { RoomContext } from '../context'
+import type { Preferences } from '../ports'
 import { dock, type Edge } from './dock'
 
 const LARGEST = 2
@@ -43,7 +43,7 @@ export class Stand {
     now: number,
     step: number,
     held: boolean,
-    { readAt, still, screen }: Pick<RoomContext, 'readAt' | 'still' | 'screen'>,
+    { readAt, still, screen }: Pick<Preferences, 'readAt' | 'still' | 'screen'>,
   ): boolean {
     if (screen !== null) {
       this.here = false

@@ -7,7 +7,7 @@ import {
   presenceWriter,
 } from '../../protocol/mrlab_msgs'
 import type { Words } from '../../words/en'
-import type { Viewer } from '../place/alignment'
+import type { Viewer } from '../ports'
 import { poseInWorld } from '../scene/frames'
 import { Avatar, AvatarShapes, type Part, partOf } from './avatar'
 

@@ -1,4 +1,5 @@
 import { Quaternion, Vector3 } from 'three'
+import type { Viewer } from '../ports'
 import type { RoomStage } from '../scene/stage'
 import type { SceneAnchor } from './anchor'
 import type { RoomScan } from './scan'
@@ -7,12 +8,6 @@ import type { Place } from './supports'
 /** m before the eyes: where the scene's middle comes to stand. */
 const AWAY = 1.5
 const at = new Vector3()
-
-/** Somebody's eyes in the floor space. */
-export interface Viewer {
-  readonly head: Vector3
-  readonly look: Quaternion
-}
 
 /** Where the desktop view looks from. */
 export const SEATED: Viewer = { head: new Vector3(0, 1.6, 0.9), look: new Quaternion() }

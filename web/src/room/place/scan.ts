@@ -1,7 +1,8 @@
 import { Matrix4, type Object3D, Quaternion, Vector3 } from 'three'
+import { order } from '../../lab/commands'
 import type { Pose } from '../../protocol/geometry_msgs'
 import { type Surface, setSurfacesType } from '../../protocol/mrlab_msgs'
-import { order, type RoomContext } from '../context'
+import type { Lab } from '../ports'
 import { poseInWorld, vectorToRos } from '../scene/frames'
 
 /** s between two looks, and for which the room must be still before it is told. */
@@ -184,8 +185,8 @@ function ros(x: number, y: number, z: number): { x: number; y: number; z: number
 }
 
 /** Give physics the surfaces that a headset measured: those of others stay. */
-export function orderSurfaces(context: RoomContext, source: string, surfaces: Surface[]): void {
-  order(context, 'physics/set_surfaces', setSurfacesType, { source, surfaces })
+export function orderSurfaces(lab: Lab, source: string, surfaces: Surface[]): void {
+  order(lab, 'physics/set_surfaces', setSurfacesType, { source, surfaces })
 }
 
 /** m: a corner that is nearer to the line between its neighbours is left out. */

@@ -1,4 +1,5 @@
 import { Quaternion, Vector3 } from 'three'
+import { order } from '../../lab/commands'
 import type { Unsubscribe } from '../../link/link'
 import type { Pose } from '../../protocol/geometry_msgs'
 import {
@@ -7,9 +8,8 @@ import {
   type ObjectType,
   spawnRobotType,
 } from '../../protocol/mrlab_msgs'
-import { type Entry, order, type RoomContext } from '../context'
+import type { Entry, Frames, Lab, Speech } from '../ports'
 import { poseInWorld } from '../scene/frames'
-import type { Viewer } from './alignment'
 
 const BELOW_EYES = 0.2 // m
 const LOWEST = 0.3 // m
@@ -26,34 +26,33 @@ export class Spawning {
 
   /** listed: the types of objects are there. */
   constructor(
-    private readonly context: RoomContext,
-    private readonly viewer: Viewer,
+    private readonly ports: Speech & Lab & Frames,
     private readonly listed: () => void,
   ) {
-    this.undo = context.link.onOffer(() => this.list())
+    this.undo = ports.link.onOffer(() => this.list())
     this.list()
   }
 
   /** Have the lab place a robot on what is before the eyes. */
   async spawn({ id }: Entry): Promise<void> {
-    const { context, viewer } = this
+    const { ports } = this
     const request = {
       ...createSpawnRobotRequest(),
       model: id,
       automatic: true,
       has_viewer: true,
-      viewer: poseInWorld(context.world, viewer.head, viewer.look),
+      viewer: poseInWorld(ports.world, ports.head, ports.look),
     }
-    const answer = await order(context, 'lab/spawn_robot', spawnRobotType, request)
-    if (answer !== null) context.say(context.words.room.placed(answer.robot.name), false)
+    const answer = await order(ports, 'lab/spawn_robot', spawnRobotType, request)
+    if (answer !== null) ports.say(ports.words.room.placed(answer.robot.name), false)
   }
 
   /** Return a place so far before the eyes, m, a little below them. */
   before(distance: number): Pose {
-    const { head, look } = this.viewer
+    const { head, look } = this.ports
     at.set(0, 0, -distance).applyQuaternion(look).add(head)
     at.y = Math.max(at.y - BELOW_EYES, LOWEST)
-    return { ...poseInWorld(this.context.world, at, level), orientation: UPRIGHT }
+    return { ...poseInWorld(this.ports.world, at, level), orientation: UPRIGHT }
   }
 
   dispose(): void {
@@ -62,7 +61,7 @@ export class Spawning {
 
   private list(): void {
     if (this.types.length > 0) return
-    this.context.link
+    this.ports.link
       .call('physics/list_catalogue', listCatalogueType, {})
       .then(({ types, limit }) => {
         this.types = types

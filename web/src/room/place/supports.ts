@@ -29,6 +29,12 @@ export interface Place {
   support: string
 }
 
+/** The level surfaces, and the robots' bases, each with the robot's name as its support. */
+export interface Ground {
+  readonly supports: readonly Support[]
+  readonly bases: Iterable<Place>
+}
+
 const ENDLESS: Support = { name: FLOOR, height: 0, outline: new Float64Array() }
 
 /** Return the floor and every level plane, the highest first. A plane may come with its normal

@@ -7,7 +7,8 @@ import {
   SphereGeometry,
   Vector3,
 } from 'three'
-import type { RoomContext } from '../context'
+import type { Words } from '../../words/en'
+import type { Speech } from '../ports'
 import type { SceneAnchor } from './anchor'
 import type { RoomScan } from './scan'
 
@@ -30,21 +31,21 @@ export class TouchAlignment {
   private before: Matrix4 | null = null
 
   /** group: what the anchor moves. marks: where the touched points are shown, in the floor space.
-   * context: says what is awaited. */
+   * ports: says what is awaited. */
   constructor(
     private readonly anchor: SceneAnchor,
     private readonly group: Group,
     private readonly scan: RoomScan,
     marks: Group,
-    private readonly context: Pick<RoomContext, 'say' | 'words'>,
+    private readonly ports: Speech,
   ) {
     this.marks = [0, 1].map(() => new Mesh(this.shape, this.look))
     for (const mark of this.marks) mark.visible = false
     marks.add(...this.marks)
   }
 
-  private get words(): RoomContext['words']['room'] {
-    return this.context.words.room
+  private get words(): Words['room'] {
+    return this.ports.words.room
   }
 
   get canUndo(): boolean {
@@ -55,7 +56,7 @@ export class TouchAlignment {
     this.awaited = 'first'
     this.show(0, null)
     this.show(1, null)
-    this.context.say(this.words.alignFirst, false)
+    this.ports.say(this.words.alignFirst, false)
   }
 
   cancel(): void {
@@ -71,12 +72,12 @@ export class TouchAlignment {
       this.first.copy(point)
       this.show(0, point)
       this.awaited = 'second'
-      this.context.say(this.words.alignSecond, false)
+      this.ports.say(this.words.alignSecond, false)
       return true
     }
     const footing = footingOf(this.first, point)
     if (footing === null) {
-      this.context.say(this.words.alignNear)
+      this.ports.say(this.words.alignNear)
       return true
     }
     this.show(1, point)
@@ -87,7 +88,7 @@ export class TouchAlignment {
     this.anchor.put(position, turn)
     this.group.updateMatrixWorld(true)
     this.before = this.group.matrixWorld.clone().invert().multiply(old)
-    this.context.say(this.words.alignDone, false)
+    this.ports.say(this.words.alignDone, false)
     return true
   }
 
@@ -101,7 +102,7 @@ export class TouchAlignment {
     this.anchor.put(position, turn)
     this.group.updateMatrixWorld(true)
     this.cancel()
-    this.context.say(this.words.alignUndone, false)
+    this.ports.say(this.words.alignUndone, false)
   }
 
   dispose(): void {

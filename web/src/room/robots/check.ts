@@ -1,13 +1,13 @@
 import { effect } from '@preact/signals'
 import type { Check } from '../../api/types'
 import type { RobotView } from '../../lab/followed_robot'
-import { counted, kindOf, marksOf, RobotCheck } from '../../lab/robot_check'
+import { type CheckApi, counted, kindOf, marksOf, RobotCheck } from '../../lab/robot_check'
 import type { Player } from '../../playback/player'
 import type { Words } from '../../words/en'
 import { number } from '../../words/words'
-import type { RoomContext } from '../context'
 import type { Choice, PagedList } from '../panels/paged_list'
 import { HIT, PANEL_THEME, type Pen } from '../panels/pen'
+import type { Speech } from '../ports'
 import type { Mark } from './timeline'
 
 /** mm */
@@ -52,6 +52,12 @@ const TOP = 108
 /** mm, of the line below the verdict that has its colour. */
 const LINE = 5
 
+/** The checks of the lab. commands: the person may have motions checked. */
+export interface Checks {
+  readonly checks: CheckApi
+  readonly commands: boolean
+}
+
 /** The check of what a robot has loaded, on the robot's panel. */
 export class PanelCheck {
   private readonly check: RobotCheck
@@ -60,12 +66,12 @@ export class PanelCheck {
   private followed = false
 
   constructor(
-    private readonly context: RoomContext,
+    private readonly ports: Speech & Checks,
     robot: string,
     repaint: () => void,
     say: (text: string) => void,
   ) {
-    this.check = new RobotCheck(context.checks, robot)
+    this.check = new RobotCheck(ports.checks, robot)
     const { check, problem } = this.check
     this.stopListening = effect(() => {
       // read first: both are followed
@@ -79,7 +85,7 @@ export class PanelCheck {
   follow({ playback, state }: RobotView): void {
     if (playback === null) return
     const { trajectory_id: id, trajectory_version: version } = playback
-    const begins = this.followed && this.context.commands && state === 'READY'
+    const begins = this.followed && this.ports.commands && state === 'READY'
     this.followed = true
     void this.check.follow(id && `${id}@${version}`, begins)
   }
@@ -97,7 +103,7 @@ export class PanelCheck {
   /** Draw a button that says the verdict and opens its findings; without one, it has the motion
    * checked. right: mm, where it ends. */
   drawVerdict(pen: Pen, right: number, open: () => void): void {
-    const { words, commands } = this.context
+    const { words, commands } = this.ports
     const check = this.check.check.value
     const unknown = check === null || check.state === 'failed'
     const press = () => {
@@ -113,7 +119,7 @@ export class PanelCheck {
 
   /** Draw what the check found; a finding leads to its instant. */
   drawFindings(pen: Pen, edge: number, list: PagedList, player: Player, back: () => void): void {
-    const { words, commands } = this.context
+    const { words, commands } = this.ports
     const check = this.check.check.value
     list.draw(pen, edge, findingChoices(check, commands, words), words.room.back, {
       back,

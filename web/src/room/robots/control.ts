@@ -1,4 +1,5 @@
 import { fits } from '../../lab/catalogue'
+import { order } from '../../lab/commands'
 import type { RobotView } from '../../lab/followed_robot'
 import { RATES } from '../../playback/player'
 import {
@@ -10,11 +11,13 @@ import {
   triggerType,
 } from '../../protocol/mrlab_msgs'
 import { fixed } from '../../words/words'
-import { order, type RoomContext } from '../context'
 import { type Choice, PagedList } from '../panels/paged_list'
+import type { Surroundings } from '../panels/panel'
 import { Panel } from '../panels/panel'
 import { HIT, PANEL_THEME, type Pen, TEXT } from '../panels/pen'
-import { CHECK_WIDTH, PanelCheck } from './check'
+import type { Catalogue, Lab, Speech } from '../ports'
+import type { Drawings } from '../scene/drawings'
+import { CHECK_WIDTH, type Checks, PanelCheck } from './check'
 import { type ControlActions, drawButtons, drawStatus } from './control_view'
 import { comparable, drawShow } from './show_view'
 import { type Mark, Timeline, type Track } from './timeline'
@@ -26,6 +29,9 @@ const TRACK: Track = { x: EDGE, y: 200, width: WIDTH - 2 * EDGE, height: HIT }
 /** s between two paintings of how far a robot is from its ghost. */
 const COMPARE_PERIOD = 0.5
 const NOTICE_S = 8
+
+/** Everything that a robot's panel needs of the room. */
+export type ControlPorts = Speech & Lab & Catalogue & Surroundings & Checks
 
 type View = 'control' | 'motions' | 'end_effectors' | 'show' | 'compare' | 'check'
 
@@ -55,16 +61,19 @@ export class ControlPanel {
     remove: () => this.remove(),
   }
 
+  /** objectAt: the object nearest to a robot's fingers; empty: none is near. */
   constructor(
-    private readonly context: RoomContext,
+    private readonly ports: ControlPorts,
     robot: RobotView,
+    private readonly drawings: Drawings,
+    private readonly objectAt: (robot: string) => string,
   ) {
     this.robot = robot
-    this.panel = new Panel(WIDTH, HEIGHT, (pen) => this.draw(pen), context)
+    this.panel = new Panel(WIDTH, HEIGHT, (pen) => this.draw(pen), ports)
     const rowAt = (position: number) => this.rowAt(position)
-    const stir = () => context.stir()
+    const stir = () => ports.stir()
     this.timeline = new Timeline(this.panel.group, WIDTH, HEIGHT, TRACK, rowAt, stir)
-    this.check = new PanelCheck(context, this.name, () => this.panel.repaint(), this.say)
+    this.check = new PanelCheck(ports, this.name, () => this.panel.repaint(), this.say)
     this.check.follow(robot)
   }
 
@@ -121,7 +130,7 @@ export class ControlPanel {
 
   /** Whether it shows how far the robot is from its ghost. */
   private get compares(): boolean {
-    return this.view === 'show' && this.context.drawings.reference(this.name) !== null
+    return this.view === 'show' && this.drawings.reference(this.name) !== null
   }
 
   private get loaded(): boolean {
@@ -135,17 +144,17 @@ export class ControlPanel {
   }
 
   private trigger(verb: string): void {
-    order({ link: this.context.link, say: this.say }, `${this.name}/${verb}`, triggerType, {})
+    order({ link: this.ports.link, say: this.say }, `${this.name}/${verb}`, triggerType, {})
   }
 
   private remove(): void {
-    const teller = { link: this.context.link, say: this.say }
+    const teller = { link: this.ports.link, say: this.say }
     order(teller, 'lab/remove_robot', removeType, { name: this.name })
   }
 
   private draw(pen: Pen): void {
     const { state } = this.robot
-    const w = this.context.words
+    const w = this.ports.words
     pen.text(EDGE, 42, this.name, TEXT.head, 330, 'ink', 700)
     const halted = state === 'COLLISION_HALT'
     pen.chip(WIDTH - EDGE, 42, w.states[state], PANEL_THEME.states[state], halted)
@@ -159,18 +168,18 @@ export class ControlPanel {
   }
 
   private drawControl(pen: Pen): void {
-    const { context, robot, notice, loaded, telemetry } = this
+    const { ports, robot, notice, loaded, telemetry } = this
     const checked = loaded && robot.state !== 'COLLISION_HALT'
     const shown = { notice, loaded, telemetry, beside: checked ? CHECK_WIDTH + 16 : 0 }
     if (checked) this.check.drawVerdict(pen, WIDTH - EDGE, () => this.open('check'))
-    drawStatus(pen, EDGE, context, robot, shown)
+    drawStatus(pen, EDGE, ports, robot, shown)
     if (loaded) this.timeline.draw(pen, robot.player, this.marks())
-    drawButtons(pen, EDGE, context, robot, shown, this.actions)
+    drawButtons(pen, EDGE, ports, robot, shown, this.actions)
   }
 
   /** Let the gripper lose what it holds, or fix to it what is nearest to its fingers. */
   private useHand(): void {
-    const { link, objectAt } = this.context
+    const { link } = this.ports
     const { holding } = this.robot
     const robot = this.name
     const teller = { link, say: this.say }
@@ -178,13 +187,13 @@ export class ControlPanel {
       order(teller, 'physics/detach', detachType, { robot })
       return
     }
-    const object = objectAt(robot)
-    if (object === '') this.say(this.context.words.room.nothingNear)
+    const object = this.objectAt(robot)
+    if (object === '') this.say(this.ports.words.room.nothingNear)
     else order(teller, 'physics/attach', attachType, { robot, object })
   }
 
   private drawShow(pen: Pen): void {
-    drawShow(pen, EDGE, this.context, this.robot, {
+    drawShow(pen, EDGE, this.ports, this.drawings, this.robot, {
       compare: () => this.open('compare'),
       back: () => this.open('control'),
     })
@@ -192,18 +201,18 @@ export class ControlPanel {
 
   private drawCompare(pen: Pen): void {
     const back = () => this.open('show')
-    this.list.draw(pen, EDGE, comparable(this.context, this.robot), this.context.words.room.back, {
+    this.list.draw(pen, EDGE, comparable(this.ports, this.robot), this.ports.words.room.back, {
       back,
       choose: (id) => {
         back()
-        this.context.drawings.compare(this.name, id)
+        this.drawings.compare(this.name, id)
       },
     })
   }
 
   /** What is marked on the timeline: grasps, releases and collisions. */
   private marks(): Mark[] {
-    const w = this.context.words.room
+    const w = this.ports.words.room
     const { colours, states } = PANEL_THEME
     return [
       ...this.robot.targets.map(({ time, close }) => ({
@@ -220,7 +229,7 @@ export class ControlPanel {
   private rowAt(position: number): string {
     const { playback } = this.robot
     const row = Math.round(position * (playback?.frame_rate ?? 0)) + 1
-    return this.context.words.room.frame(row, playback?.frame_count ?? 0)
+    return this.ports.words.room.frame(row, playback?.frame_count ?? 0)
   }
 
   private open(view: View): void {
@@ -238,26 +247,26 @@ export class ControlPanel {
 
   private drawMotions(pen: Pen): void {
     const { robot } = this.robot
-    const w = this.context.words.room
-    const fit = this.context.trajectories.filter((each) => fits(each, robot))
+    const w = this.ports.words.room
+    const fit = this.ports.trajectories.filter((each) => fits(each, robot))
     if (fit.length === 0) pen.lines(EDGE, 120, w.noneFits(robot.model), TEXT.body)
     this.drawList(
       pen,
       fit.map(({ id, duration }) => ({ id, words: id, note: `${fixed(duration, 1)} s` })),
       (id) => {
-        const { link } = this.context
+        const { link } = this.ports
         order({ link, say: this.say }, `${this.name}/load`, loadTrajectoryType, { id })
       },
     )
   }
 
   private drawEndEffectors(pen: Pen): void {
-    const w = this.context.words.room
+    const w = this.ports.words.room
     const none = { id: '', words: w.bareFlange, note: '' }
-    const all = this.context.endEffectors.map(({ id, name }) => ({ id, words: name, note: id }))
+    const all = this.ports.endEffectors.map(({ id, name }) => ({ id, words: name, note: id }))
     this.drawList(pen, [none, ...all], (id) => {
       const request = { robot: this.name, end_effector: id }
-      const { link } = this.context
+      const { link } = this.ports
       order({ link, say: this.say }, 'lab/set_end_effector', setEndEffectorType, request)
     })
   }
@@ -265,7 +274,7 @@ export class ControlPanel {
   /** A page of a list; choosing one returns to the controls. */
   private drawList(pen: Pen, entries: readonly Choice[], choose: (id: string) => void): void {
     const back = () => this.open('control')
-    this.list.draw(pen, EDGE, entries, this.context.words.room.back, {
+    this.list.draw(pen, EDGE, entries, this.ports.words.room.back, {
       back,
       choose: (id) => {
         back()

@@ -1,8 +1,8 @@
 import type { RobotView } from '../../lab/followed_robot'
 import { spoken } from '../../words/diagnostic'
 import { named } from '../../words/words'
-import type { RoomContext } from '../context'
 import { GAP, HIT, PANEL_THEME, type Pen, TEXT } from '../panels/pen'
+import type { Speech } from '../ports'
 
 const TOP = 290
 
@@ -32,7 +32,7 @@ export interface ControlShown {
 export function drawStatus(
   pen: Pen,
   edge: number,
-  { words }: RoomContext,
+  { words }: Speech,
   { robot, playback, state, touching, holding }: RobotView,
   { notice, loaded, beside }: ControlShown,
 ): void {
@@ -62,7 +62,7 @@ export function drawStatus(
 export function drawButtons(
   pen: Pen,
   edge: number,
-  { words }: RoomContext,
+  { words }: Speech,
   { robot, state, player, holding }: RobotView,
   { loaded, telemetry }: ControlShown,
   actions: ControlActions,

@@ -3,10 +3,11 @@ import type { RobotView } from '../../lab/followed_robot'
 import type { Unsubscribe } from '../../link/link'
 import { telemetryReader } from '../../protocol/mrlab_msgs'
 import type { LabScene } from '../../scene/lab/lab_scene'
-import type { RoomContext } from '../context'
 import type { Targets } from '../input/targets'
+import type { Surroundings } from '../panels/panel'
 import { Stand } from '../panels/stand'
-import { ControlPanel } from './control'
+import type { Choosing, Frames, Lab, Preferences, Speech } from '../ports'
+import type { ControlPanel } from './control'
 import { TelemetryPanel } from './telemetry'
 
 /** m */
@@ -35,11 +36,14 @@ interface Entry {
 export class RobotPanels {
   private readonly entries = new Map<string, Entry>()
 
+  /** make: the panel of a robot. */
   constructor(
-    private readonly context: RoomContext,
+    private readonly ports: Speech & Lab & Frames & Preferences & Surroundings,
     private readonly parent: Object3D,
     private readonly scene: LabScene,
     private readonly targets: Targets,
+    private readonly choosing: Pick<Choosing, 'on'>,
+    private readonly make: (robot: RobotView) => ControlPanel,
   ) {}
 
   /** Return the panel of a robot. */
@@ -94,7 +98,7 @@ export class RobotPanels {
 
   private add(view: RobotView): void {
     const { name } = view.robot
-    const control = new ControlPanel(this.context, view)
+    const control = this.make(view)
     this.parent.add(control.panel.group)
     this.targets.add(control.panel)
     const stand = new Stand(control.panel.group)
@@ -113,9 +117,9 @@ export class RobotPanels {
     const frame = this.scene.base(name)
     const robot = this.scene.robot(name)
     // out of the way of who touches robots one after the other
-    entry.control.panel.group.visible = frame !== undefined && !this.context.choosing
+    entry.control.panel.group.visible = frame !== undefined && !this.choosing.on
     if (frame === undefined || robot === undefined) return
-    const { head, leftHanded, seated } = this.context
+    const { head, leftHanded, seated } = this.ports
     base.setFromMatrixPosition(frame.matrixWorld)
     at.setFromMatrixPosition(robot.tip.matrixWorld)
     entry.reach = Math.max(entry.reach, 0.8 * at.distanceTo(base))
@@ -128,18 +132,18 @@ export class RobotPanels {
       .addScaledVector(toHead, TOWARDS)
     at.y = Math.max(head.y - BELOW_EYES, seated ? LOWEST_SEATED : LOWEST)
     const held = entry.control.panel.pointers > 0
-    if (entry.stand.update(at, head, now, step, held, this.context)) this.context.stir()
+    if (entry.stand.update(at, head, now, step, held, this.ports)) this.ports.stir()
   }
 
   private updateTelemetry(name: string, entry: Entry, now: number): void {
     const robot = this.scene.robot(name)
     const { control } = entry
     if (control.telemetry && entry.telemetry === null && robot !== undefined) {
-      const panel = new TelemetryPanel(this.context, control.joints)
+      const panel = new TelemetryPanel(this.ports, control.joints)
       panel.panel.group.position.x = BETWEEN
       control.panel.group.add(panel.panel.group)
       this.targets.add(panel.panel)
-      const undo = this.context.link.subscribe(`${name}/telemetry`, telemetryReader, (message) =>
+      const undo = this.ports.link.subscribe(`${name}/telemetry`, telemetryReader, (message) =>
         panel.take(message),
       )
       const gone = () => {

@@ -1,10 +1,11 @@
 import { Vector3 } from 'three'
 import type { LabScene, ShownRobot } from '../../scene/lab/lab_scene'
-import type { RoomContext } from '../context'
-import { RobotHandle } from '../handles/robot_handle'
+import { type HandlePorts, RobotHandle } from '../handles/robot_handle'
 import type { Pointer } from '../input/pointer'
 import type { Targets } from '../input/targets'
 import type { Place } from '../place/supports'
+import type { Choosing } from '../ports'
+import type { Drawings } from '../scene/drawings'
 import type { Overlays } from '../scene/overlays'
 
 /** m from a robot's tip */
@@ -12,24 +13,19 @@ const AT_FINGERS = 0.08
 
 const tip = new Vector3()
 
-/** What is told of the robots by who takes hold of them. */
-export interface RobotTouch {
-  /** A robot was touched while robots are chosen. */
-  touched(name: string): void
-  /** Return the stick of a pointer's controller. */
-  stick(pointer: Pointer, axis: 'x' | 'y'): number
-}
-
 /** The robots of the room: each is drawn, and carried by its base. */
 export class RoomRobots {
   readonly handles = new Map<string, RobotHandle>()
 
+  /** stick: the stick of a pointer's controller. */
   constructor(
     private readonly scene: LabScene,
-    private readonly overlays: Overlays,
-    private readonly context: RoomContext,
+    private readonly overlays: Pick<Overlays, 'forget'>,
+    private readonly drawings: Pick<Drawings, 'forget'>,
+    private readonly ports: HandlePorts,
     private readonly targets: Targets,
-    private readonly touch: RobotTouch,
+    private readonly choosing: Choosing,
+    private readonly stick: (pointer: Pointer, axis: 'x' | 'y') => number,
   ) {}
 
   /** Where robots stand, with their names for `support`. */
@@ -64,8 +60,7 @@ export class RoomRobots {
       before?.show(pose)
       if (before?.base === base) continue
       if (before !== undefined) this.drop(name, before)
-      const { touched, stick } = this.touch
-      const handle = new RobotHandle(name, base, this.scene, this.context, touched, stick)
+      const handle = new RobotHandle(name, base, this.scene, this.ports, this.choosing, this.stick)
       handle.show(pose)
       this.handles.set(name, handle)
       this.targets.add(handle)
@@ -74,7 +69,7 @@ export class RoomRobots {
       if (robots.some((robot) => robot.name === name)) continue
       this.drop(name, handle)
       this.overlays.forget(name)
-      this.context.drawings.forget(name)
+      this.drawings.forget(name)
     }
   }
 

@@ -2,9 +2,10 @@ import { Color } from 'three'
 import { fits } from '../../lab/catalogue'
 import type { RobotView } from '../../lab/followed_robot'
 import { fixed } from '../../words/words'
-import type { RoomContext } from '../context'
 import type { Choice } from '../panels/paged_list'
 import { GAP, HIT, type Pen, TEXT } from '../panels/pen'
+import type { Catalogue, Speech } from '../ports'
+import type { Drawings } from '../scene/drawings'
 import { speedColour } from '../scene/tool_ribbon'
 
 const STRIPES = 48
@@ -15,12 +16,12 @@ const colour = new Color()
 export function drawShow(
   pen: Pen,
   edge: number,
-  context: RoomContext,
+  ports: Speech,
+  drawings: Drawings,
   { robot }: RobotView,
   actions: { readonly compare: () => void; readonly back: () => void },
 ): void {
-  const { drawings } = context
-  const w = context.words.room
+  const w = ports.words.room
   const half = (pen.width - 2 * edge - GAP) / 2
   const right = edge + half + GAP
   const { name } = robot
@@ -54,17 +55,17 @@ export function drawShow(
       pen.text(x, row, joint, TEXT.small, half - 110, ink)
       pen.text(x + half, row, off, TEXT.small, 100, ink, 600, 'right')
     })
-  } else if (compared !== '') pen.text(edge, y + HIT + 30, context.words.loading, TEXT.small)
+  } else if (compared !== '') pen.text(edge, y + HIT + 30, ports.words.loading, TEXT.small)
   else pen.lines(edge, y + HIT + 30, w.compareHint, TEXT.small, undefined, 'second', 3)
   pen.button('back', edge, pen.height - HIT - 20, 190, w.back, actions.back)
 }
 
 /** Return the motions that a robot can be compared with: those that fit it, and an earlier version
  * of the one that it has loaded. */
-export function comparable(context: RoomContext, { robot, playback }: RobotView): Choice[] {
-  const w = context.words.room
+export function comparable(ports: Speech & Catalogue, { robot, playback }: RobotView): Choice[] {
+  const w = ports.words.room
   const found: Choice[] = [{ id: '', words: w.noGhost, note: '' }]
-  for (const info of context.trajectories) {
+  for (const info of ports.trajectories) {
     if (!fits(info, robot)) continue
     const { id, version } = info
     const loaded = playback?.trajectory_id === id ? playback.trajectory_version : 0

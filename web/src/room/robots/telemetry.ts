@@ -1,8 +1,9 @@
 import type { Telemetry } from '../../protocol/mrlab_msgs'
 import { fixed } from '../../words/words'
-import type { RoomContext } from '../context'
+import type { Surroundings } from '../panels/panel'
 import { Panel } from '../panels/panel'
 import { PANEL_THEME, type Pen, TEXT } from '../panels/pen'
+import type { Speech } from '../ports'
 
 const WIDTH = 640
 const ROW = 62
@@ -26,13 +27,13 @@ export class TelemetryPanel {
   private newest: Telemetry | null = null
 
   constructor(
-    private readonly context: RoomContext,
+    private readonly ports: Speech & Surroundings,
     private readonly joints: readonly string[],
   ) {
     this.angles = new Float64Array(joints.length)
     this.graph = new Float64Array(joints.length * SAMPLES).fill(Number.NaN)
     const height = TOP + joints.length * ROW + 46 + GRASP
-    this.panel = new Panel(WIDTH, height, (pen) => this.draw(pen), context)
+    this.panel = new Panel(WIDTH, height, (pen) => this.draw(pen), ports)
   }
 
   take(message: Telemetry): void {
@@ -58,7 +59,7 @@ export class TelemetryPanel {
   }
 
   private draw(pen: Pen): void {
-    const w = this.context.words
+    const w = this.ports.words
     pen.text(EDGE, 40, w.room.telemetry, TEXT.head, 300, 'ink', 700)
     const { angles, velocities, proxies } = w.plots.channels
     const heads = [angles, velocities, proxies]
@@ -92,7 +93,7 @@ export class TelemetryPanel {
   /** What the gripper bears, as physics says; nothing where it holds nothing. */
   private drawGrasp(pen: Pen, grasp: Telemetry, y: number): void {
     if (grasp.held_object === '') return
-    const w = this.context.words.room
+    const w = this.ports.words.room
     const payload = grasp.payload > 0 ? fixed(grasp.payload, 1) : ''
     const heavy = grasp.payload > 0 && grasp.held_mass > grasp.payload
     const holds = w.holdsNow(grasp.held_object, fixed(grasp.held_mass, 2), payload)

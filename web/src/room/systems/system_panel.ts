@@ -1,12 +1,14 @@
 import { STATE_NAMES, type StateName } from '../../design/tokens'
+import { order } from '../../lab/commands'
 import type { SystemView } from '../../lab/follower'
 import { RATES } from '../../playback/player'
 import { RobotSystem, removeType, setModeType, triggerType } from '../../protocol/mrlab_msgs'
 import { spoken } from '../../words/diagnostic'
-import { order, type RoomContext } from '../context'
 import { PagedList } from '../panels/paged_list'
+import type { Surroundings } from '../panels/panel'
 import { Panel } from '../panels/panel'
 import { GAP, HIT, PANEL_THEME, type Pen, TEXT } from '../panels/pen'
+import type { Lab, Speech } from '../ports'
 import { Timeline, type Track } from '../robots/timeline'
 import { type Segment, segmentsOf } from './segments'
 
@@ -22,6 +24,9 @@ const TRACK: Track = { x: EDGE, y: 248, width: WIDE, height: HIT }
 const ROW = 340
 const NOTICE_S = 8
 const MOVING: ReadonlySet<number> = new Set([RobotSystem.STAGING, RobotSystem.PLAYING])
+
+/** Everything that a system's panel needs of the room. */
+export type SystemPorts = Speech & Lab & Surroundings
 
 type View = 'control' | 'members' | 'confirm'
 
@@ -45,13 +50,13 @@ export class SystemPanel {
   private readonly timeline: Timeline
 
   constructor(
-    private readonly context: RoomContext,
+    private readonly ports: SystemPorts,
     shown: SystemView,
   ) {
     this.shown = shown
-    this.panel = new Panel(WIDTH, HEIGHT, (pen) => this.draw(pen), context)
+    this.panel = new Panel(WIDTH, HEIGHT, (pen) => this.draw(pen), ports)
     const { group } = this.panel
-    const stir = () => context.stir()
+    const stir = () => ports.stir()
     this.timeline = new Timeline(group, WIDTH, HEIGHT, TRACK, () => '', stir)
   }
 
@@ -94,7 +99,7 @@ export class SystemPanel {
   }
 
   private trigger(verb: string): void {
-    order({ link: this.context.link, say: this.say }, `${this.name}/${verb}`, triggerType, {})
+    order({ link: this.ports.link, say: this.say }, `${this.name}/${verb}`, triggerType, {})
   }
 
   private open(view: View): void {
@@ -104,7 +109,7 @@ export class SystemPanel {
 
   private draw(pen: Pen): void {
     const { system } = this.shown
-    const { states } = this.context.words
+    const { states } = this.ports.words
     const state = stateOf(system)
     pen.text(EDGE, 42, system.name, TEXT.head, 330, 'ink', 700)
     const halted = state === 'COLLISION_HALT'
@@ -116,8 +121,8 @@ export class SystemPanel {
 
   private drawControl(pen: Pen, system: RobotSystem): void {
     const { player } = this.shown
-    const w = this.context.words.room
-    const { parallel, sequential } = this.context.words.lab
+    const w = this.ports.words.room
+    const { parallel, sequential } = this.ports.words.lab
     const sequence = system.mode === RobotSystem.SEQUENTIAL
     const about = this.notice || spoken(system) || w.members(system.members.length)
     const ink = this.notice ? PANEL_THEME.states.PAUSED : 'second'
@@ -144,7 +149,7 @@ export class SystemPanel {
     const half = (WIDE - GAP) / 2
     const second = ROW + HIT + GAP
     const set = (mode: number) => () => {
-      const { link } = this.context
+      const { link } = this.ports
       order({ link, say: this.say }, `${this.name}/set_mode`, setModeType, { mode })
     }
     pen.button('parallel', EDGE, second, half, parallel, set(RobotSystem.PARALLEL), {
@@ -183,7 +188,7 @@ export class SystemPanel {
       words: `${i + 1}  ${robot}`,
       note: trajectory_id,
     }))
-    this.list.draw(pen, EDGE, entries, this.context.words.room.back, {
+    this.list.draw(pen, EDGE, entries, this.ports.words.room.back, {
       back: () => this.open('control'),
       choose: (robot) => {
         this.leaving = robot
@@ -193,7 +198,7 @@ export class SystemPanel {
   }
 
   private drawConfirm(pen: Pen): void {
-    const w = this.context.words.room
+    const w = this.ports.words.room
     const asks = this.leaving === '' ? w.asksDissolve : w.asksTakeOut(this.leaving)
     pen.lines(EDGE, 120, asks, TEXT.body, undefined, 'ink', 6)
     const half = (WIDE - GAP) / 2
@@ -205,7 +210,7 @@ export class SystemPanel {
       half,
       w.dissolve,
       () => {
-        const { link } = this.context
+        const { link } = this.ports
         const request = { name: this.name }
         order({ link, say: this.say }, 'coordinator/dissolve_system', removeType, request)
         this.open('control')

@@ -1,10 +1,10 @@
 import { type Object3D, Vector3 } from 'three'
 import type { SystemView } from '../../lab/follower'
 import type { LabScene } from '../../scene/lab/lab_scene'
-import type { RoomContext } from '../context'
 import type { Targets } from '../input/targets'
 import { Stand } from '../panels/stand'
-import { SystemPanel } from './system_panel'
+import type { Frames, Preferences } from '../ports'
+import { SystemPanel, type SystemPorts } from './system_panel'
 
 /** m: the panel stands beside the members, on the person's side, below their eyes. */
 const BESIDE = 0.72
@@ -29,7 +29,7 @@ export class SystemPanels {
   private readonly entries = new Map<string, Entry>()
 
   constructor(
-    private readonly context: RoomContext,
+    private readonly ports: SystemPorts & Frames & Preferences,
     private readonly parent: Object3D,
     private readonly scene: LabScene,
     private readonly targets: Targets,
@@ -69,7 +69,7 @@ export class SystemPanels {
   }
 
   private add(view: SystemView): void {
-    const panel = new SystemPanel(this.context, view)
+    const panel = new SystemPanel(this.ports, view)
     this.parent.add(panel.panel.group)
     this.targets.add(panel.panel)
     this.entries.set(view.system.name, { panel, stand: new Stand(panel.panel.group) })
@@ -84,7 +84,7 @@ export class SystemPanels {
   }
 
   private place(panel: SystemPanel, stand: Stand, now: number, step: number): void {
-    const { head, leftHanded, seated } = this.context
+    const { head, leftHanded, seated } = this.ports
     middle.set(0, 0, 0)
     let count = 0
     for (const { robot } of panel.members) {
@@ -113,6 +113,6 @@ export class SystemPanels {
       .addScaledVector(toHead, TOWARDS)
     at.y = Math.max(head.y - BELOW_EYES, seated ? LOWEST_SEATED : LOWEST)
     const held = panel.panel.pointers > 0
-    if (stand.update(at, head, now, step, held, this.context)) this.context.stir()
+    if (stand.update(at, head, now, step, held, this.ports)) this.ports.stir()
   }
 }

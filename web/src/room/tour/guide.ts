@@ -1,10 +1,11 @@
 import type { Vector3 } from 'three'
 import type { LabFollower } from '../../lab/follower'
 import type { Board } from '../board/board'
-import type { RoomContext } from '../context'
 import type { XrInputs } from '../input/sources'
 import type { Targets } from '../input/targets'
 import type { Stats } from '../latency'
+import type { Surroundings } from '../panels/panel'
+import type { Preferences, Speech } from '../ports'
 import type { RobotPanels } from '../robots/robot_panels'
 import type { RoomStage } from '../scene/stage'
 import type { Settings } from '../session/settings'
@@ -30,7 +31,7 @@ export class Guide {
   readonly panel: TourPanel
 
   constructor(
-    private readonly context: RoomContext,
+    private readonly ports: Speech & Preferences & Surroundings,
     private readonly room: Watched,
     private readonly targets: Targets,
   ) {
@@ -38,7 +39,7 @@ export class Guide {
     this.tour = new Tour(settings.toured.value, () => {
       settings.toured.value = true
     })
-    this.panel = new TourPanel(context, this.tour, board.panel.group, stage.panels)
+    this.panel = new TourPanel(ports, this.tour, board.panel.group, stage.panels)
     targets.add(this.panel.panel)
   }
 
@@ -53,7 +54,7 @@ export class Guide {
     // before the lab has said which robots there are, none is new
     const watches = this.tour.step !== null && this.room.follower.known.value
     if (watches && this.tour.see(this.seen())) this.panel.panel.repaint()
-    const side = this.context.leftHanded ? 'left' : 'right'
+    const side = this.ports.leftHanded ? 'left' : 'right'
     const hand: Vector3 | null = inputs?.hand(side) ?? null
     const means = inputs === null ? 'mouse' : inputs.hasHands ? 'hand' : 'controller'
     // below the figures, where those are shown

@@ -1,9 +1,10 @@
 import type { Group, Object3D, Vector3 } from 'three'
 import { Label } from '../../scene/stage/labels'
 import { BOARD_HEIGHT, BOARD_WIDTH, EDGE } from '../board/board'
-import type { RoomContext } from '../context'
+import type { Surroundings } from '../panels/panel'
 import { Panel } from '../panels/panel'
 import { GAP, HIT, type Pen, TEXT } from '../panels/pen'
+import type { Speech } from '../ports'
 import { STEPS, type Tour } from './tour'
 
 const HEIGHT = 176
@@ -24,12 +25,12 @@ export class TourPanel {
 
   /** board: what it hangs below. floor: the floor space, in which hands are. */
   constructor(
-    private readonly context: RoomContext,
+    private readonly ports: Speech & Surroundings,
     private readonly tour: Tour,
     board: Group,
     private readonly floor: Object3D,
   ) {
-    this.panel = new Panel(BOARD_WIDTH, HEIGHT, (pen) => this.draw(pen), context)
+    this.panel = new Panel(BOARD_WIDTH, HEIGHT, (pen) => this.draw(pen), ports)
     this.hang(0)
     this.panel.group.visible = tour.step !== null
     board.add(this.panel.group)
@@ -52,7 +53,7 @@ export class TourPanel {
       this.means = means
       this.panel.repaint()
     }
-    const { gestures } = this.context.words.room.tour
+    const { gestures } = this.ports.words.room.tour
     this.promptAt(means === 'mouse' ? '' : gestures[means][step], hand)
     this.panel.update()
   }
@@ -78,7 +79,7 @@ export class TourPanel {
   private draw(pen: Pen): void {
     const { step, number } = this.tour
     if (step === null) return
-    const w = this.context.words.room.tour
+    const w = this.ports.words.room.tour
     pen.text(EDGE, 34, w.title(number, STEPS.length), TEXT.small, 500, 'accent', 600)
     pen.lines(EDGE, 66, w.steps[step], TEXT.body, BOARD_WIDTH - 2 * EDGE, 'ink', 2)
     const y = HEIGHT - HIT - 14

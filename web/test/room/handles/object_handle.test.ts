@@ -1,4 +1,4 @@
-import { Group, Ray, Vector3 } from 'three'
+import { Group, Quaternion, Ray, Vector3 } from 'three'
 import { expect, test, vi } from 'vitest'
 import {
   attachType,
@@ -6,12 +6,13 @@ import {
   detachType,
   moveObjectType,
 } from '../../../src/protocol/mrlab_msgs'
-import type { RoomContext } from '../../../src/room/context'
 import { ObjectHandle } from '../../../src/room/handles/object_handle'
 import type { Pointer } from '../../../src/room/input/pointer'
 import type { LabScene } from '../../../src/scene/lab/lab_scene'
 import { en } from '../../../src/words/en'
 import { FakeLink } from '../../fake_link'
+
+const settled = () => new Promise((resolve) => setTimeout(resolve))
 
 function carried(heldBy: string, robotAt: string) {
   const link = new FakeLink()
@@ -19,25 +20,32 @@ function carried(heldBy: string, robotAt: string) {
   link.answer('physics/attach', attachType, done)
   link.answer('physics/detach', detachType, done)
   link.answer('physics/move_object', moveObjectType, done)
-  const context = {
+  const ports = {
     link,
     world: new Group(),
     feedback: () => undefined,
     say: vi.fn(),
     words: en,
-    robotAt: () => robotAt,
-  } as unknown as RoomContext
+    head: new Vector3(),
+    look: new Quaternion(),
+    stir: () => undefined,
+  }
   const object = { ...createSceneObject(), name: 'cube_1', held_by: heldBy }
   object.pose.position.x = 2
   object.size.x = object.size.y = object.size.z = 0.05
   const moveObject = vi.fn()
-  const handle = new ObjectHandle(object, { moveObject } as unknown as LabScene, context)
+  const handle = new ObjectHandle(
+    object,
+    { moveObject } as unknown as LabScene,
+    ports,
+    () => robotAt,
+  )
   const ray = new Ray(new Vector3(1, 0, 0), new Vector3(1, 0, 0))
   const pointer = { ray, place: ray.origin } as unknown as Pointer
   handle.on({ kind: 'down', pointer, button: 'select' })
   handle.update(1)
   const services = () => link.calls.map(({ service }) => service)
-  return { handle, pointer, link, services, moveObject, context }
+  return { handle, pointer, link, services, moveObject, ports }
 }
 
 test('what is let go between the fingers of a gripper is fixed to it', async () => {
@@ -74,9 +82,11 @@ test('it is taken where it is, and goes as far as the hand', () => {
   expect(moveObject.mock.lastCall?.[1].position).toMatchObject({ x: 2, y: 0.3, z: 0 })
 })
 
-test('what is in the hand of somebody else is left there, until that hand moves it no more', () => {
-  const { handle, pointer, services, context } = carried('', '')
+test('what is in the hand of somebody else is left there, until that hand moves it no more', async () => {
+  const { handle, pointer, services, ports } = carried('', '')
   handle.on({ kind: 'up', pointer, button: 'select' })
+  await vi.waitFor(() => expect(services()).toHaveLength(2))
+  await settled()
   handle.update(5)
   const moved = { ...createSceneObject(), name: 'cube_1', held_by: 'hand' }
   moved.pose.position.x = 2.1
@@ -86,7 +96,7 @@ test('what is in the hand of somebody else is left there, until that hand moves 
   handle.on({ kind: 'down', pointer, button: 'select' })
   handle.update(5.1)
   expect(services()).toHaveLength(before)
-  expect(context.say).toHaveBeenCalledWith(en.room.inAnotherHand('cube_1'))
+  expect(ports.say).toHaveBeenCalledWith(en.room.inAnotherHand('cube_1'))
   // a page that is gone has left it in the air
   handle.update(6)
   handle.on({ kind: 'down', pointer, button: 'select' })
@@ -94,9 +104,11 @@ test('what is in the hand of somebody else is left there, until that hand moves 
   expect(services()).toHaveLength(before + 1)
 })
 
-test('what was just let go is taken again, though the lab still has it in the hand', () => {
+test('what was just let go is taken again, though the lab still has it in the hand', async () => {
   const { handle, pointer, services } = carried('', '')
   handle.on({ kind: 'up', pointer, button: 'select' })
+  await vi.waitFor(() => expect(services()).toHaveLength(2))
+  await settled()
   const late = { ...createSceneObject(), name: 'cube_1', held_by: 'hand' }
   late.size.x = late.size.y = late.size.z = 0.05
   handle.show(late)

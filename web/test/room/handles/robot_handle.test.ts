@@ -1,7 +1,6 @@
 import { Object3D } from 'three'
 import { beforeEach, describe, expect, it } from 'vitest'
-import type { RoomContext } from '../../../src/room/context'
-import { RobotHandle } from '../../../src/room/handles/robot_handle'
+import { type HandlePorts, RobotHandle } from '../../../src/room/handles/robot_handle'
 import { RayPointer } from '../../../src/room/input/pointer'
 import { supportsOf } from '../../../src/room/place/supports'
 import { upright } from '../../../src/room/scene/frames'
@@ -25,11 +24,10 @@ describe('a robot that is carried', () => {
       robot: () => undefined,
       placeRobot: (_: string, pose: Pose) => place(base, pose),
     } as unknown as LabScene
-    const context = {
+    const ports = {
       world: new Object3D(),
       supports: supportsOf([]),
       bases: [],
-      choosing: false,
       feedback: () => undefined,
       stir: () => undefined,
       say: () => undefined,
@@ -41,9 +39,9 @@ describe('a robot that is carried', () => {
           })
         },
       },
-    } as unknown as RoomContext
-    const none = () => 0
-    handle = new RobotHandle('ur5e_1', base, scene, context, () => undefined, none)
+    } as unknown as HandlePorts
+    const choosing = { on: false, touch: () => undefined }
+    handle = new RobotHandle('ur5e_1', base, scene, ports, choosing, () => 0)
     handle.show(upright(0, 0, 0, 0))
     base.updateMatrixWorld(true)
     pointer.place.set(0, 0, 0.1)
@@ -55,8 +53,10 @@ describe('a robot that is carried', () => {
   })
 
   async function answer(success: boolean): Promise<void> {
-    for (const each of answers.splice(0)) each(success)
-    await settled()
+    while (answers.length > 0) {
+      for (const each of answers.splice(0)) each(success)
+      await settled()
+    }
   }
 
   it('stays where it was let go until the lab answers, however late', async () => {
