@@ -119,18 +119,7 @@ export const THEMES = {{
 {theme("light")}{theme("dark")}}} as const
 
 export const STATE_ICONS = {record(icons, "")} as const
-
-export const SEVERITY_STATES = {record(design["severities"], "")} as const satisfies \
-Record<string, StateName>
-
-/** ms */
-export const MOTION_MS = {_numbers(design["motion_ms"])} as const
 """
-
-
-def _numbers(pairs: dict[str, float]) -> str:
-    """Return a TypeScript object of numbers on one line."""
-    return "{ " + ", ".join(f"{name}: {value:g}" for name, value in pairs.items()) + " }"
 
 
 def python(root: Path) -> str:

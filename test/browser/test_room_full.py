@@ -65,7 +65,7 @@ SLACK = """() => new Promise(resolve => {
 # Where a robot's base stands, in the scene, and how far from the eyes, m.
 BASE = "room.scene.base('ur5e_1').getWorldPosition(room.head.clone()).toArray()"
 APART = "room.head.distanceTo(room.scene.base('ur5e_1').getWorldPosition(room.head.clone()))"
-HEADING = "Math.abs(room.handles.get('ur5e_1').heading - window.heading)"
+HEADING = "Math.abs(room.handles.get('ur5e_1').grab.heading - window.heading)"
 # The headset no longer sees the controllers, until `seen` is true again.
 LOSE = """() => {
   const found = XRFrame.prototype.getPose
@@ -210,7 +210,7 @@ def test_a_robot_stays_where_it_was_when_a_hand_is_lost_and_the_floor_moves(
     headset.reach_for(page.evaluate(BASE), 0.1)
     headset.trigger(True)
     headset.wait_for(f"{holds} === 1")
-    page.evaluate("window.heading = room.handles.get('ur5e_1').heading")
+    page.evaluate("window.heading = room.handles.get('ur5e_1').grab.heading")
     stick = "headset.device.controllers.right.updateAxes"
     page.evaluate(f"{stick}('thumbstick', 1, 0)")
     headset.wait_for(f"{HEADING} > 0.3")

@@ -1,6 +1,6 @@
 import './design/styles'
 import './design/plot/plot.css'
-import './scene/scene.css'
+import './scene/stage/scene.css'
 import './report/report.css'
 import { render, type VNode } from 'preact'
 import type { ClassDocument } from './classroom/class_document'

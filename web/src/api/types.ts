@@ -33,7 +33,7 @@ export interface Robot {
   readonly thumbnail: string | null
 }
 
-export interface EndEffector {
+interface EndEffector {
   readonly id: string
   readonly name: string
   readonly thumbnail: string | null

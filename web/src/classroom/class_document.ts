@@ -18,14 +18,14 @@ export interface ClassDocument {
   readonly left_out_count: number
 }
 
-export interface ClassTest {
+interface ClassTest {
   readonly name: string
   readonly points: number
   readonly hidden: boolean
 }
 
 /** bins: students by tenths of the points, the last with all of them. */
-export interface ClassStatistics {
+interface ClassStatistics {
   readonly mean: number
   readonly median: number
   readonly full: number
@@ -70,7 +70,7 @@ export interface ClassStudent extends ClassResult {
 }
 
 /** Degrees RMS. usual: null: too few to say; as_reference: how many are as the solution. */
-export interface SimilarMotions {
+interface SimilarMotions {
   readonly threshold: number
   readonly usual: number | null
   readonly as_reference: number

@@ -5,7 +5,7 @@ import type { MotionDocument } from '../playback/motion'
 import { sentence } from '../words/diagnostic'
 
 export type Order = 'class' | 'points'
-export type ClassApi = Pick<Api, 'gradedClass' | 'motion'>
+type ClassApi = Pick<Api, 'gradedClass' | 'motion'>
 
 /** The key of the solution's motion. */
 export const REFERENCE = 'reference'

@@ -14,7 +14,7 @@ import { sentence, spoken } from '../words/diagnostic'
 import { number, words } from '../words/words'
 import { ClassSteps, type Order, REFERENCE, stepOf } from './class_steps'
 import './class.css'
-import '../pages/upload/upload.css'
+import '../pages/motion/verdict.css'
 import { Marks } from './marks'
 import { PlayInLab } from './play_in_lab'
 

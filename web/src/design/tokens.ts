@@ -71,12 +71,3 @@ export const STATE_ICONS = {
   COLLISION_HALT: 'halt',
   COMPLETE: 'complete',
 } as const
-
-export const SEVERITY_STATES = {
-  error: 'COLLISION_HALT',
-  warning: 'PAUSED',
-  info: 'READY',
-} as const satisfies Record<string, StateName>
-
-/** ms */
-export const MOTION_MS = { quick: 120, calm: 200 } as const

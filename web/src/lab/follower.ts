@@ -47,7 +47,7 @@ export interface SystemView {
 }
 
 /** What came on a key: how many messages, and when the newest one did. */
-export interface KeyActivity {
+interface KeyActivity {
   readonly type: string
   count: number
   /** s, of the lab's clock */
@@ -68,7 +68,7 @@ export type FollowedScene = Pick<
 > & { robot(name: string): DrawnArm | undefined }
 
 /** What a follower needs of the page that it serves. */
-export interface FollowerOptions {
+interface FollowerOptions {
   /** Return the commands of a robot or a system, by name; of the recorder's replay, by 'recorder'. */
   commands(name: string): Commands
   word(state: StateName): string

@@ -13,7 +13,7 @@ const MOST_MARKS = 60
 export type CheckApi = Pick<Api, 'check' | 'startCheck'>
 
 /** A finding at its instant, s. */
-export interface CheckMark {
+interface CheckMark {
   readonly finding: CheckFinding
   readonly time: number
 }

@@ -3,7 +3,7 @@
 
 export const PROTOCOL = 'mrlab.1'
 
-export const ToClient = { VALUES: 1, FRAGMENT: 2 } as const
+const ToClient = { VALUES: 1, FRAGMENT: 2 } as const
 const ToGateway = { CALL: 1, PUT: 2, CREDIT: 3, RECEIVED: 4 } as const
 export const RecordKind = { MESSAGE: 1, VALUE: 2, RESPONSE: 3, ERROR: 4 } as const
 
@@ -17,7 +17,7 @@ const RANGE = 2 ** 32
 const utf8 = new TextEncoder()
 
 /** A frame that the page cannot read: gateway and page differ, or the connection is broken. */
-export class FrameError extends Error {
+class FrameError extends Error {
   override readonly name = 'FrameError'
 }
 

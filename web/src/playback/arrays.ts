@@ -1,6 +1,6 @@
 import type { PackedArray } from './motion'
 
-export type NumericArray = Float32Array | Float64Array | Uint32Array | Uint8Array
+type NumericArray = Float32Array | Float64Array | Uint32Array | Uint8Array
 
 const KINDS = {
   float32: Float32Array,

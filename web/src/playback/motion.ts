@@ -26,7 +26,7 @@ export interface MotionDocument {
   readonly source: { readonly file: string; readonly variable: string; readonly sha256: string }
 }
 
-export interface MotionRobot {
+interface MotionRobot {
   readonly model: string
   readonly end_effector: string
   /** URDF with package:// URIs, end effector included. */

@@ -17,7 +17,7 @@ export interface SessionDocument {
 }
 
 /** The fields of mrlab_msgs/msg/Surface. */
-export interface SessionSurface {
+interface SessionSurface {
   readonly name: string
   readonly label: string
   readonly pose: {
@@ -33,7 +33,7 @@ export interface SessionSurface {
   readonly triangles: readonly number[]
 }
 
-export interface SessionRobot {
+interface SessionRobot {
   readonly name: string
   readonly model: string
   readonly end_effector: string
@@ -70,7 +70,7 @@ export interface SessionObject {
   readonly holders: readonly (readonly [number, string])[]
 }
 
-export interface SessionEvent {
+interface SessionEvent {
   readonly time: number
   readonly robot: string
   /** Number of the run, from 1. */
@@ -110,7 +110,7 @@ export interface SessionRun {
   readonly curves: RunCurves | null
 }
 
-export interface RunJoint {
+interface RunJoint {
   readonly name: string
   readonly prismatic: boolean
   /** rad or m; null: not known */
@@ -119,7 +119,7 @@ export interface RunJoint {
 }
 
 /** rad or m; the tool's in m */
-export interface RunDeviation {
+interface RunDeviation {
   readonly reference: string
   readonly most: number
   readonly joint: string
@@ -130,7 +130,7 @@ export interface RunDeviation {
 }
 
 /** m and m/s of the tool; null: not known */
-export interface RunFigures {
+interface RunFigures {
   readonly way: number | null
   readonly fastest: number | null
   readonly fastest_at: number | null

@@ -11,7 +11,7 @@ import { number, words } from '../words/words'
 import { Findings, type Picture, Still, Table } from './findings'
 import { Fold } from './fold'
 import { dotted, Page } from './page'
-import { PlayheadContext } from './playhead'
+import { PlayheadContext } from './plot/playhead'
 import { type Plotted, StripPlot } from './plot/strip_plot'
 import { Go } from './run'
 import { Film, useSession } from './session'
@@ -52,7 +52,7 @@ interface CheckFinding extends Diagnostic {
   readonly other?: string
 }
 
-export interface CheckMarks {
+interface CheckMarks {
   readonly points: number
   readonly of: number
   readonly tests: readonly {

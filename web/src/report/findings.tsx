@@ -4,7 +4,7 @@ import { FindingItem } from '../design/finding'
 import type { Diagnostic } from '../words/diagnostic'
 import { say } from '../words/diagnostic'
 import { words } from '../words/words'
-import { PlayheadContext } from './playhead'
+import { PlayheadContext } from './plot/playhead'
 
 interface FindingsProps<Found extends Diagnostic> {
   readonly title: string

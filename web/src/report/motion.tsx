@@ -12,7 +12,7 @@ import { number, words } from '../words/words'
 import { Findings, type Picture, rowsOf, Still } from './findings'
 import { Fold } from './fold'
 import { Page } from './page'
-import { type Playhead, PlayheadContext } from './playhead'
+import { type Playhead, PlayheadContext } from './plot/playhead'
 import { StripPlot } from './plot/strip_plot'
 
 interface MotionReportProps {

@@ -32,7 +32,7 @@ export function roomFollower({ link, words, say }: Speech & Lab, courseOf: Cours
 }
 
 /** Who takes what a lab says. */
-export interface FollowedParts {
+interface FollowedParts {
   readonly scene: LabScene
   readonly robots: RoomRobots
   readonly objects: ObjectHandles

@@ -62,7 +62,7 @@ const scale = new Vector3()
 const tip = new Vector3()
 
 /** Everything that a room is made from. */
-export interface RoomParts extends Checks {
+interface RoomParts extends Checks {
   readonly container: HTMLElement
   readonly link: Link
   readonly words: Words

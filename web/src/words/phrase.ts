@@ -4,7 +4,7 @@ import { fixed, percent, significant } from './words'
 export type Values = Readonly<Record<string, unknown>>
 
 /** What a language says around values: the words of quantities that hold some. */
-export interface Joining {
+interface Joining {
   readonly and: string
   readonly or: string
   readonly row: string

@@ -4,7 +4,7 @@ import type { Rights } from '../../api/types'
 import type { Lab } from '../../lab/commands'
 
 /** The link, the toasts and the rights that the parts of the lab page share. */
-export interface LabContext extends Lab {
+interface LabContext extends Lab {
   readonly may: Rights
 }
 

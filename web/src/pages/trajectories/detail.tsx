@@ -18,7 +18,7 @@ import { Comparison } from './comparison'
 import { audience, ownerName } from './list'
 import { Downloads, mayChange, TrajectoryMenu } from './menu'
 import { Versions } from './versions'
-import '../upload/upload.css'
+import '../motion/verdict.css'
 
 interface DetailProps {
   catalogue: Catalogue

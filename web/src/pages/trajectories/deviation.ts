@@ -1,6 +1,6 @@
 import type { Course } from '../../playback/course'
 
-export interface Deviation {
+interface Deviation {
   /** Place of the joint, from 0. */
   readonly joint: number
   /** rad or m, never negative */

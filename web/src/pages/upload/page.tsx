@@ -8,6 +8,7 @@ import { UploadFlow } from './flow'
 import { Pickers } from './pickers'
 import { Progress } from './progress'
 import { Verdict } from './verdict'
+import '../motion/verdict.css'
 import './upload.css'
 
 /** From a file to a robot that moves. */

@@ -1,9 +1,9 @@
 import { useContext, useEffect, useMemo, useRef } from 'preact/hooks'
 import type { Mark, Strip } from '../../design/plot/strip'
 import { number, words } from '../../words/words'
-import { PlayheadContext } from '../playhead'
 import { moments, ticks } from './axis'
 import { envelope, indexAt, polylines } from './lines'
+import { PlayheadContext } from './playhead'
 
 /** A strip with its own times, as reports draw it: SVG, which prints and follows the theme. */
 export interface Plotted {

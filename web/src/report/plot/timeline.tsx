@@ -2,8 +2,8 @@ import { useContext, useEffect, useRef } from 'preact/hooks'
 import { STATE_NAMES, type StateName } from '../../design/tokens'
 import type { RobotFacts, SessionRun, Span } from '../../playback/session'
 import { number, words } from '../../words/words'
-import { PlayheadContext } from '../playhead'
 import { moments } from './axis'
+import { PlayheadContext } from './playhead'
 
 // A row is drawn in units of its own for the width of a page, of a tablet or paper, of a phone.
 const WIDTHS = { wide: 1280, middle: 760, narrow: 360 } as const

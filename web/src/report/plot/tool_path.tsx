@@ -24,7 +24,7 @@ const MARGIN = 1.12
 
 type Points = Float32Array
 /** A numbered place on the way, m. */
-export interface Spot {
+interface Spot {
   readonly number: number
   readonly severity: 'info' | 'warning' | 'error'
   readonly place: readonly [number, number, number]

@@ -19,7 +19,7 @@ const COLUMN = (BOARD_WIDTH - 2 * EDGE - GAP) / 2
 const RIGHT = EDGE + COLUMN + GAP
 
 /** Return a name for a scene that is saved now. */
-export function sceneName(date: Date): string {
+function sceneName(date: Date): string {
   const two = (value: number) => String(value).padStart(2, '0')
   const day = `${date.getFullYear()}${two(date.getMonth() + 1)}${two(date.getDate())}`
   return `room_${day}_${two(date.getHours())}${two(date.getMinutes())}${two(date.getSeconds())}`

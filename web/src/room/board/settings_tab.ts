@@ -41,7 +41,7 @@ export function settingsTab(ports: Speech, settings: Settings, tour: () => void)
 const SCAN_WAIT_S = 3
 
 /** How the room stands, for somebody in it. */
-export interface RoomStanding {
+interface RoomStanding {
   /** Surfaces that the lab knows. */
   readonly surfaces: number
   /** s since somebody entered; NaN: nobody is inside. */

@@ -22,19 +22,19 @@ export interface Hold extends Grip {
 }
 
 /** Deflection of the stick of the first pointer, -1 to 1: x to the right, y towards the user. */
-export interface Stick {
+interface Stick {
   readonly x: number
   readonly y: number
 }
 
 /** The level surfaces, and the bases of the other robots. */
-export interface Surrounding {
+interface Surrounding {
   readonly supports: readonly Support[]
   readonly others: Iterable<Place>
 }
 
 /** A robot's base that is carried, in the lab's frame. */
-export interface BaseGrab {
+interface BaseGrab {
   readonly place: Place
   /** About z, rad. */
   heading: number

@@ -8,7 +8,7 @@ const FASTEST = 6
 const SHORTEST = 1e-3
 
 /** The newest places of a carried object. */
-export interface Trace {
+interface Trace {
   readonly times: Float64Array
   readonly places: Float64Array
   count: number

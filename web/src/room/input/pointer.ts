@@ -46,7 +46,7 @@ export interface Target {
   on(signal: Signal): void
 }
 
-export type PointerKind = 'mouse' | 'ray' | 'touch'
+type PointerKind = 'mouse' | 'ray' | 'touch'
 export type Hand = 'left' | 'right' | 'none'
 
 /** One pointer and what it points at. A target that is pressed keeps it until it is released. */

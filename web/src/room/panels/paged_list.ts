@@ -12,7 +12,7 @@ export interface Choice {
 }
 
 /** What a paged list does. */
-export interface ListActions {
+interface ListActions {
   choose(id: string): void
   back(): void
 }

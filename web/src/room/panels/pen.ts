@@ -55,7 +55,7 @@ export interface Zone {
   readonly drags: boolean
 }
 
-export interface ButtonLook {
+interface ButtonLook {
   readonly primary?: boolean
   readonly chosen?: boolean
   readonly enabled?: boolean
@@ -65,7 +65,7 @@ export interface ButtonLook {
   readonly tick?: boolean
 }
 
-export type Ink = 'ink' | 'second' | 'accent' | 'border'
+type Ink = 'ink' | 'second' | 'accent' | 'border'
 
 /** Draws a panel in mm and notes what can be pressed. */
 export class Pen {

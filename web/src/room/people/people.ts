@@ -23,12 +23,12 @@ interface Person {
 }
 
 /** Where one's hands are; null: that one is not tracked. */
-export interface Hands {
+interface Hands {
   hand(side: 'left' | 'right'): Vector3 | null
 }
 
 /** Somebody who is here. */
-export interface Present {
+interface Present {
   readonly name: string
   readonly part: Part
 }

@@ -221,7 +221,7 @@ function fromLine(point: Point, a: Point, b: Point): number {
   return Math.abs((point.x - a.x) * dy - (point.y - a.y) * dx) / length
 }
 
-export interface SimpleMesh {
+interface SimpleMesh {
   readonly vertices: Float32Array
   readonly triangles: Uint32Array
 }

@@ -17,7 +17,7 @@ const MARK = 0.02 // m
 const position = new Vector3()
 const turn = new Quaternion()
 
-export type Awaited = 'nothing' | 'first' | 'second'
+type Awaited = 'nothing' | 'first' | 'second'
 
 /** Aligns the headsets of a room: who touches the same two points in the same order sees the lab in
  * the same place. */
@@ -122,7 +122,7 @@ export class TouchAlignment {
 export const NEAREST = 0.4
 
 /** Where the lab's origin is in the floor space, and its heading about the vertical. */
-export interface Footing {
+interface Footing {
   readonly x: number
   readonly z: number
   /** rad; 0: the lab's x points along -z */

@@ -7,8 +7,8 @@ import type { Words } from '../../words/en'
 import { number } from '../../words/words'
 import type { Choice, PagedList } from '../panels/paged_list'
 import { HIT, PANEL_THEME, type Pen } from '../panels/pen'
+import type { Mark } from '../panels/timeline'
 import type { Speech } from '../ports'
-import type { Mark } from './timeline'
 
 /** mm */
 export const CHECK_WIDTH = 240

@@ -15,12 +15,12 @@ import { type Choice, PagedList } from '../panels/paged_list'
 import type { Surroundings } from '../panels/panel'
 import { Panel } from '../panels/panel'
 import { HIT, PANEL_THEME, type Pen, TEXT } from '../panels/pen'
+import { type Mark, Timeline, type Track } from '../panels/timeline'
 import type { Catalogue, Lab, Speech } from '../ports'
 import type { Drawings } from '../scene/drawings'
 import { CHECK_WIDTH, type Checks, PanelCheck } from './check'
 import { type ControlActions, drawButtons, drawStatus } from './control_view'
 import { comparable, drawShow } from './show_view'
-import { type Mark, Timeline, type Track } from './timeline'
 
 const WIDTH = 640
 const HEIGHT = 516
@@ -31,7 +31,7 @@ const COMPARE_PERIOD = 0.5
 const NOTICE_S = 8
 
 /** Everything that a robot's panel needs of the room. */
-export type ControlPorts = Speech & Lab & Catalogue & Surroundings & Checks
+type ControlPorts = Speech & Lab & Catalogue & Surroundings & Checks
 
 type View = 'control' | 'motions' | 'end_effectors' | 'show' | 'compare' | 'check'
 

@@ -19,7 +19,7 @@ export interface ControlActions {
 }
 
 /** What the panel itself knows beside how the robot stands. */
-export interface ControlShown {
+interface ControlShown {
   /** What was said last; empty: nothing. */
   readonly notice: string
   readonly loaded: boolean

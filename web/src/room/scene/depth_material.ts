@@ -7,7 +7,7 @@ import type { IUniform, Material } from 'three'
  * 0: nowhere;
  * roomDepthLayer: of each eye;
  * roomDepthFromView: mat4[2], from a place in an eye's part of the picture to one of its depth. */
-export type DepthUniforms = Readonly<Record<string, IUniform>>
+type DepthUniforms = Readonly<Record<string, IUniform>>
 
 const DECLARED = /* glsl */ `
 uniform highp sampler2DArray roomDepth;

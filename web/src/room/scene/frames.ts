@@ -20,11 +20,6 @@ export function vectorToRos(vector: Vector3, into: Vector3): Vector3 {
   return into.set(-vector.z, -vector.x, vector.y)
 }
 
-/** Write a ROS vector in WebXR axes into `into`; it may be the same. */
-export function vectorToXr(vector: Vector3, into: Vector3): Vector3 {
-  return into.set(-vector.y, vector.z, -vector.x)
-}
-
 /** Return the pose in the lab's frame of something that WebXR tracks: a head or a hand, whose x then
  * points forwards, or a plane, whose z then is its normal. position, quaternion: in the scene.
  * world: with a current matrixWorld. */
@@ -39,22 +34,10 @@ export function poseInWorld(world: Object3D, position: Vector3, quaternion: Quat
   }
 }
 
-/** Return the upright pose at a place of the lab's frame whose x points towards `viewer`; the
- * heading stays `heading`, rad, where the viewer stands right above it. */
-export function facing(x: number, y: number, z: number, viewer: Vector3, heading = 0): Pose {
-  const away = Math.hypot(viewer.x - x, viewer.y - y)
-  return upright(x, y, z, away < 0.01 ? heading : Math.atan2(viewer.y - y, viewer.x - x))
-}
-
 /** Return the upright pose with a heading about z, rad. */
 export function upright(x: number, y: number, z: number, heading: number): Pose {
   return {
     position: { x, y, z },
     orientation: { x: 0, y: 0, z: Math.sin(heading / 2), w: Math.cos(heading / 2) },
   }
-}
-
-/** Return the heading about z of a pose of the lab's frame, rad: where its x points. */
-export function headingOf({ orientation: { x, y, z, w } }: Pose): number {
-  return Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
 }

@@ -11,7 +11,7 @@ const WIDTH = 0.008 // m
 const RAMP = [0x2f5fd0, 0x2aa6b8, 0x8fd05a, 0xf5d13d, 0xff8a3c].map((each) => new Color(each))
 
 /** Where a motion leads the tool, and how fast. */
-export interface ToolSpeeds {
+interface ToolSpeeds {
   /** x, y, z, m, in the frame of the base */
   readonly points: Float32Array<ArrayBuffer>
   /** m/s at each point */

@@ -17,10 +17,10 @@ export type Feature = (typeof WANTED)[number] | typeof DEPTH
 export type Mode = 'immersive-ar' | 'immersive-vr'
 
 /** Why there is no way into the room from here; empty: there is one. */
-export type Hindrance = '' | 'no_https' | 'no_webxr' | 'no_device' | 'blocked'
+type Hindrance = '' | 'no_https' | 'no_webxr' | 'no_device' | 'blocked'
 
 /** What is asked of a browser to find out what it can do. */
-export interface XrPlatform {
+interface XrPlatform {
   readonly secure: boolean
   readonly xr: { isSessionSupported(mode: Mode): Promise<boolean> } | undefined
 }

@@ -1,5 +1,5 @@
 /** What of a member its segment shows. */
-export interface TimedMember {
+interface TimedMember {
   readonly robot: string
   readonly start: number
   readonly duration: number

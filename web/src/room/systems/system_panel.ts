@@ -8,8 +8,8 @@ import { PagedList } from '../panels/paged_list'
 import type { Surroundings } from '../panels/panel'
 import { Panel } from '../panels/panel'
 import { GAP, HIT, PANEL_THEME, type Pen, TEXT } from '../panels/pen'
+import { Timeline, type Track } from '../panels/timeline'
 import type { Lab, Speech } from '../ports'
-import { Timeline, type Track } from '../robots/timeline'
 import { type Segment, segmentsOf } from './segments'
 
 const WIDTH = 640

@@ -14,7 +14,7 @@ const PROMPT = 0.024 // of the distance to it
 const OVER = 0.07 // m, of a prompt over the hand
 
 /** How somebody points: what a prompt says depends on it. */
-export type Means = 'mouse' | 'controller' | 'hand'
+type Means = 'mouse' | 'controller' | 'hand'
 
 /** The tour's own panel below the board, and a prompt at the working hand. */
 export class TourPanel {

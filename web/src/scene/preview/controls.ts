@@ -1,5 +1,5 @@
 import { fixed, number } from '../../words/words'
-import '../scene.css'
+import '../stage/scene.css'
 import { BACKWARD_RATES, type Player, RATES } from '../../playback/player'
 import type { SceneWords } from '../../words/scene'
 
@@ -9,7 +9,7 @@ const ICONS = {
 } as const
 
 /** A switch beside the timeline, such as the one of the ghosts. */
-export interface Toggle {
+interface Toggle {
   readonly label: string
   readonly on: boolean
   readonly set: (on: boolean) => void

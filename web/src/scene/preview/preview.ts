@@ -12,7 +12,7 @@ import { PreviewScene } from './preview_scene'
 /** Findings that are marked on the timeline. */
 const MOST_MARKS = 60
 
-export interface PreviewOptions {
+interface PreviewOptions {
   /** Where meshes come from; the gateway's /assets/ where none is given. */
   readonly meshes?: MeshSource
   readonly words?: SceneWords

@@ -15,14 +15,14 @@ export interface MeshSource {
 export type MeshBytes = (uri: string) => Promise<ArrayBuffer>
 
 /** Return where the gateway serves a package:// URI. */
-export function assetUrl(uri: string): string {
+function assetUrl(uri: string): string {
   const place = /^package:\/\/(.+)$/.exec(uri)?.[1]
   if (place === undefined) throw new Error(`the mesh '${uri}' has no package:// address`)
   return `/assets/${place.split('/').map(encodeURIComponent).join('/')}`
 }
 
 /** Fetch meshes from the gateway. */
-export async function fetchMesh(uri: string): Promise<ArrayBuffer> {
+async function fetchMesh(uri: string): Promise<ArrayBuffer> {
   const answer = await fetch(assetUrl(uri))
   if (!answer.ok) throw new Error(`${uri}: ${answer.status} ${answer.statusText}`)
   return answer.arrayBuffer()

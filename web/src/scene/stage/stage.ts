@@ -1,4 +1,4 @@
-import '../scene.css'
+import './scene.css'
 import {
   Box3,
   DirectionalLight,
@@ -35,7 +35,7 @@ const MARGIN = 1.08 // of the distance at which everything just fits
 const TURN = Math.PI / 24 // rad, a press of an arrow key
 
 /** Called before each picture; true asks for another one. now: s, of performance.now(). */
-export type FrameListener = (now: number) => boolean
+type FrameListener = (now: number) => boolean
 
 /** A canvas with light, floor and camera. It draws when something changed, and only then. */
 export class Stage {

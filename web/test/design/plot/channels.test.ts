@@ -1,14 +1,14 @@
 // @vitest-environment jsdom
 import { expect, test, vi } from 'vitest'
-import { channelsOf, marksOf, stripsOf } from '../../src/design/plot/channels'
-import { sparkPaths } from '../../src/design/plot/sparkline'
-import { visibleRows } from '../../src/design/virtual_list'
-import { courseOf } from '../../src/playback/course'
-import { JOINT_LIMIT } from '../fake_api'
-import { fakeMotion } from '../fake_motion'
+import { channelsOf, marksOf, stripsOf } from '../../../src/design/plot/channels'
+import { sparkPaths } from '../../../src/design/plot/sparkline'
+import { visibleRows } from '../../../src/design/virtual_list'
+import { courseOf } from '../../../src/playback/course'
+import { JOINT_LIMIT } from '../../fake_api'
+import { fakeMotion } from '../../fake_motion'
 
 vi.mock('uplot', () => ({ default: class {} }))
-const { rangeOf } = await import('../../src/design/plot/strip')
+const { rangeOf } = await import('../../../src/design/plot/strip')
 
 const STRIP = {
   label: '1 pan',

@@ -1,8 +1,8 @@
 import { CircleGeometry, type Group, Mesh, MeshBasicMaterial, PlaneGeometry } from 'three'
 import type { RemotePlayer } from '../../playback/player'
 import { fixed } from '../../words/words'
-import { PANEL_THEME, type Pen, TEXT } from '../panels/pen'
-import { Readout } from '../panels/readout'
+import { PANEL_THEME, type Pen, TEXT } from './pen'
+import { Readout } from './readout'
 
 const MM = 0.001
 const THICK = 8
