@@ -17,7 +17,8 @@ export function jointStatePayload(name: string[], position: Float64Array): Uint8
 export function objectRemovedPayload(name: string): Uint8Array {
   const to = writer.open()
   header(to)
-  for (const each of [name, '', '']) to.string(each)
+  for (const each of [name, '', '', '']) to.string(each)
+  to.uint32(0)
   return to.payload()
 }
 
