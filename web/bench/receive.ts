@@ -1,4 +1,4 @@
-/** What a benchmark's page or clients do: receive joint states, and note how old they are. */
+/** Receive joint states in a benchmark's page or clients, and note their ages. */
 
 import { openLink, type SocketOptions } from '../src/link/socket'
 import { type JointState, jointStateReader } from '../src/protocol/sensor_msgs'

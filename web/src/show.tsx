@@ -16,7 +16,7 @@ import { SessionReport } from './report/session'
 import { languages, setLanguage } from './words/words'
 
 declare global {
-  /** What the page's first script unpacked. */
+  /** Data that the page's first script unpacked. */
   var mrlabData: ArrayBuffer | undefined
 }
 

@@ -20,7 +20,7 @@ import type {
   Version,
 } from './types'
 
-/** What the pages ask of the gateway by HTTP. Every method rejects with an ApiError. */
+/** The gateway's HTTP interface. Every method rejects with an ApiError. */
 export interface Api {
   session(): Promise<Session>
   signIn(name: string, password: string): Promise<Session>
@@ -41,7 +41,7 @@ export interface Api {
   /** version 0: bring a deleted one back; else an older version becomes the newest. */
   restore(id: string, version: number): Promise<TrajectoryInfo>
 
-  /** What is known of a check of `trajectory`, such as quintic@3, on a robot of the lab. */
+  /** Return the known check of `trajectory`, such as quintic@3, on a robot of the lab. */
   check(robot: string, trajectory: string): Promise<Check>
   /** Have it checked where everything stands now. */
   startCheck(robot: string, trajectory: string): Promise<Check>

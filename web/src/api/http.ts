@@ -21,7 +21,7 @@ import type {
   Version,
 } from './types'
 
-/** What pages need of assets/robots.json; thumbnails are keys of assets. */
+/** The fields of assets/robots.json that pages use; thumbnails are keys of assets. */
 interface LibraryDocument {
   readonly robots: readonly {
     readonly id: string

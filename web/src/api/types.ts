@@ -3,7 +3,7 @@ import type { Diagnostic, Fix, Told } from '../words/diagnostic'
 
 export type Role = 'student' | 'instructor' | 'operator' | 'display'
 
-/** What the pages offer to a person; the gateway checks each call. */
+/** The actions that the pages offer to a person; the gateway checks each call. */
 export interface Rights {
   /** Loads and plays robots. */
   readonly commands: boolean
@@ -160,7 +160,7 @@ export interface Device {
   readonly id: string
   readonly name: string
   readonly role: Role
-  /** Whose it is. */
+  /** Its owner. */
   readonly approved_by: string
   /** s since the epoch */
   readonly created: number
@@ -189,7 +189,7 @@ export interface CheckFinding extends Diagnostic {
   readonly link: string
   readonly time: number | null
   readonly end: number | null
-  /** What the robot meets, such as object, and its name; empty: nothing. */
+  /** Kind of the thing that the robot touches, such as object, and its name; empty: nothing. */
   readonly kind: string
   readonly other: string
 }
@@ -200,7 +200,7 @@ export interface Check {
   readonly robot: string
   /** Such as quintic@3 */
   readonly trajectory: string
-  /** What has changed in the lab since; null: nothing. */
+  /** Change in the lab since then; null: none. */
   readonly stale: Diagnostic | null
   /** Why it failed. */
   readonly problem: Diagnostic | null
@@ -210,7 +210,7 @@ export interface Check {
   readonly findings: readonly CheckFinding[]
 }
 
-/** What a test of a rubric gave; time: s, where points were lost, null: no instant. */
+/** Result of a test of a rubric; time: s at which points were lost, null: no instant. */
 export interface ClassMark {
   readonly name: string
   readonly points: number
@@ -228,7 +228,7 @@ export interface Submission {
   readonly name: string
   readonly points: number
   readonly of: number
-  /** What came of it: why there is no motion, or the verdict of its check. */
+  /** The outcome: the reason for having no motion, or the verdict of its check. */
   readonly found: Diagnostic
   readonly duration: number | null
   readonly robot: string

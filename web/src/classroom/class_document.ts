@@ -4,7 +4,7 @@ import type { Diagnostic } from '../words/diagnostic'
 export interface ClassDocument {
   readonly schema: 'mrlab.class.1'
   readonly title: string
-  /** What the submissions were read from: `folder`, or the name of a learning system. */
+  /** Source of the submissions: `folder`, or the name of a learning system. */
   readonly form: string
   readonly robot: string
   readonly scene: string

@@ -1,9 +1,9 @@
 import type { ClassStudent } from './class_document'
 
-/** Which rows of a class are shown. */
+/** Filters of the rows of a class. */
 export const FILTERS = ['', 'lost', 'unchecked', 'late', 'alike'] as const
 export type Filter = (typeof FILTERS)[number]
-/** What rows are sorted by: the name, all points, or those of a test by its place. */
+/** Sort key of rows: the name, all points, or the points of a test by its place. */
 export type Column = 'name' | 'points' | number
 
 /** Return whether a row is shown for a text that is searched and a filter. */

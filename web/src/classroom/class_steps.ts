@@ -63,7 +63,7 @@ export class ClassSteps {
     return found.key
   }
 
-  /** Whether there is one so many places on. */
+  /** Return whether there is a submission `by` places on. */
   has(by: number): boolean {
     return this.submissions.value[this.place.value + by] !== undefined
   }

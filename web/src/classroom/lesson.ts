@@ -1,7 +1,7 @@
 import type { Submission } from '../api/types'
 import type { ClassSteps } from './class_steps'
 
-/** How the motion of a submission is named among trajectories: class:ben. */
+/** Prefix of the id of a submission's motion among trajectories: class:ben. */
 export const SUBMISSION = 'class:'
 
 /** A class that a teacher steps through in the room. */

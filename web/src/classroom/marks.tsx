@@ -10,7 +10,7 @@ interface MarksProps {
   readonly onSelect: (number: number) => void
 }
 
-/** What each test of the rubric gave; lost points lead to their instant. */
+/** The result of each test of the rubric; a lost point leads to its instant. */
 export function Marks({ submission, onSelect }: MarksProps) {
   const w = words.value.grades
   const numbers = numbersOf(submission)

@@ -19,7 +19,7 @@ const OUTCOME_STATES = {
 } as const satisfies Record<string, StateName>
 const OUTCOME_ICONS = { accepted: 'complete', rejected: 'error', ambiguous: 'warning' } as const
 
-/** What became of a file. */
+/** The outcome of a file. */
 export function OutcomeChip({ outcome }: { outcome: keyof typeof OUTCOME_STATES }) {
   const look = OUTCOME_STATES[outcome].toLowerCase().replace('_', '-')
   return (

@@ -7,7 +7,7 @@ interface FindingItemProps {
   readonly number: number
   readonly severity: 'info' | 'warning' | 'error'
   readonly code: string
-  /** Where it applies, such as a joint and rows. */
+  /** The place to which it applies, such as a joint and rows. */
   readonly where: string
   readonly message: string
   readonly remedy: string

@@ -8,7 +8,7 @@ interface Carrier {
   readonly end_effector: string
 }
 
-/** What says whom a trajectory is for: fields of the gateway's list and of the lab's messages. */
+/** The fields that say for which robot a trajectory is, in the gateway's list and in messages. */
 interface Carried {
   readonly robot_model: string
   readonly end_effector: string

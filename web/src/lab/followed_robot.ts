@@ -13,16 +13,16 @@ import {
 import type { JointState } from '../protocol/sensor_msgs'
 import type { SceneRobot } from '../scene/robot/robot'
 
-/** How one robot stands, for the panel beside the picture. */
+/** State of a robot, for the panel beside the picture. */
 export interface RobotView {
   readonly robot: Robot
   readonly state: StateName
   readonly playback: PlaybackState | null
-  /** What it holds; empty: nothing. */
+  /** The object that it holds; empty: none. */
   readonly holding: string
-  /** What its arm touches; empty: nothing. */
+  /** The thing that its arm touches; empty: none. */
   readonly touching: string
-  /** Where what is loaded grasps and releases. */
+  /** The places at which the loaded motion grasps and releases. */
   readonly targets: readonly GraspTarget[]
   readonly player: RemotePlayer
 }
@@ -65,7 +65,7 @@ export class FollowedRobot {
   /** The trajectory whose frames are here or on their way. */
   private wanted = ''
   private frames: Course | null = null
-  /** What stands in a pose of the lab, rather than in that of its URDF. */
+  /** The drawn arm that has a pose of the lab, and not that of its URDF. */
   private posed: DrawnArm | undefined
 
   constructor(
@@ -78,7 +78,7 @@ export class FollowedRobot {
     return this.frames
   }
 
-  /** Where its pose comes from. */
+  /** The source of its pose. */
   get source(): PoseSource {
     return this.arm?.source ?? 'none'
   }

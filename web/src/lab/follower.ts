@@ -46,7 +46,7 @@ export interface SystemView {
   readonly player: RemotePlayer
 }
 
-/** What came on a key: how many messages, and when the newest one did. */
+/** Activity of a key: the number of messages, and the time of the newest one. */
 interface KeyActivity {
   readonly type: string
   count: number
@@ -54,7 +54,7 @@ interface KeyActivity {
   newest: number
 }
 
-/** What a follower moves: the part of a LabScene that it calls. */
+/** The part of a LabScene that a follower calls. */
 export type FollowedScene = Pick<
   LabScene,
   | 'setRobots'
@@ -67,7 +67,7 @@ export type FollowedScene = Pick<
   | 'frame'
 > & { robot(name: string): DrawnArm | undefined }
 
-/** What a follower needs of the page that it serves. */
+/** The functions that a follower takes from its page. */
 interface FollowerOptions {
   /** Return the commands of a robot or a system, by name; of the recorder's replay, by 'recorder'. */
   commands(name: string): Commands
@@ -85,7 +85,7 @@ export class LabFollower {
   readonly systems = signal<readonly SystemView[]>([])
   readonly recorder = signal<RecorderState | null>(null)
   readonly replay: RemotePlayer
-  /** Whether the lab has said which robots there are. */
+  /** True once the lab has published its robots. */
   readonly known = signal(false)
   readonly activity = new Map<string, KeyActivity>()
   scene: FollowedScene | null = null

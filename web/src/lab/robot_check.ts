@@ -18,7 +18,7 @@ interface CheckMark {
   readonly time: number
 }
 
-/** What is known of the check of the motion that one robot has loaded, asked from time to time. */
+/** The check of the motion that a robot has loaded, polled while it runs. */
 export class RobotCheck {
   /** null: nothing is known yet, or nobody had it checked. */
   readonly check: Signal<Check | null> = signal(null)
@@ -102,7 +102,7 @@ export function marksOf(check: Check | null, duration: number): CheckMark[] {
   return marks.sort((a, b) => a.time - b.time).slice(0, MOST_MARKS)
 }
 
-/** How many findings refuse a motion, and how many warn. */
+/** Return the number of errors and of warnings of a check. */
 export function counted(check: Check): { readonly refusing: number; readonly warning: number } {
   let refusing = 0
   let warning = 0

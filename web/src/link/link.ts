@@ -1,7 +1,7 @@
 import type { MessageReader, MessageWriter, ServiceType } from '../protocol/message_type'
 import { type Told, ToldError } from '../words/diagnostic'
 
-/** What the pages need of the lab, wherever it comes from: the gateway's socket, or a fake in tests. */
+/** The pages' link to the lab: the gateway's socket, or a fake in tests. */
 export interface Link {
   readonly status: LinkStatus
   onStatus(listener: (status: LinkStatus) => void): Unsubscribe
@@ -22,7 +22,7 @@ export interface Link {
   ): Promise<Response>
   /** Publish a message on a topic that comes in, such as `latency/clients`; dropped while lost. */
   publish<T>(key: string, type: MessageWriter<T>, message: T): void
-  /** What the lab offers now; empty while it is not there. */
+  /** The present offer of the lab; empty while it is unreachable. */
   readonly offer: LabOffer
   onOffer(listener: (offer: LabOffer) => void): Unsubscribe
   /** Be told what others of this gateway did: that they paused a robot or a system. */
@@ -42,13 +42,13 @@ export interface LinkStatus {
   readonly roundTrip: number
 }
 
-/** Who did something, by their name, and with which service, such as ur5e_1/pause. */
+/** A deed of another person: the name, and the service, such as ur5e_1/pause. */
 export interface Deed {
   readonly who: string
   readonly service: string
 }
 
-/** What the lab offers: key -> type. latched: topics that deliver their newest message first. */
+/** The offer of the lab: key -> type. latched: topics that deliver their newest message first. */
 export interface LabOffer {
   readonly topics: Readonly<Record<string, string>>
   readonly services: Readonly<Record<string, string>>

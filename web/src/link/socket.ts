@@ -174,7 +174,7 @@ class SocketLink implements Link {
     this.closing = null
     this.batchNumber = 0
     this.heardAt = this.beatAt = ownTime()
-    // What comes late of a former socket concerns nobody.
+    // Ignore late events of a replaced socket.
     const own = (act: () => void) => () => {
       if (this.socket === socket) act()
     }
@@ -282,7 +282,7 @@ class SocketLink implements Link {
 
   private onBeat(): void {
     const now = ownTime()
-    // What came while the page stood still is read after this.
+    // Messages that arrived while the page was frozen are read after this.
     if (now - this.beatAt > STALL_S) this.heardAt = now
     this.beatAt = now
     if (!isHidden() && now - this.heardAt > SILENCE_S) {

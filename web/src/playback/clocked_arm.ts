@@ -16,7 +16,7 @@ const EASE = 0.12
 /** s between two pictures, at most, while something moves. */
 const PICTURE = 1 / 30
 
-/** Where the shown pose comes from. */
+/** The source of the shown pose. */
 export type PoseSource = 'none' | 'course' | 'states'
 
 /** The pose of an arm at any display instant: from its course and playback clock while it is on it,
@@ -28,7 +28,7 @@ export class ClockedArm {
   /** rad or m, in the order of the names: what `sample` wrote last. */
   readonly positions: Float64Array
   private readonly places = new Map<string, number>()
-  /** What was reported last. */
+  /** The last report. */
   private readonly reported: Float64Array
   private course: Course | null = null
   private clock: PlaybackClock = { stamp: 0, position: 0, rate: 0 }
@@ -121,7 +121,7 @@ export class ClockedArm {
     return true
   }
 
-  /** Whether it will have moved after a lab time, s, without any further message. */
+  /** Return whether it moves after a lab time, s, without any further message. */
   moves(time: number): boolean {
     if (this.changed || time < this.steppedAt + EASE) return true
     const source = this.choose()
@@ -132,7 +132,7 @@ export class ClockedArm {
     return rate > 0 ? position < this.course.duration : rate < 0 && position > 0
   }
 
-  /** Whether the newest state is elsewhere than what is shown. */
+  /** Return whether the newest state differs from the shown pose. */
   private hasWay(): boolean {
     const begin = this.newest * this.jointCount
     for (let joint = 0; joint < this.jointCount; joint++) {

@@ -23,7 +23,7 @@ export interface Player {
   onChange(listener: () => void): () => void
 }
 
-/** What a player asks elsewhere: the services of a playback, a system or the recorder. */
+/** The commands of a player: services of a playback, a system or the recorder. */
 export interface Commands {
   play(): void
   pause(): void

@@ -12,7 +12,7 @@ export interface SessionDocument {
   /** Of the room; a recording has none. */
   readonly surfaces: readonly SessionSurface[]
   readonly events: readonly SessionEvent[]
-  /** What is said of a recording; absent where something else is, such as a check. */
+  /** The report of a recording; absent for another document, such as a check. */
   readonly report?: SessionFacts
 }
 

@@ -16,7 +16,7 @@ import { type Plotted, StripPlot } from './plot/strip_plot'
 import { Go } from './run'
 import { Film, useSession } from './session'
 
-/** What a check says of a rehearsal; `mrlab_ros/core/show/check.py` writes it. */
+/** The result of a check; `mrlab_ros/core/show/check.py` writes it. */
 export interface CheckFacts {
   readonly verdict: 'ready' | 'not_ready'
   readonly summary: Diagnostic
@@ -195,7 +195,7 @@ function jointsOf(motion: CheckedMotion, findings: readonly CheckFinding[]): Plo
   })
 }
 
-/** What a check found in a rehearsal. */
+/** The report of a check. */
 export function CheckReport({
   session,
   check,

@@ -9,14 +9,14 @@ import { PlayheadContext } from './plot/playhead'
 interface FindingsProps<Found extends Diagnostic> {
   readonly title: string
   readonly findings: readonly Found[]
-  /** Where each applies. */
+  /** The place to which each applies. */
   readonly where: (finding: Found) => string
   /** Return whether a finding has an instant to go to. */
   readonly placed: (finding: Found) => boolean
   readonly onShow: (number: number) => void
 }
 
-/** What was found, the numbers those of plots and of 3D. */
+/** The findings, with the numbers that plots and the 3D view use. */
 export function Findings<Found extends Diagnostic>(props: FindingsProps<Found>) {
   const { title, findings, where, placed, onShow } = props
   const { selected } = useContext(PlayheadContext)

@@ -31,7 +31,7 @@ function titleOf({ verdict, findings, title, robot }: MotionDocument): string {
   return say(cause).message
 }
 
-/** What became of a file on a robot. */
+/** The report of a converted motion. */
 export function MotionReport({ motion, meshes, pictures }: MotionReportProps) {
   const w = words.value
   const view = useRef<HTMLElement>(null)

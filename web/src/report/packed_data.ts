@@ -1,6 +1,6 @@
 import type { MeshBytes } from '../scene/robot/meshes'
 
-/** What a page carries: a document, and the meshes that it names. */
+/** The data of a page: a document, and the meshes that it names. */
 export interface ShownData {
   readonly document: { readonly schema: string }
   readonly meshes: MeshBytes
@@ -8,7 +8,7 @@ export interface ShownData {
 
 interface Head {
   readonly document: { readonly schema: string }
-  /** Where the file of each URI lies behind the head: offset, length, bytes. */
+  /** Place of the file of each URI behind the head: offset, length, bytes. */
   readonly meshes: Readonly<Record<string, readonly [number, number]>>
 }
 

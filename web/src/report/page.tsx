@@ -6,7 +6,7 @@ import { Hatch } from './plot/strip_plot'
 
 interface PageProps {
   readonly chip?: ComponentChildren
-  /** What was found, or the name of what is shown. */
+  /** The verdict, or the name of the report. */
   readonly title: string
   /** Parts of the line below it; empty ones are left out. */
   readonly facts: readonly ComponentChildren[]

@@ -63,7 +63,7 @@ function stripsOf(run: SessionRun, curves: RunCurves): Strip[] {
   })
 }
 
-/** What a run was like: its tool's way, its figures, what was done, its joints. */
+/** A run: the path of its tool, its figures, its events, its joints. */
 export function RunView({ run, curves }: { run: SessionRun; curves: RunCurves }) {
   const times = useMemo(() => unpack(curves.times), [curves])
   const strips = useMemo(() => stripsOf(run, curves), [run, curves])
@@ -170,7 +170,7 @@ function shownIn({ quantity }: MeasuredSeries) {
   return { unit: quantity === 'tracking' ? 'mrad' : 'ms', scale: 1000 }
 }
 
-/** What was measured of the lab itself: a table, and a strip for each. */
+/** Measurements of the lab itself: a table, and a strip for each. */
 export function Technical({
   series,
   counts,

@@ -113,7 +113,7 @@ export function Film({
   )
 }
 
-/** What happened in a recorded session. */
+/** The report of a recorded session. */
 export function SessionReport({
   session,
   report,

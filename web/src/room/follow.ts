@@ -31,7 +31,7 @@ export function roomFollower({ link, words, say }: Speech & Lab, courseOf: Cours
   })
 }
 
-/** Who takes what a lab says. */
+/** The receivers of the lab's messages. */
 interface FollowedParts {
   readonly scene: LabScene
   readonly robots: RoomRobots
@@ -67,7 +67,7 @@ export function followedScene(parts: FollowedParts): FollowedScene {
 /** s between two looks at a lab that says nothing: silence is no message. */
 const PERIOD_S = 1
 
-/** What shows how the lab stands. */
+/** The parts that show the state of the lab. */
 export interface Listeners {
   readonly ports: Speech & Catalogue
   readonly follower: LabFollower

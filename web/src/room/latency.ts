@@ -15,8 +15,8 @@ const HEIGHT = 150
 const EDGE = 24
 const BELOW = 0.4 // m, of its middle below that of the board
 
-/** How long frames take, and how old joint states are when they come: told to the lab's ledger, and
- * shown on demand. */
+/** Measures the duration of frames and the age of joint states; publishes both, and shows them on
+ * demand. */
 export class Stats {
   private readonly ages = new Ages()
   private readonly undo: () => void
@@ -124,7 +124,7 @@ export function tell(link: Link, { count, p50, p95, most }: Ages): void {
 /** Ages that are kept of one window: a lab of ten robots sends fewer in a second. */
 const MOST = 1024
 
-/** How old messages were when they came, over a window. */
+/** The ages of messages on arrival, over a window. */
 export class Ages {
   private readonly ages = new Float64Array(MOST)
   private readonly sorted = new Float64Array(MOST)

@@ -68,7 +68,7 @@ interface RoomParts extends Checks {
   readonly words: Words
   readonly robots: readonly Entry[]
   readonly endEffectors: readonly Entry[]
-  /** Who is signed in here. */
+  /** The person who is signed in. */
   readonly person: Person
   readonly courseOf: CourseOf
   /** Tabs that other parts of the pages add to the board. */
@@ -242,7 +242,7 @@ export class Room {
     return this.visit.inside
   }
 
-  /** What the session that runs came without. */
+  /** The features that the running session lacks. */
   get missing(): readonly Feature[] {
     return this.visit.missing
   }

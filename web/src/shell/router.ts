@@ -2,7 +2,7 @@ import { batch, signal } from '@preact/signals'
 
 /** The path of the page that is shown, without search and hash. */
 export const path = signal(location.pathname)
-/** What stands behind the path, such as ?with=quintic; empty: nothing. */
+/** The query of the address, such as ?with=quintic; empty: none. */
 export const search = signal(location.search)
 
 function read(): void {

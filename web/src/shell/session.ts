@@ -5,7 +5,7 @@ import type { Api } from '../api/api'
 import type { Session } from '../api/types'
 import { navigate } from './router'
 
-/** Who is signed in; null until the gateway has answered. */
+/** The session of the person who is signed in; null until the gateway has answered. */
 export const session = signal<Session | null>(null)
 
 /** Lead somebody whose sign-in was ended to the page that says so; nobody else. */

@@ -830,7 +830,7 @@ const COMMANDS = [
   'set the loop=Ändern der Schleife',
 ].join('|')
 
-/** What the lab says, by code; the placeholders are those of the English text. */
+/** Texts of the lab by code; the placeholders are those of the English text. */
 export const diagnostics: Templates = {
   a_filled_text: ['ein Text, der nicht leer ist'],
   a_list: ['eine Liste'],

@@ -1,4 +1,4 @@
-/** What the lab tells a person, as JSON and messages have it; see core/base/diagnostic.py. */
+/** A diagnostic as JSON and messages carry it; see core/base/diagnostic.py. */
 import { fill, type Phrase, parse, placeholders, type Values } from './phrase'
 import { templates, words } from './words'
 
@@ -30,7 +30,7 @@ export interface Diagnostic {
   readonly fixes: readonly Fix[]
 }
 
-/** What can be said in each language: a finding, an error, a service's response, a state. */
+/** A text that exists in each language: of a finding, an error, a service's response, a state. */
 export interface Told {
   readonly code: string
   /** In English. */

@@ -11,7 +11,7 @@ export const en = {
   retry: 'Try again',
   yes: 'Yes',
   noAnswer: 'The lab does not answer. Check that it is running and that you are on its network.',
-  /** What a language says around the values of a text of the lab. */
+  /** The words of a language around the values of a text of the lab. */
   joining: {
     and: 'and',
     or: 'or',

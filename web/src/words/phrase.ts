@@ -3,7 +3,7 @@ import { fixed, percent, significant } from './words'
 
 export type Values = Readonly<Record<string, unknown>>
 
-/** What a language says around values: the words of quantities that hold some. */
+/** The words of a language around values: those of quantities that hold words. */
 interface Joining {
   readonly and: string
   readonly or: string

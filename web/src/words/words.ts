@@ -1,10 +1,10 @@
 import { computed, signal } from '@preact/signals'
 import { en, type Words } from './en'
 
-/** What the lab says, by code: templates of the text and of the remedy (phrase.ts). */
+/** Texts of the lab by code: templates of the text and of the remedy (phrase.ts). */
 export type Templates = Readonly<Record<string, readonly [text: string, remedy?: string]>>
 
-/** What the file of a language exports; its name is the language's code, such as de.ts. */
+/** The exports of a language's file, whose name is the language's code, such as de.ts. */
 export interface LanguageFile {
   readonly words: Words
   readonly diagnostics: Templates
@@ -16,7 +16,7 @@ const loaded = signal<LanguageFile & { readonly language: string }>({ language: 
 
 /** The words of the language that is chosen. */
 export const words = computed(() => loaded.value.words)
-/** What the lab says in that language; none in English, in which it comes. */
+/** Texts of the lab in that language; none in English, in which they arrive. */
 export const templates = computed(() => loaded.value.diagnostics)
 export const language = computed(() => loaded.value.language)
 

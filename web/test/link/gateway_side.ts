@@ -35,7 +35,7 @@ export class GatewaySide {
     return this
   }
 
-  /** What the page sends. */
+  /** Take a message of the page. */
   send(data: string | Uint8Array): void {
     if (typeof data === 'string') {
       this.texts.push(JSON.parse(data) as Record<string, unknown>)

@@ -12,7 +12,7 @@ interface StripsProps {
   readonly marks: readonly Mark[]
   /** Row of the workspace's matrix of a sample, from 1. */
   readonly rowOf: (index: number) => number
-  /** Where the motion is, s. */
+  /** Position in the motion, s. */
   readonly time: ReadonlySignal<number>
   readonly onSeek: (time: number) => void
 }

@@ -12,7 +12,7 @@ import { QrCode } from '../motion/lazy'
 /** The gateway expects to be asked this often. */
 const ASK_EVERY_MS = 2000
 
-/** What a headset shows: code and QR, until a phone approves them. */
+/** The page on a headset: code and QR, until a phone approves them. */
 export function ShowCodePage() {
   const api = useApi()
   const [pairing, setPairing] = useState<Pairing | null>(null)

@@ -18,7 +18,7 @@ const VERDICTS = {
 
 interface CheckCardProps {
   readonly check: RobotCheck
-  /** Whether the person may have it checked. */
+  /** True if the person may start a check. */
   readonly enabled: boolean
   readonly onSeek: ((time: number) => void) | null
 }
@@ -65,7 +65,7 @@ function Finding({
   )
 }
 
-/** What a check says of the motion that a robot has loaded, before it is played. */
+/** The check of the motion that a robot has loaded. */
 export function CheckCard({ check, enabled, onSeek }: CheckCardProps) {
   const [all, setAll] = useState(false)
   const w = words.value.check

@@ -41,7 +41,7 @@ function useCheck({ robot, playback }: RobotView, begins: boolean): RobotCheck {
   return check
 }
 
-/** Where the trajectory grasps and releases; a click goes there. The numbers are those in 3D. */
+/** The places at which the trajectory grasps and releases; a click seeks to one. The numbers are those in 3D. */
 function Targets({ view }: { view: RobotView }) {
   const { may } = useLab()
   const w = words.value.lab

@@ -16,7 +16,7 @@ function stateOf(label: string): StateName {
   return STATE_NAMES.find((name) => name === label) ?? 'READY'
 }
 
-/** Where the system is on its timeline, over the segments. */
+/** The position of the system on its timeline, over the segments. */
 function Playhead({ player, height }: { player: RemotePlayer; height: number }) {
   const line = useRef<SVGLineElement>(null)
   useEffect(() => {

@@ -7,7 +7,7 @@ interface TimelineProps {
   readonly player: RemotePlayer
   /** Hz, of the frames */
   readonly rate: number
-  /** Whether the person may play, seek and set the speed. */
+  /** True if the person may play, seek and set the speed. */
   readonly enabled: boolean
   readonly marks?: readonly TimeMark[]
 }

@@ -91,7 +91,7 @@ function Finding(props: FindingsProps & { finding: Diagnostic; number: number })
   )
 }
 
-/** What the converter found; the numbers are those of plots and 3D. */
+/** The findings of the converter; the numbers are those of plots and 3D. */
 export function Findings(props: FindingsProps) {
   const w = words.value.upload
   return (

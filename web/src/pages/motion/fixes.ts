@@ -37,7 +37,7 @@ export function optionLabels(options: ConvertOptions, words: Words): string[] {
     .map(([option, value]) => fixLabel({ option, value: String(value), matlab: '' }, words))
 }
 
-/** What no other robot mends: the file itself cannot be read, or holds no motion. */
+/** Codes that no other robot mends: the file cannot be read, or holds no motion. */
 const OF_THE_FILE = new Set([
   'missing',
   'unsupported_format',

@@ -4,7 +4,7 @@ import { Devices } from './devices'
 import { PeopleList } from './people_list'
 import './people.css'
 
-/** Who is let in, and with which devices. */
+/** The people of the lab, and their devices. */
 export function PeoplePage() {
   const current = session.value
   return (

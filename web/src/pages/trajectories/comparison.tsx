@@ -32,7 +32,7 @@ function inWords(motion: MotionDocument, otherMotion: MotionDocument): string {
   return w.deviation(joint?.name ?? '', amount, number(largest.time, 2), largest.row)
 }
 
-/** How far two motions are apart, in words. */
+/** Return the deviation of two motions, in words. */
 export function Comparison({ id, other, motion, otherMotion, onClose }: ComparisonProps) {
   const w = words.value.trajectories
   const text = useMemo(() => inWords(motion, otherMotion), [motion, otherMotion, words.value])

@@ -38,7 +38,7 @@ interface MenuProps {
   onRemoved?: () => void
 }
 
-/** What can be done with a trajectory. */
+/** The actions on a trajectory. */
 export function TrajectoryMenu({ catalogue, info, onRemoved }: MenuProps) {
   const w = words.value.trajectories
   return (

@@ -19,7 +19,7 @@ export type Stage =
   | { readonly kind: 'converting' }
   | { readonly kind: 'loading' }
 
-/** What a person chose for a conversion. */
+/** A person's choices for a conversion. */
 interface Choice {
   readonly robot: string
   readonly effector: string

@@ -13,7 +13,7 @@ function label(stage: Stage): string {
   return stage.kind === 'idle' ? '' : w[stage.kind]
 }
 
-/** Where a file is on its way, and the way back. It shows after 300 ms: most files are faster. */
+/** The progress of a file, and how to cancel it. It shows after 300 ms: most files are faster. */
 export function Progress({ flow }: { flow: UploadFlow }) {
   const [shown, setShown] = useState(false)
   useEffect(() => {

@@ -31,7 +31,7 @@ function title(flow: UploadFlow, result: Result): string {
   return w.refused(robotName(flow, choice.robot))
 }
 
-/** What became of a file: evidence, motion, findings, and what to do next. */
+/** The outcome of a file: evidence, motion, findings, and the next steps. */
 export function Verdict({ flow, result, file }: VerdictProps) {
   const w = words.value
   const selected = useSignal(0)

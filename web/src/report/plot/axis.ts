@@ -4,7 +4,7 @@ import { number } from '../../words/words'
 // From here on an axis of time shows minutes and hours, s.
 const LONG = 100
 const HOUR = 3600
-// What may lie between two marks of it, s.
+// Allowed distances between two marks, s.
 const STEPS = [1, 2, 5, 10, 20, 30, 60, 120, 300, 600, 1200, 1800].concat(
   [1, 2, 6, 12, 24, 24 * 7, 24 * 365].map((hours) => hours * HOUR),
 )

@@ -50,7 +50,7 @@ export function spanOf(strip: Strip): [number, number] {
   const near = NEAR * (high - low)
   if (strip.upper !== null && strip.upper <= high + near) high = Math.max(high, strip.upper)
   if (strip.lower !== null && strip.lower >= low - near) low = Math.min(low, strip.lower)
-  // What rests stands in the middle, and does not tremble by rounding.
+  // A value at rest stands in the middle, without jitter from rounding.
   const least = strip.unit === '°' ? LEAST_DEGREES : Math.max(Math.abs(high), 1e-3) * 0.02
   const missing = Math.max(least - (high - low), 0) / 2
   const margin = 0.08 * Math.max(high - low, least)
@@ -205,7 +205,7 @@ interface ForbiddenProps {
   y(value: number): number
 }
 
-/** What lies beyond a limit, hatched, its value in the gutter; an arrow where it is far away. */
+/** The range beyond a limit, hatched, with its value in the gutter; an arrow if it is far away. */
 function Forbidden({ value, unit, above = false, low, high, y }: ForbiddenProps) {
   if (value === null || !Number.isFinite(value)) return null
   const far = value < low || value > high
@@ -228,7 +228,7 @@ function Forbidden({ value, unit, above = false, low, high, y }: ForbiddenProps)
   )
 }
 
-/** What the forbidden ranges of all plots are filled with: once a page. */
+/** The pattern of the forbidden ranges of all plots: once a page. */
 export function Hatch() {
   return (
     <svg class="hatch" aria-hidden="true" width="0" height="0">

@@ -20,7 +20,7 @@ function flat([x = 0, y = 0, z = 0]: readonly number[]): Flat {
   return [along(RIGHT), along(UP)]
 }
 
-/** What puts the ways of a class into a picture. */
+/** Scale of the paths of a class in a picture. */
 export interface Scale {
   readonly factor: number
   readonly middle: Flat

@@ -196,7 +196,7 @@ function Row({ kind, robot, runs, duration }: RowProps) {
   )
 }
 
-/** What the colours and signs mean, of those that occur. */
+/** The legend of the colours and signs that occur. */
 function Keys({ robots, duration }: { robots: readonly RobotFacts[]; duration: number }) {
   const w = words.value.report
   const labels = new Set(

@@ -18,7 +18,7 @@ const VIEWS = [
   ['side', 0, 2],
   ['front', 1, 2],
 ] as const
-// What is smaller stands in the middle of a view of 5 cm.
+// A smaller path stands in the middle of a view of 5 cm.
 const SMALLEST = 0.05
 const MARGIN = 1.12
 

@@ -22,7 +22,7 @@ const TAB_MARGIN = 2.5
 export interface Tab {
   readonly id: string
   readonly words: string
-  /** What it says that changes by itself, as with time: it is painted anew where this is another. */
+  /** Return the text that changes by itself, for example with time; the tab is repainted when it differs. */
   says?(): string
   draw(pen: Pen): void
 }
@@ -46,14 +46,14 @@ export class Board {
   private noticedAt = 0
   private now = 0
   private askedAt = 0
-  /** What its tab said when it was asked last. */
+  /** The changing text of the tab when it was last read. */
   private said = ''
 
   constructor(ports: Surroundings) {
     this.panel = new Panel(BOARD_WIDTH, BOARD_HEIGHT, (pen) => this.draw(pen), ports)
   }
 
-  /** What is wrong as long as it is: shown where nothing newer is. */
+  /** A problem that lasts; shown when there is no newer sentence. */
   set standing(text: string) {
     if (text === this.stands) return
     this.stands = text

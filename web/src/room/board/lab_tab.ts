@@ -32,7 +32,7 @@ export function labTab(ports: TabPorts, follower: LabFollower, stats: Stats): Ta
   let scenes: readonly string[] = []
   let bags: readonly string[] = []
   let listed = false
-  /** What the recorder did when its bags were listed: each recording adds one. */
+  /** State of the recorder when its bags were listed: each recording adds one. */
   let listedWhile = -1
   let firstScene = 0
   let firstBag = 0

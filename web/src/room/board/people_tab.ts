@@ -16,7 +16,7 @@ export interface Person {
 const MOST_LISTED = 8
 const ROW = 36
 
-/** Who is here, and what only instructors may do to all. */
+/** The people in the room, and the button with which instructors pause everything. */
 export function peopleTab(
   ports: Speech & Lab,
   people: People,

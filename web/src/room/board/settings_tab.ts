@@ -8,7 +8,7 @@ import { BOARD_WIDTH, BOTTOM, EDGE, type Tab, TOP } from './board'
 const SWITCH = 270
 const ABOUT = EDGE + SWITCH + 20
 
-/** What somebody chooses for their own eyes and hands. */
+/** The tab of a person's own settings. */
 export function settingsTab(ports: Speech, settings: Settings, tour: () => void): Tab {
   const w = ports.words.room
   const rows: readonly (readonly [string, Switch, string, string])[] = [
@@ -40,7 +40,7 @@ export function settingsTab(ports: Speech, settings: Settings, tour: () => void)
 /** s: a headset says what it knows of the room within this. */
 const SCAN_WAIT_S = 3
 
-/** How the room stands, for somebody in it. */
+/** The state of the room, for a person in it. */
 interface RoomStanding {
   /** Surfaces that the lab knows. */
   readonly surfaces: number
@@ -64,14 +64,14 @@ export function roomLines(room: RoomStanding, words: Words['room']): string[] {
   return lines
 }
 
-/** What the room tab shows and switches. */
+/** The lines and switches of the room tab. */
 export interface RoomSwitches {
   lines(): readonly string[]
   readonly grid: boolean
   toggleGrid(): void
-  /** Whether headsets can be aligned here by touch. */
+  /** True if headsets can be aligned here by touch. */
   readonly canAlign: boolean
-  /** Whether a touch is awaited. */
+  /** True while a touch is awaited. */
   readonly aligning: boolean
   align(): void
   readonly canUndo: boolean

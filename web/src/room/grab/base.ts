@@ -39,11 +39,11 @@ interface BaseGrab {
   /** About z, rad. */
   heading: number
   moved: boolean
-  /** Where the pointer lands, and the surface there. */
+  /** The landing of the pointer, and the surface there. */
   readonly land: Place
   /** From there to the base; z is not used. */
   readonly offset: Vector3
-  /** Where the first pointer took hold. */
+  /** Place of the base when the first pointer took hold. */
   readonly start: Vector3
   /** Direction from the first pointer to the second, rad. */
   between: number

@@ -39,7 +39,7 @@ export class ArmShape {
     return least - RADIUS
   }
 
-  /** Whether a ray meets the arm; fills `hit` where it does. */
+  /** Return whether a ray meets the arm; if so, fill `hit`. */
   cast(ray: Ray, hit: Hit): boolean {
     let least = Number.POSITIVE_INFINITY
     for (const bone of this.bones) {

@@ -9,12 +9,12 @@ export class Moves<T> {
     private readonly call: (value: T) => Promise<unknown>,
   ) {}
 
-  /** Whether a value is unanswered. */
+  /** True while a value is unanswered. */
   get unanswered(): boolean {
     return this.calling
   }
 
-  /** Whether a value may be sent now, s. */
+  /** Return whether a value may be sent now, s. */
   due(now: number): boolean {
     return !this.calling && now - this.sentAt > this.period
   }

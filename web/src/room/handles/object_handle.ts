@@ -45,7 +45,7 @@ export class ObjectHandle implements Target {
   private readonly trace = newTrace()
   private readonly moves = new Moves<Move>(PERIOD, (move) => this.tell(move))
   private object: SceneObject
-  /** Whether a gripper is about to let go of it. */
+  /** True while a gripper is releasing it. */
   private detaching = false
   private now = 0
   private releasedAt = Number.NEGATIVE_INFINITY
@@ -132,7 +132,7 @@ export class ObjectHandle implements Target {
     this.moves.send({ pose: this.pose(), held: true, velocity: STILL }, now)
   }
 
-  /** Whether another client moves it; an object that a closed page still holds can be taken. */
+  /** True while another client moves it; an object that a closed page still holds can be taken. */
   private get isCarriedByOthers(): boolean {
     return this.object.held_by === 'hand' && this.now - this.movedAt < IN_HAND
   }

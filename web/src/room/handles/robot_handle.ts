@@ -48,10 +48,10 @@ export class RobotHandle implements Target {
   private hovering = 0
   private releasedAt = Number.NEGATIVE_INFINITY
   private now = 0
-  /** Where the lab says it stands; null: not known yet. */
+  /** Its pose as the lab reports it; null: unknown. */
   private standing: Pose | null = null
   private readonly moves = new Moves<Pose>(PERIOD, (pose) => this.tell(pose))
-  /** Whether it is shown where its holder has it, and not where the lab says. */
+  /** True while it is shown at its holder instead of at the pose of the lab. */
   private ahead = false
 
   /** stick: of a pointer's controller. */

@@ -16,7 +16,7 @@ const FILES = import.meta.glob<string>(
 const OTHER = 'generic-trigger'
 const JOINTS = 25
 
-/** What the types of WebXR lack. */
+/** Fields that the WebXR types lack. */
 interface JointPoses {
   fillPoses?(spaces: Iterable<XRSpace>, base: XRSpace, into: Float32Array): boolean
 }

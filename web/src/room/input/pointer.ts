@@ -11,7 +11,7 @@ const RELEASE = 0.009
 /** s between two presses of one finger. */
 const COOLDOWN_S = 0.25
 
-/** Where a pointer meets a target. */
+/** The point at which a pointer meets a target. */
 export interface Hit {
   /** m from the pointer's origin */
   distance: number
@@ -37,9 +37,9 @@ export type Signal =
 
 /** Something that pointers can point at: a panel, a robot's base, an object. */
 export interface Target {
-  /** Whether the ray meets it; fills `hit` where it does. */
+  /** Return whether the ray meets it; if so, fill `hit`. */
   cast(ray: Ray, hit: Hit): boolean
-  /** Whether a hand at `point` can take hold of it. */
+  /** Return whether a hand at `point` can take hold of it. */
   reaches?(point: Vector3): boolean
   /** Return how far a fingertip is in front of its face, m, and fill u and v; NaN: not before it. */
   face?(point: Vector3, hit: Hit): number
@@ -54,7 +54,7 @@ export abstract class Pointer {
   readonly hit: Hit = newHit()
   hovered: Target | null = null
   captured: Target | null = null
-  /** Where it holds things: the grip, the pinch, the fingertip; for a mouse its ray's origin. */
+  /** The place at which it holds things: grip, pinch or fingertip; for a mouse the origin of its ray. */
   readonly place = new Vector3()
   readonly ray = new Ray()
   tracked = false

@@ -8,7 +8,7 @@ const DEAD_ZONE = 0.2
 
 interface Source {
   readonly source: XRInputSource
-  /** Whether its place was measured at least once: a device that only ever guesses is believed. */
+  /** True once its place was measured: a device that only guesses is believed. */
   measured: boolean
   readonly ray: RayPointer
   readonly touch: TouchPointer
@@ -80,7 +80,7 @@ export class XrInputs {
     }
   }
 
-  /** Whether hands are tracked, and no controllers held. */
+  /** True if hands are tracked and no controllers are held. */
   get hasHands(): boolean {
     for (const { source } of this.sources.values()) if (source.hand !== undefined) return true
     return false

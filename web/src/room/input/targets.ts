@@ -1,6 +1,6 @@
 import type { Target } from './pointer'
 
-/** What there is to point at. A pointer must forget what is removed. */
+/** The targets of all pointers. A pointer must forget a target that is removed. */
 export class Targets {
   readonly all: Target[] = []
 

@@ -19,7 +19,7 @@ const FREE = 0.03
 const WIDE = { width: 0.38, height: 0.86 } as const
 const TALL = { width: 0.94, height: 0.42 } as const
 
-/** Where a panel goes in a picture that is taller than wide. */
+/** The edge at which a panel stands in a picture that is taller than wide. */
 export type Edge = 'top' | 'bottom'
 
 const local = new Vector3()

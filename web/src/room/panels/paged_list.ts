@@ -11,7 +11,7 @@ export interface Choice {
   readonly note: string
 }
 
-/** What a paged list does. */
+/** The actions of a paged list. */
 interface ListActions {
   choose(id: string): void
   back(): void

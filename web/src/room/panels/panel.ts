@@ -19,10 +19,10 @@ const AFTER_NAMES = 12
 const normal = new Vector3()
 const local = new Vector3()
 
-/** What a panel does beside what was pressed: a sound, a pulse. */
+/** The feedback of a panel to a pointer: a sound, a pulse. */
 export type Feedback = (what: 'hover' | 'press', signal: Signal) => void
 
-/** What a panel needs of the room. */
+/** The parts of the room that a panel uses. */
 export interface Surroundings {
   readonly feedback: Feedback
   /** A picture is due. */
@@ -41,10 +41,10 @@ export class Panel implements Target {
   private zones: readonly Zone[] = []
   private hovered = ''
   private active: Zone | null = null
-  /** Where a drag was last, 0 to 1. */
+  /** Last position of a drag, 0 to 1. */
   private share = 0
   private due = true
-  /** How many pointers are over it: it does not move away under one. */
+  /** Number of pointers over it: it does not move away under one. */
   pointers = 0
 
   /** Sizes in mm. draw: paints it whole. */

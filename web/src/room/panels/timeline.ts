@@ -15,7 +15,7 @@ const READ_PERIOD = 0.1
 const ROW = 26
 const BELOW = 10
 
-/** Where a timeline lies in its panel, mm from the left top corner. */
+/** The rectangle of a timeline in its panel, mm from the left top corner. */
 export interface Track {
   readonly x: number
   readonly y: number
@@ -37,7 +37,7 @@ export class Timeline {
   private readonly bar = new Mesh(new PlaneGeometry(1, 1), this.flat)
   private readonly knob = new Mesh(new CircleGeometry(0.5, 24), this.flat)
   private readonly readout: Readout
-  /** How often it was dragged and let go. */
+  /** Number of completed drags. */
   scrubs = 0
   private scrub: number | null = null
   private soughtAt = 0

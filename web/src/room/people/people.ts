@@ -22,7 +22,7 @@ interface Person {
   seenAt: number
 }
 
-/** Where one's hands are; null: that one is not tracked. */
+/** Places of a person's hands; null: not tracked. */
 interface Hands {
   hand(side: 'left' | 'right'): Vector3 | null
 }
@@ -33,7 +33,7 @@ interface Present {
   readonly part: Part
 }
 
-/** Who else is in the room, and telling them where we are. */
+/** The other people in the room: receives their presence and publishes ours. */
 export class People {
   private readonly people = new Map<string, Person>()
   private readonly shapes = new AvatarShapes()

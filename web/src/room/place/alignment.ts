@@ -9,7 +9,7 @@ import type { Place } from './supports'
 const AWAY = 1.5
 const at = new Vector3()
 
-/** Where the desktop view looks from. */
+/** The eyes of the desktop view. */
 export const SEATED: Viewer = { head: new Vector3(0, 1.6, 0.9), look: new Quaternion() }
 
 /** Puts the scene before who enters, unless an anchor of an earlier session says where it stands. */
@@ -33,7 +33,7 @@ export class Alignment {
     })
   }
 
-  /** Whether the scene waits to be put before the eyes. */
+  /** True if the scene is still to be put before the eyes. */
   get due(): boolean {
     if (this.restoring || this.anchor.waits) return false
     return !this.aligned && !this.anchor.found

@@ -1,7 +1,7 @@
 import { Matrix4, type Object3D, type Quaternion, Vector3 } from 'three'
 
-/** What holds the scene in place: a persistent anchor, one of this session, or nothing but the floor
- * space itself. */
+/** The kind of anchor that holds the scene in place: a persistent one, one of this session, or none
+ * but the floor space. */
 export type Hold = 'kept' | 'session' | 'none'
 
 const KEY = 'mrlab.room.anchor'
@@ -31,12 +31,12 @@ export class SceneAnchor {
     private readonly refused: (hold: Hold) => void,
   ) {}
 
-  /** Whether the anchor of an earlier session is looked for. */
+  /** True while the anchor of an earlier session is searched for. */
   get waits(): boolean {
     return performance.now() < this.waitsUntil
   }
 
-  /** Whether the group is where an anchor of an earlier session was found. */
+  /** True if the group is at an anchor of an earlier session. */
   get found(): boolean {
     return this.anchor !== null && Number.isNaN(this.waitsUntil)
   }

@@ -47,7 +47,7 @@ export class RoomScan {
     private readonly tell: (surfaces: Surface[]) => void,
   ) {}
 
-  /** How many surfaces the headset knows, the floor left out. */
+  /** Number of surfaces that the headset knows, without the floor. */
   get count(): number {
     return this.known.size
   }

@@ -12,7 +12,7 @@ export interface Support {
   readonly outline: Float64Array
 }
 
-/** What supports are read from: the fields of mrlab_msgs/msg/Surface. */
+/** The fields of mrlab_msgs/msg/Surface from which supports are made. */
 export interface SurfaceShape {
   readonly name: string
   readonly label: string
@@ -63,7 +63,7 @@ export function supportsOf(surfaces: readonly SurfaceShape[]): Support[] {
   return [...found, ENDLESS]
 }
 
-/** Whether a point is on a support; even-odd rule. */
+/** Return whether a point is on a support; even-odd rule. */
 export function isOn({ outline }: Support, x: number, y: number): boolean {
   const count = outline.length / 2
   if (count === 0) return true
@@ -104,7 +104,7 @@ export function landing(
   return least < Number.POSITIVE_INFINITY
 }
 
-/** Whether a place keeps `distance`, m, from others on the same level. */
+/** Return whether a place keeps `distance`, m, from others on the same level. */
 export function isClear(
   place: Place,
   distance: number,

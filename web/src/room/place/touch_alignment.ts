@@ -27,7 +27,7 @@ export class TouchAlignment {
   private readonly marks: readonly Mesh[]
   private readonly shape = new SphereGeometry(MARK, 16, 12)
   private readonly look = new MeshBasicMaterial({ color: 0xffe08a, toneMapped: false })
-  /** Where the scene stood before, in the frame of where it stands now: a recentre moves both. */
+  /** The earlier pose of the scene in the frame of its present one: a recentre moves both. */
   private before: Matrix4 | null = null
 
   /** group: what the anchor moves. marks: where the touched points are shown, in the floor space.
@@ -121,7 +121,7 @@ export class TouchAlignment {
 /** m: points that are nearer say too little of a direction. */
 export const NEAREST = 0.4
 
-/** Where the lab's origin is in the floor space, and its heading about the vertical. */
+/** The lab's origin in the floor space, and its heading about the vertical. */
 interface Footing {
   readonly x: number
   readonly z: number

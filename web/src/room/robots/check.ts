@@ -62,7 +62,7 @@ export interface Checks {
 export class PanelCheck {
   private readonly check: RobotCheck
   private readonly stopListening: () => void
-  /** What was loaded when the panel came is not checked by itself. */
+  /** False until the panel has seen its first motion, which is not checked automatically. */
   private followed = false
 
   constructor(

@@ -128,7 +128,7 @@ export class ControlPanel {
     this.timeline.dispose()
   }
 
-  /** Whether it shows how far the robot is from its ghost. */
+  /** True while it shows the deviation of the robot from its ghost. */
   private get compares(): boolean {
     return this.view === 'show' && this.drawings.reference(this.name) !== null
   }
@@ -210,7 +210,7 @@ export class ControlPanel {
     })
   }
 
-  /** What is marked on the timeline: grasps, releases and collisions. */
+  /** Return the marks of the timeline: grasps, releases and collisions. */
   private marks(): Mark[] {
     const w = this.ports.words.room
     const { colours, states } = PANEL_THEME

@@ -6,7 +6,7 @@ import type { Speech } from '../ports'
 
 const TOP = 290
 
-/** What the controls of a robot do. */
+/** The actions of a robot's controls. */
 export interface ControlActions {
   /** verb: a service of the playback. */
   trigger(verb: 'play' | 'pause' | 'stop'): void
@@ -18,9 +18,9 @@ export interface ControlActions {
   remove(): void
 }
 
-/** What the panel itself knows beside how the robot stands. */
+/** State of the panel itself. */
 interface ControlShown {
-  /** What was said last; empty: nothing. */
+  /** The last sentence; empty: none. */
   readonly notice: string
   readonly loaded: boolean
   readonly telemetry: boolean

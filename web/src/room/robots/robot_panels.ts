@@ -72,7 +72,7 @@ export class RobotPanels {
     return halts
   }
 
-  /** How often timelines were dragged. */
+  /** Number of completed drags of all timelines. */
   get scrubs(): number {
     let count = 0
     for (const { control } of this.entries.values()) count += control.scrubs

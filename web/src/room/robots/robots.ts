@@ -28,7 +28,7 @@ export class RoomRobots {
     private readonly stick: (pointer: Pointer, axis: 'x' | 'y') => number,
   ) {}
 
-  /** Where robots stand, with their names for `support`. */
+  /** Return the places of the robots' bases, each with the robot's name as `support`. */
   *bases(): Iterable<Place> {
     for (const name of this.handles.keys()) {
       const base = this.scene.base(name)

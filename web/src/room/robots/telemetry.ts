@@ -90,7 +90,7 @@ export class TelemetryPanel {
     if (this.newest !== null) this.drawGrasp(pen, this.newest, y + 34)
   }
 
-  /** What the gripper bears, as physics says; nothing where it holds nothing. */
+  /** Draw the load of the gripper; nothing if it holds nothing. */
   private drawGrasp(pen: Pen, grasp: Telemetry, y: number): void {
     if (grasp.held_object === '') return
     const w = this.ports.words.room

@@ -20,8 +20,7 @@ interface Drawn {
   course: unknown
 }
 
-/** What is drawn about robots on demand: the tool's path, how far they reach, and the ghost of
- * another motion. */
+/** Drawings at robots on demand: the tool's path, the reach, and the ghost of another motion. */
 export class Drawings {
   private readonly robots = new Map<string, Drawn>()
 

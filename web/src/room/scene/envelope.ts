@@ -30,8 +30,8 @@ function directionOf(corner: number, into: Vector3): Vector3 {
   return into.set(out * Math.cos(turn), out * Math.sin(turn), Math.sin(lift * Math.PI))
 }
 
-/** How far a robot's tool reaches in every direction, within the limits of its joints: the hull of
- * its workspace. It is found over several pictures. */
+/** The hull of a robot's workspace: the reach of its tool in every direction, within the limits of
+ * its joints. It is computed over several pictures. */
 export class Envelope {
   private readonly faces = new BufferGeometry()
   private readonly rings = new BufferGeometry()

@@ -18,7 +18,7 @@ import { hidden } from './depth_material'
 const PERIOD = 0.5
 const KINDS = [MeshStandardMaterial, MeshPhongMaterial, MeshLambertMaterial]
 
-/** What a Quest adds to the depth of its room: its values are those of a projection. */
+/** Fields that a Quest adds to its depth image: the values are those of a projection. */
 interface Projected {
   readonly depthNear?: number
   readonly depthFar?: number
@@ -28,7 +28,7 @@ interface Projected {
  * robot or an object is compared with the depth at its place, so that no pass over the whole picture
  * is needed, and edges are soft. */
 export class Occlusion {
-  /** Whether somebody wants it. */
+  /** True if the person switched it on. */
   wanted = false
   private readonly map = new ExternalTexture()
   private readonly uniforms = {

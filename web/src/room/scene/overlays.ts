@@ -36,8 +36,8 @@ interface Holograms {
   placed: boolean
 }
 
-/** What is drawn beside the robots: cubes where a motion will grasp and release, the place of an
- * impact, and the order in which robots were picked. */
+/** Marks beside the robots: cubes at the grasps and releases of a motion, the place of an impact,
+ * and the order in which robots were picked. */
 export class Overlays {
   private readonly holograms = new Map<string, Holograms>()
   private readonly impacts = new Map<string, Mesh<RingGeometry, MeshBasicMaterial>>()

@@ -10,7 +10,7 @@ const WIDTH = 0.008 // m
 /** From slow to fast: told apart with every kind of colour vision, and on light and dark walls. */
 const RAMP = [0x2f5fd0, 0x2aa6b8, 0x8fd05a, 0xf5d13d, 0xff8a3c].map((each) => new Color(each))
 
-/** Where a motion leads the tool, and how fast. */
+/** The path of the tool in a motion, and its speed. */
 interface ToolSpeeds {
   /** x, y, z, m, in the frame of the base */
   readonly points: Float32Array<ArrayBuffer>

@@ -1,4 +1,4 @@
-/** What a session cannot do without, and what it is asked for besides. */
+/** Features that a session requires, and features that it requests. */
 export const REQUIRED = ['local-floor'] as const
 export const WANTED = [
   'hand-tracking',
@@ -8,7 +8,7 @@ export const WANTED = [
   'hit-test',
 ] as const
 
-/** What makes the picture better where a device has it, and is not missed where not. */
+/** Optional features that improve the picture. */
 export const EXTRA = ['light-estimation'] as const
 /** Asked for in passthrough where a person wants robots hidden behind real things. */
 export const DEPTH = 'depth-sensing'
@@ -19,7 +19,7 @@ export type Mode = 'immersive-ar' | 'immersive-vr'
 /** Why there is no way into the room from here; empty: there is one. */
 type Hindrance = '' | 'no_https' | 'no_webxr' | 'no_device' | 'blocked'
 
-/** What is asked of a browser to find out what it can do. */
+/** The parts of a browser that tell its abilities. */
 interface XrPlatform {
   readonly secure: boolean
   readonly xr: { isSessionSupported(mode: Mode): Promise<boolean> } | undefined

@@ -6,13 +6,13 @@ import type { Ability } from './features'
 /** s: a lab that is there says which robots it has within this. */
 export const SILENCE_S = 6
 
-/** What is known of the way from the lab's robots to a person's eyes. */
+/** The state of each hop between the lab's robots and a person's eyes. */
 export interface Way {
   readonly ability: Ability | null
   readonly link: LinkStatus
   /** s since the link opened; NaN: it is not open. */
   readonly openFor: number
-  /** Whether the lab has said which robots there are, and how many. */
+  /** True once the lab has published its robots; and their number. */
   readonly known: boolean
   readonly robots: number
   /** The files of meshes that could not be read. */

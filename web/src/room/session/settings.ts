@@ -31,15 +31,15 @@ export class Switch {
   }
 }
 
-/** What a person chose for their own eyes and hands; kept in the browser. */
+/** A person's settings, kept in the browser. */
 export class Settings {
   readonly leftHanded = new Switch('left')
   readonly seated = new Switch('seated')
   readonly contrast = new Switch('contrast', matchMedia('(prefers-contrast: more)').matches)
   readonly still = new Switch('still', matchMedia('(prefers-reduced-motion: reduce)').matches)
-  /** Whether real things hide what is behind them. */
+  /** True if real things hide robots and objects behind them. */
   readonly occlusion = new Switch('occlusion')
-  /** Whether the tour was taken or skipped. */
+  /** True once the tour was taken or skipped. */
   readonly toured = new Switch('toured')
 }
 

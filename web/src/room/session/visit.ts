@@ -12,7 +12,7 @@ const LIFT = 0.4
 
 /** Somebody's stay in the room with a headset: its session and what it points with. */
 export class Visit {
-  /** Whether a headset is in the room. */
+  /** True while a headset is in the room. */
   readonly inside = signal(false)
   inputs: XrInputs | null = null
   private current: RoomSession | null = null
@@ -33,12 +33,12 @@ export class Visit {
     return this.current?.session ?? null
   }
 
-  /** Whether the real room is seen. */
+  /** True if the real room is visible. */
   get passthrough(): boolean {
     return this.current?.mode === 'immersive-ar'
   }
 
-  /** What the session came without. */
+  /** The features that the session lacks. */
   get missing(): readonly Feature[] {
     return this.current?.missing ?? []
   }

@@ -1,4 +1,4 @@
-/** What of a member its segment shows. */
+/** The fields of a member that its segment shows. */
 interface TimedMember {
   readonly robot: string
   readonly start: number

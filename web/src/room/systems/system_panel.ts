@@ -40,7 +40,7 @@ function stateOf({ label }: RobotSystem): StateName {
 export class SystemPanel {
   readonly panel: Panel
   private view: View = 'control'
-  /** Who is to be taken out; empty: the system is to be dissolved. */
+  /** The member to be taken out; empty: the system is to be dissolved. */
   private leaving = ''
   private notice = ''
   private noticedAt = 0

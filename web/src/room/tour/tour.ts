@@ -1,13 +1,13 @@
-/** What a newcomer does, in this order. */
+/** The steps of the tour, in order. */
 export const STEPS = ['place', 'load', 'play', 'scrub', 'halt'] as const
 export type Step = (typeof STEPS)[number]
 
-/** What is seen of the lab, for a tour. */
+/** State of the lab that a tour observes. */
 export interface Seen {
   readonly robots: number
   readonly loaded: boolean
   readonly playing: boolean
-  /** How often somebody here dragged a timeline. */
+  /** Number of completed drags of timelines in this room. */
   readonly scrubs: number
   readonly halted: boolean
 }

@@ -13,7 +13,7 @@ const BELOW = 24 // mm, of the board
 const PROMPT = 0.024 // of the distance to it
 const OVER = 0.07 // m, of a prompt over the hand
 
-/** How somebody points: what a prompt says depends on it. */
+/** The input device of a person, on which the text of a prompt depends. */
 type Means = 'mouse' | 'controller' | 'hand'
 
 /** The tour's own panel below the board, and a prompt at the working hand. */

@@ -21,7 +21,7 @@ const NUMBER = 0.017 // as a part of the distance to it
 const SAME_PLACE = 0.02 // m, between numbers that would hide each other
 const MOST_NUMBERS = 24
 
-/** Where a trajectory grasps or releases: the fields of mrlab_msgs/msg/GraspTarget. */
+/** A place at which a trajectory grasps or releases: the fields of mrlab_msgs/msg/GraspTarget. */
 export interface ShownTarget {
   /** s from the first frame */
   readonly time: number
@@ -31,8 +31,8 @@ export interface ShownTarget {
   readonly tool0: Pose
 }
 
-/** Where the loaded trajectory closes the gripper (filled) and opens it (hollow), numbered as in the
- * list beside the picture. */
+/** Marks at which the loaded trajectory closes the gripper (filled) and opens it (hollow), numbered
+ * as in the list beside the picture. */
 export class GraspMarks {
   /** To be placed in the robot's base. */
   readonly group = new Group()
@@ -91,7 +91,7 @@ export class GraspMarks {
 const MOST = 64
 const DOT = 0.012 // m
 
-/** Where robots touch something. */
+/** The contact points of robots. */
 export class Contacts {
   readonly mesh: InstancedMesh<SphereGeometry, MeshBasicMaterial>
   private readonly matrix = new Matrix4()

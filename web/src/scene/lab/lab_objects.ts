@@ -20,7 +20,7 @@ interface Entry {
   /** Of the object in the tool0 that holds it. */
   readonly grip: Matrix4
   look: string
-  /** What is drawn of it; null: nothing yet. */
+  /** Its drawing; null: none yet. */
   instance: Instance | null
   seen: boolean
 }

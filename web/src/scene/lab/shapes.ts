@@ -14,7 +14,7 @@ import type { Label } from '../stage/labels'
 import type { Stage } from '../stage/stage'
 import type { KindPart } from './instances'
 
-/** What an object looks like: the fields of mrlab_msgs/msg/SceneObject that say so. */
+/** The fields of mrlab_msgs/msg/SceneObject that describe the look of an object. */
 export interface Shape {
   readonly size: { readonly x: number; readonly y: number; readonly z: number }
   readonly color: {

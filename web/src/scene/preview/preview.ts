@@ -13,7 +13,7 @@ import { PreviewScene } from './preview_scene'
 const MOST_MARKS = 60
 
 interface PreviewOptions {
-  /** Where meshes come from; the gateway's /assets/ where none is given. */
+  /** The source of meshes; by default the gateway's /assets/. */
   readonly meshes?: MeshSource
   readonly words?: SceneWords
   /** A second motion of a robot with the same joints, which goes along as a ghost. */

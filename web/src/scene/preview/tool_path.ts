@@ -9,7 +9,7 @@ import type { SceneTheme } from '../stage/theme'
 const MOST_POINTS = 1200
 const WIDTH = 2.5 // CSS pixels
 
-/** Where the tool goes: one place a sampled frame, in the frame of the robot's base. */
+/** The path of the tool: one place for each sampled frame, in the frame of the robot's base. */
 export interface Track {
   readonly frames: Uint32Array
   /** x, y, z, m, of each */

@@ -1,6 +1,6 @@
 import { type Material, type Mesh, Vector2 } from 'three'
 
-/** Which of two levels of detail is shown, and how far the one has dissolved into the other. */
+/** The level of detail that is shown, and how far it has dissolved into the other. */
 export class CrossFade {
   /** Of the far level, 0 to 1; the near level has the rest. */
   share = 0

@@ -20,8 +20,8 @@ const part = new Box3()
 
 export type Look = 'own' | 'grey' | 'ghost'
 
-/** What is drawn of a robot: its links and hoses as one mesh, and as one of few triangles for a
- * robot that stands far off. */
+/** The drawing of a robot: its links and hoses as one mesh, and a mesh of few triangles for a robot
+ * that is far away. */
 export class DrawnBody {
   private readonly levels: FadingLevels
   private readonly bodies: RobotBody[] = []

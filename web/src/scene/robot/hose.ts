@@ -13,7 +13,7 @@ const RINGS = 22 // of which the hose bends; between two it is straight
 const SAMPLES = 40 // of the curve, to find its length
 const ROUNDS = 12 // of halving, to find how far it bulges
 
-/** Where a hose ends: a point of a link, m, and the direction in which it leaves there. */
+/** An end of a hose: a point of a link, m, and the direction in which the hose leaves it. */
 interface HoseEnd {
   readonly link: Object3D
   readonly point: Vector3
@@ -153,14 +153,14 @@ const CLAMPED = 1.6 // of its length, radii
 const RUBBER = { colour: [0.0105, 0.0105, 0.0115], rough: 0.62 } as const
 const CLAMP = { colour: [0.09, 0.092, 0.1], rough: 0.45 } as const
 
-/** How finely hoses are drawn. */
+/** Resolution of drawn hoses. */
 export interface HoseDetail {
   readonly sides: number
   readonly ribbed: boolean
 }
 
 interface Circle {
-  /** Which ring, with a part of the way to the next one. */
+  /** The ring, with the fraction of the way to the next one. */
   readonly at: number
   readonly radius: number
   /** m along the hose from there */

@@ -4,7 +4,7 @@ import type { RobotBody } from './robot_body'
 
 /** A model drawn from packed files in place of the meshes of its links. */
 export interface Level {
-  /** What the URIs of the meshes begin with that it stands for. */
+  /** Prefix of the URIs of the meshes that it replaces. */
   readonly meshes: string
   readonly near: string
   readonly far: string

@@ -10,7 +10,7 @@ import { bodyMaterial } from './robot_body'
 
 /** The materials that robots share. */
 export class Looks {
-  /** Whether the person asked for less motion. */
+  /** Return whether the person prefers reduced motion. */
   still: () => boolean = reducedMotion
   readonly grey = new MeshStandardMaterial({ roughness: 0.75, metalness: 0 })
   readonly failing = new MeshStandardMaterial({ roughness: 0.5, metalness: 0 })

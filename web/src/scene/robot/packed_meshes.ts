@@ -21,7 +21,7 @@ export type Paint = readonly [number, number, number, number, number]
 /** Left, top, right, bottom of a drawing in the atlas, and the paint that has its finish. */
 export type Drawing = readonly [number, number, number, number, number]
 
-/** What the pictures of a packed file hold: its materials, and what is drawn on its links. */
+/** The pictures of a packed file: its materials, and the drawings on its links. */
 export interface Painted {
   readonly palette: readonly Paint[]
   /** The share of the atlas's height that is the palette; without one there are no drawings. */

@@ -48,7 +48,7 @@ export class SceneRobot {
   readonly troubles: string[] = []
   /** Resolves when every mesh, or its placeholder, is there. */
   readonly ready: Promise<void>
-  /** How many meshes there are, and how many of them are there by now. */
+  /** The number of meshes, and the number of those loaded. */
   meshCount = 0
   meshesHere = 0
   /** The frame that works: the end effector's tcp, else tool0, else the last link. */

@@ -40,7 +40,7 @@ export function drawsInSoftware(renderer: WebGLRenderer): boolean {
   return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(String(name))
 }
 
-/** Where a lab is drawn: a page's picture, or the room. */
+/** The host of a lab's scene: a page's picture, or the room. */
 export interface SceneHost {
   /** The lab's frame `world`: z up, m. */
   readonly world: Object3D

@@ -56,7 +56,7 @@ export class Stage {
   private readonly themed = new Set<(theme: SceneTheme) => void>()
   private readonly undo: (() => void)[] = []
   private readonly scratch = new Vector3()
-  /** What the picture shows whole, in the scene's frame. */
+  /** Points that the picture must contain, in the scene's frame. */
   private framed: Vector3[] = []
   private touched = false
   private request = 0

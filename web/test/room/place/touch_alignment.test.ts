@@ -3,7 +3,7 @@ import { describe, expect, it } from 'vitest'
 import { footingOf, stand } from '../../../src/room/place/touch_alignment'
 import { stand as standInRos } from '../../../src/room/scene/frames'
 
-/** Where the lab's place `at` comes to be in the floor space. */
+/** Return the place in the floor space of the lab's place `at`. */
 function placed(first: Vector3, second: Vector3, at: Vector3, floor = 0): number[] {
   const footing = footingOf(first, second)
   if (footing === null) throw new Error('too near')
