@@ -43,7 +43,7 @@ function preferred(): string {
   )
 }
 
-/** Put the report in the place of what stands there without a script. */
+/** Replace the static text, which is read without a script, by the report. */
 async function start(data: ShownData): Promise<void> {
   const root = document.getElementById('report')
   if (root === null) return

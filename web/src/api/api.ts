@@ -53,7 +53,7 @@ export interface Api {
 
   people(): Promise<readonly Person[]>
   invite(person: NewPerson): Promise<InvitationLink>
-  /** A new link for somebody who lost the password. */
+  /** A new link for a person who lost the password. */
   inviteAgain(name: string): Promise<InvitationLink>
   removePerson(name: string): Promise<void>
   invitation(token: string): Promise<Invitation>
@@ -63,7 +63,7 @@ export interface Api {
   revokeDevice(id: string): Promise<void>
   startPairing(): Promise<Pairing>
   pairing(secret: string): Promise<PairingState>
-  /** Return what the device calls itself. */
+  /** Return the name of the device. */
   approvePairing(code: string, role: Role): Promise<string>
 }
 

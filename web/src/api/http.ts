@@ -233,7 +233,7 @@ export class HttpApi implements Api {
   }
 }
 
-/** Return what a headset calls itself in the list of devices, as far as its browser says. */
+/** Return the name of a headset in the list of devices, as far as its browser reports it. */
 function deviceName(): string {
   const agent = navigator.userAgent
   return /Quest( \d)?|Pico[ \w]*|Vision|iPhone|iPad|Android/.exec(agent)?.[0].trim() ?? 'headset'

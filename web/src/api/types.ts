@@ -51,7 +51,7 @@ export interface Upload {
   readonly sha256: string
 }
 
-/** Options of ConvertTrajectory; what is absent keeps its default. */
+/** Options of ConvertTrajectory; an absent one keeps its default. */
 export interface ConvertOptions {
   readonly frame_rate?: number
   readonly variable?: string
@@ -165,7 +165,7 @@ export interface Device {
   /** s since the epoch */
   readonly created: number
   readonly last_seen: number
-  /** The one that asks. */
+  /** The device of this session. */
   readonly this: boolean
 }
 
@@ -194,7 +194,7 @@ export interface CheckFinding extends Diagnostic {
   readonly other: string
 }
 
-/** A check of what a robot of the lab is about to play. */
+/** A check of the motion that a robot of the lab has loaded. */
 export interface Check {
   readonly state: 'none' | 'waiting' | 'running' | 'done' | 'failed'
   readonly robot: string

@@ -84,7 +84,7 @@ export class ClassSteps {
     return motion
   }
 
-  /** Have the motion that comes next here before it is asked for. */
+  /** Load the next motion in advance. */
   prepare(): void {
     const next = this.submissions.value[this.place.value + 1]
     if (next?.motion) this.motion(next.key).catch(() => undefined)

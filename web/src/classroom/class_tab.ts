@@ -73,7 +73,7 @@ export function classTab(
     const missed = PANEL_THEME.states.PAUSED
     if (!motion) pen.lines(EDGE, y, spoken(found), TEXT.small, undefined, missed, 2)
     const top = motion ? y : y + 2 * ROW
-    // what was lost comes first where not all fit
+    // Lost points come first if not all fit.
     const lost = marks.filter(({ passed }) => !passed)
     const shown = [...lost, ...marks.filter(({ passed }) => passed)].slice(0, MOST_MARKS)
     shown.forEach((mark, i) => {

@@ -7,6 +7,7 @@ export const SUBMISSION = 'class:'
 /** A class that a teacher steps through in the room. */
 export interface Lesson {
   readonly steps: ClassSteps
-  /** Publish a submission's motion for the teacher; return its id, rejects with why it cannot be. */
+  /** Publish a submission's motion for the teacher; return its id, rejects with why it cannot
+   * be. */
   publish(submission: Submission): Promise<string>
 }

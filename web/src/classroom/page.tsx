@@ -35,7 +35,7 @@ export function keyOfPath(text: string): string {
   }
 }
 
-/** Load the motion of a submission and that of the solution; what is on its way is null. */
+/** Load the motion of a submission and that of the solution; each is null until it is loaded. */
 function useMotions(steps: ClassSteps, current: Submission | null): Loaded | null {
   const [loaded, setLoaded] = useState<Loaded | null>(null)
   const key = current?.key ?? ''

@@ -10,7 +10,7 @@ import { number, words } from '../words/words'
 import type { ClassDocument, ClassMark, ClassResult, ClassStudent } from './class_document'
 import { type Column, FILTERS, type Filter, isShown, sorted } from './class_rows'
 
-// Rows that are drawn at once; more come when they are asked for.
+// Rows that are drawn at once; a button shows more.
 const ROWS = 300
 const MOST_GROUPS = 60
 const MOST_MEMBERS = 12
@@ -23,13 +23,14 @@ const STATES = {
 } as const
 type State = keyof typeof STATES
 
-/** In what the ways of the class are drawn. */
+/** Scale and solution with which the paths of the class are drawn. */
 const Drawn = createContext<{ readonly scale: Scale; readonly reference: Way }>({
   scale: scaleOf([]),
   reference: [],
 })
 
-/** A graded class: what is common, a row a student, and who is alike. */
+/** The report of a graded class: common mistakes, a row for each student, and similar
+ * submissions. */
 export function ClassReport({ graded }: { graded: ClassDocument }) {
   const w = words.value.report.class
   const { students, reference, statistics } = graded

@@ -36,7 +36,7 @@ interface MenuProps {
   children: ComponentChildren
 }
 
-/** Return what the arrow keys go along in a menu, from its button's list. */
+/** Return the items of a menu that the arrow keys move along. */
 function itemsOf(menu: HTMLElement | null): HTMLElement[] {
   return [...(menu?.querySelectorAll<HTMLElement>('.menu-list :is(a, button)') ?? [])]
 }
@@ -73,7 +73,7 @@ export function Menu({ label, icon, text, look = 'plain', children }: MenuProps)
     event.preventDefault()
   }
   const onChosen = () => {
-    // what had the focus goes with the list
+    // The element with the focus disappears with the list.
     if (menu.current?.querySelector('.menu-list')?.contains(document.activeElement))
       menu.current.querySelector('button')?.focus()
     setOpen(false)

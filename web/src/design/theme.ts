@@ -19,7 +19,7 @@ export function setTheme(name: ThemeName): void {
   chosen.value = name
 }
 
-/** Follow the system and the choice; return what ends it. */
+/** Follow the system and the choice; return a function that ends it. */
 export function followTheme(): () => void {
   const onChange = (event: MediaQueryListEvent) => {
     systemDark.value = event.matches

@@ -21,7 +21,8 @@ export function fits(info: Carried, robot: Carrier): boolean {
   return info.end_effector === '' || info.end_effector === robot.end_effector
 }
 
-/** Return what a robot can play, newest first, and how many are for it with another end effector. */
+/** Return the motions that a robot can play, newest first, and the number of those for another end
+ * effector. */
 export function playable(
   all: readonly TrajectoryInfo[],
   robot: Carrier,

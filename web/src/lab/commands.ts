@@ -42,7 +42,8 @@ export function trigger(lab: Lab, service: string): Promise<TriggerResponse | nu
   return order<Record<string, never>, TriggerResponse>(lab, service, triggerType, {})
 }
 
-/** Return the names of the bags that the lab can replay, newest first. Rejects with why it says none. */
+/** Return the names of the bags that the lab can replay, newest first. Rejects with why it says
+ * none. */
 export async function listBagsOf(link: Link): Promise<readonly string[]> {
   const answer = await link.call('recorder/list_bags', listBagsType, {})
   if (!answer.success) throw new LinkError('refused', answer)

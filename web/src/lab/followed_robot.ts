@@ -46,8 +46,8 @@ const MOST_FRAMES = 100_000
 /** Return a ROS time, s. */
 export const seconds = (time: Time): number => time.sec + time.nanosec * 1e-9
 
-/** Return the clock of a robot or a system as a timeline takes it; where it stands in READY, the next
- * run begins: at the end where it goes backwards. */
+/** Return the clock of a robot or a system as a timeline takes it; where it stands in READY, the
+ * next run begins: at the end where it goes backwards. */
 export function clockOf({ clock }: Pick<PlaybackState, 'clock'>): PlaybackClock {
   return { stamp: seconds(clock.stamp), position: clock.position, rate: clock.rate }
 }
@@ -62,7 +62,7 @@ export class FollowedRobot {
   robot: Robot | null = null
   private playback: PlaybackState | null = null
   private arm: ClockedArm | null = null
-  /** The trajectory whose frames are here or on their way. */
+  /** The trajectory whose frames are loaded or requested. */
   private wanted = ''
   private frames: Course | null = null
   /** The drawn arm that has a pose of the lab, and not that of its URDF. */
@@ -73,7 +73,7 @@ export class FollowedRobot {
     private readonly courseOf: CourseOf,
   ) {}
 
-  /** The frames of what is loaded; null: they are not here. */
+  /** The frames of the loaded motion; null: not fetched. */
   get course(): Course | null {
     return this.frames
   }
@@ -100,7 +100,7 @@ export class FollowedRobot {
     this.fetchCourse()
   }
 
-  /** Take over joint states; now: s of lab time. Return whether they ask for a picture. */
+  /** Take over joint states; now: s of lab time. Return whether a picture is due. */
   takeJoints(
     { name, position, header }: JointState,
     drawn: DrawnArm | undefined,
@@ -146,7 +146,8 @@ export class FollowedRobot {
     this.arm?.setClock(clockOf(this.playback), ON_COURSE.has(this.playback.state))
   }
 
-  /** Have the frames of the loaded trajectory here; without them the joint states pose the robot. */
+  /** Have the frames of the loaded trajectory here; without them the joint states pose the
+   * robot. */
   private fetchCourse(): void {
     const { playback } = this
     if (playback === null) return
@@ -189,7 +190,7 @@ export class Courses {
 
   constructor(private readonly fetch: CourseOf) {}
 
-  /** Return the frames of a trajectory, such as quintic@3; one that failed is asked for again. */
+  /** Return the frames of a trajectory, such as quintic@3; a failed request is repeated. */
   readonly of: CourseOf = (id) => {
     let fetching = this.known.get(id)
     if (fetching === undefined) {

@@ -37,7 +37,7 @@ import {
   setJoints,
 } from './followed_robot'
 
-/** s: the lab says 50 times a second what touches, and nothing once nothing does. */
+/** s: contacts are published at 50 Hz, and not at all while there are none. */
 const CONTACT_S = 0.3
 const NO_CONTACTS: readonly never[] = []
 
@@ -69,7 +69,8 @@ export type FollowedScene = Pick<
 
 /** The functions that a follower takes from its page. */
 interface FollowerOptions {
-  /** Return the commands of a robot or a system, by name; of the recorder's replay, by 'recorder'. */
+  /** Return the commands of a robot or a system, by name; of the recorder's replay, by
+   * 'recorder'. */
   commands(name: string): Commands
   word(state: StateName): string
   colour(state: StateName): string
@@ -78,7 +79,7 @@ interface FollowerOptions {
   courseOf: CourseOf
 }
 
-/** Follows a lab over its link: the scene gets what moves, the signals what a panel shows. */
+/** Follows a lab over its link: moves the scene, and sets the signals that panels show. */
 export class LabFollower {
   readonly status = signal<LinkStatus>({ phase: 'connecting', reason: '', roundTrip: Number.NaN })
   readonly robots = signal<readonly RobotView[]>([])
@@ -166,7 +167,7 @@ export class LabFollower {
     ]
   }
 
-  /** Give the scene what is known; call it when the scene is there. */
+  /** Give the scene the known state; call it when the scene is made. */
   attach(scene: FollowedScene): void {
     this.scene = scene
     scene.setSurfaces(this.surfaces)
@@ -190,12 +191,12 @@ export class LabFollower {
     return more
   }
 
-  /** Return where the pose of a robot comes from, for who wants to know why it moves as it does. */
+  /** Return the source of a robot's shown pose. */
   source(name: string): PoseSource {
     return this.kept.get(name)?.source ?? 'none'
   }
 
-  /** Return the frames of what a robot has loaded; null: they are not here. */
+  /** Return the frames of a robot's loaded motion; null: not fetched. */
   course(name: string): Course | null {
     return this.kept.get(name)?.course ?? null
   }

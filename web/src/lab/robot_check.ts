@@ -4,7 +4,7 @@ import type { Check, CheckFinding } from '../api/types'
 import { sentence } from '../words/diagnostic'
 import type { Words } from '../words/en'
 
-/** ms between two questions about a check that runs, and about one whose scene may change. */
+/** ms between two requests for a check that runs, and for one whose scene may change. */
 export const RUNNING_MS = 1000
 export const STALE_MS = 10_000
 /** Marks on a timeline; more would be one band. */
@@ -20,9 +20,9 @@ interface CheckMark {
 
 /** The check of the motion that a robot has loaded, polled while it runs. */
 export class RobotCheck {
-  /** null: nothing is known yet, or nobody had it checked. */
+  /** null: unknown, or never started. */
   readonly check: Signal<Check | null> = signal(null)
-  /** Why it could not be asked for; empty: it could. */
+  /** The problem of the last request; empty: none. */
   readonly problem = signal('')
   private trajectory = ''
   private timer: ReturnType<typeof setTimeout> | null = null
@@ -33,8 +33,8 @@ export class RobotCheck {
     private readonly robot: string,
   ) {}
 
-  /** Take over what is loaded, such as quintic@3; empty: nothing. begins: have it checked where
-   * nobody has. */
+  /** Take over the loaded motion, such as quintic@3; empty: none. begins: start a check if there
+   * is none. */
   async follow(trajectory: string, begins: boolean): Promise<void> {
     if (trajectory === this.trajectory) return
     this.trajectory = trajectory
@@ -46,7 +46,7 @@ export class RobotCheck {
     if (begins && known?.state === 'none') await this.start()
   }
 
-  /** Have what is loaded checked where everything stands now. */
+  /** Start a check of the loaded motion in the present scene. */
   async start(): Promise<void> {
     const { trajectory } = this
     if (trajectory === '') return
@@ -64,7 +64,7 @@ export class RobotCheck {
     this.timer = null
   }
 
-  /** Ask, unless something newer is asked meanwhile; ask again later where the answer may change. */
+  /** Request a check, unless a newer request follows; repeat it later if the answer may change. */
   private async ask(question: () => Promise<Check>): Promise<Check | null> {
     this.stop()
     const { asked, trajectory } = this
@@ -113,7 +113,7 @@ export function counted(check: Check): { readonly refusing: number; readonly war
   return { refusing, warning }
 }
 
-/** Return what kind of finding a code of a check or a rubric means, in words. */
+/** Return the words for the code of a finding of a check or a rubric. */
 export function kindOf(code: string, { check }: Pick<Words, 'check'>): string {
   const kinds: Readonly<Record<string, string>> = check.kinds
   return kinds[code] ?? code.replaceAll('_', ' ')

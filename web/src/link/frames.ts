@@ -21,14 +21,14 @@ class FrameError extends Error {
   override readonly name = 'FrameError'
 }
 
-/** Receives what a frame holds. `start` and `end` are of the payload in `bytes`. */
+/** Receives the content of a frame. `start` and `end` are of the payload in `bytes`. */
 export interface FrameReader {
   value(topic: number, stamp: number, bytes: Uint8Array, start: number, end: number): void
   batch(number: number): void
   fragment(number: number, last: boolean, data: Uint8Array): void
 }
 
-/** Give what a frame of the gateway holds to `reader`. Throws FrameError. */
+/** Give the content of a frame of the gateway to `reader`. Throws FrameError. */
 export function readFrame(frame: ArrayBuffer, reader: FrameReader): void {
   if (frame.byteLength < HEAD) throw new FrameError(`a frame has ${frame.byteLength} bytes`)
   const view = new DataView(frame)

@@ -25,7 +25,7 @@ export interface Link {
   /** The present offer of the lab; empty while it is unreachable. */
   readonly offer: LabOffer
   onOffer(listener: (offer: LabOffer) => void): Unsubscribe
-  /** Be told what others of this gateway did: that they paused a robot or a system. */
+  /** Receive the deeds of others of this gateway: that they paused a robot or a system. */
   onDeed(listener: (deed: Deed) => void): Unsubscribe
   /** The lab's time now, s since the epoch, by the clock offset that the socket measures. */
   labTime(): number

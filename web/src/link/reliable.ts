@@ -29,7 +29,7 @@ export class ReliableReceiver {
     return readRecord(whole)
   }
 
-  /** Begin anew: the gateway does not know this client any more. */
+  /** Restart: the gateway does not know this client any more. */
   clear(): void {
     this.received = 0
     this.clearPieces()

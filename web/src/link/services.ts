@@ -67,7 +67,7 @@ export class Services {
     return answer
   }
 
-  /** Take a response; one that nobody waits for any more is left out. */
+  /** Take a response; ignore one that is no longer awaited. */
   respond(request: number, payload: Uint8Array): void {
     this.take(request)?.resolve(payload)
   }
@@ -82,12 +82,12 @@ export class Services {
     this.take(request)?.reject(new LinkError(KINDS[code] ?? 'refused', diagnostic ?? own(message)))
   }
 
-  /** Send again what has no response yet: the gateway does none of it twice. */
+  /** Repeat the requests without a response: the gateway executes none twice. */
   resend(): void {
     for (const call of this.pending.values()) call.sent = this.send(call.frame) || call.sent
   }
 
-  /** Reject what waits, or of that only what was sent. */
+  /** Reject the pending calls, or only those that were sent. */
   lose(message: string, { sentOnly = false } = {}): void {
     for (const [number, { sent }] of [...this.pending]) {
       if (sent || !sentOnly) this.take(number)?.reject(new LinkError('lost', own(message)))

@@ -29,7 +29,8 @@ import { Topics } from './topics'
 /** Batches under way at once: with more, data on a slow link is older. */
 const BATCHES = 2
 const TIMEOUT_S = 10
-/** s: the gateway answers a ping at once; this long without a frame means that the way is broken. */
+/** s: the gateway answers a ping at once; this long without a frame means that the way is
+ * broken. */
 const SILENCE_S = 4
 const PING_S = 1
 /** s between two pings from which on the page itself stood still, as while it builds a scene. */
@@ -242,7 +243,7 @@ class SocketLink implements Link {
 
   private onWelcome(token: string, resumed: boolean): void {
     if (!resumed) {
-      // Another gateway, or too long away: what was done there nobody knows.
+      // New session: the outcome of pending calls is unknown.
       if (this.token !== '') {
         this.services.lose(words.value.link.answerLost, { sentOnly: true })
       }

@@ -90,7 +90,7 @@ export class Topics {
     }
   }
 
-  /** Forget the topics: another gateway numbers them anew. */
+  /** Forget the topics: another gateway has other numbers. */
   forget(): void {
     this.byNumber.clear()
   }
@@ -111,7 +111,8 @@ export class Topics {
   }
 }
 
-/** Return the pattern of a key expression, for keys with a leading slash: `*` is one part, `**` any. */
+/** Return the pattern of a key expression, for keys with a leading slash: `*` is one part, `**`
+ * any. */
 export function patternOf(expression: string): RegExp {
   const parts = expression.split('/').map((part) => {
     if (part === '*') return '/[^/]+'

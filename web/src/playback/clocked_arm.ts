@@ -25,7 +25,7 @@ export type PoseSource = 'none' | 'course' | 'states'
  * eased. */
 export class ClockedArm {
   source: PoseSource = 'none'
-  /** rad or m, in the order of the names: what `sample` wrote last. */
+  /** rad or m, in the order of the names: the last pose that `sample` wrote. */
   readonly positions: Float64Array
   private readonly places = new Map<string, number>()
   /** The last report. */
@@ -81,8 +81,8 @@ export class ClockedArm {
     this.changed = true
   }
 
-  /** Take a state by the names of its joints; those of others are left out, and what it lacks stays.
-   * stamp, now: s of lab time, when it was published and when it came. */
+  /** Take a state by the names of its joints; unknown joints are ignored, missing ones keep their
+   * position. stamp, now: s of lab time of its publication and its arrival. */
   take(
     names: readonly string[],
     positions: ArrayLike<number>,
@@ -96,11 +96,11 @@ export class ClockedArm {
     const own = Math.abs(now - stamp) > OTHER_CLOCK ? now : stamp
     const newest = this.count > 0 ? (this.stamps[this.newest] as number) : Number.NEGATIVE_INFINITY
     if (own <= newest) {
-      // overtaken on its way: left out; older by far: its clock was set, what came before is void
+      // Overtaken on its way: ignored. Older by far: its clock was set, earlier states are void.
       if (newest - own < OTHER_CLOCK) return
       this.count = 0
     }
-    // nothing was left to show: what was missed meanwhile is caught up with, eased
+    // No state was left to show: catch up with the missed motion, eased.
     if (this.source === 'states' && this.shownAt - STREAM_DELAY > newest) this.changed = true
     this.newest = (this.newest + 1) % HISTORY
     this.count = Math.min(this.count + 1, HISTORY)
@@ -187,7 +187,7 @@ export class ClockedArm {
         this.step[joint] = left
         most = Math.max(most, Math.abs(left))
       }
-      // what is nowhere yet has nothing to come from
+      // Without a pose there is nothing to ease from.
       const steps = most > STEP && !Number.isNaN(this.shownAt)
       // from the picture before this one, where there was one just now
       this.steppedAt = steps ? Math.max(this.shownAt, time - PICTURE) : Number.NEGATIVE_INFINITY

@@ -1,18 +1,19 @@
 import type { Diagnostic } from '../words/diagnostic'
-/** A motion to look at: an accepted trajectory, or the rows of a refused one.
- * The gateway serves it as JSON, `mrlab show` puts it into a page; `mrlab_ros/core/show/` writes it. */
+/** A motion to look at: an accepted trajectory, or the rows of a refused one. The gateway serves
+ * it as JSON, `mrlab show` puts it into a page; `mrlab_ros/core/show/` writes it. */
 export interface MotionDocument {
   readonly schema: 'mrlab.motion.1'
   readonly title: string
   readonly verdict: 'accepted' | 'refused' | 'ambiguous'
-  /** One sentence: what was found. */
+  /** The finding in one sentence. */
   readonly message: string
   readonly robot: MotionRobot
   /** Hz */
   readonly frame_rate: number
   /** s from the first frame, one a frame; null: frame i is at i / frame_rate. */
   readonly times: PackedArray | null
-  /** Rows of the workspace's matrix, from 1, where only some are shown; null: frame i is row i + 1. */
+  /** Rows of the workspace's matrix, from 1, where only some are shown; null: frame i is row i +
+   * 1. */
   readonly rows: PackedArray | null
   /** (frames, joints) rad or m, in the order of robot.joints. */
   readonly positions: PackedArray
@@ -44,7 +45,8 @@ export interface MotionJoint {
   readonly velocity: number | null
 }
 
-/** A finding of the converter, `mrlab_msgs/msg/Diagnostic`; its number is its place in the list, from 1. */
+/** A finding of the converter, `mrlab_msgs/msg/Diagnostic`; its number is its place in the list,
+ * from 1. */
 /** A numeric array as base64 of its little-endian bytes. */
 export interface PackedArray {
   readonly dtype: 'float32' | 'float64' | 'uint32' | 'uint8'

@@ -141,7 +141,7 @@ export class RemotePlayer implements Player {
     this.listeners.call()
   }
 
-  /** Take over what the lab announced: its clock, duration, s, and chosen rate. */
+  /** Take over the lab's clock, duration, s, and chosen rate. */
   follow(clock: PlaybackClock, duration: number, rate: number): void {
     const { stamp, position, rate: speed } = this.clock
     const same =

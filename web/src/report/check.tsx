@@ -131,7 +131,7 @@ function plotted(
 
 const NO_LIMITS = { lower: null, upper: null }
 
-/** Return a strip for each distance, with the marks of what is touched. */
+/** Return a strip for each distance, with the marks of contacts. */
 export function distancesOf({
   distances,
   findings,

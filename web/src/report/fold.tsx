@@ -12,7 +12,7 @@ interface FoldProps {
   readonly children: ComponentChildren
 }
 
-/** A part of the report that can be folded; what is in it is made when it is opened first. */
+/** A part of the report that can be folded; its content is made when it is first opened. */
 export function Fold({ title, facts, open = false, children }: FoldProps) {
   const [opened, setOpened] = useState(open)
   const shown = opened || printing.value

@@ -21,7 +21,7 @@ export function dotted(parts: readonly ComponentChildren[]): ComponentChildren[]
   return parts.filter(Boolean).flatMap((part, i) => (i > 0 ? [' · ', part] : [part]))
 }
 
-/** A report: its head, what it shows, its foot. */
+/** A report: its head, its content, its foot. */
 export function Page({ chip, title, facts, notes, foot, children }: PageProps) {
   document.title = title
   return (
@@ -39,7 +39,7 @@ export function Page({ chip, title, facts, notes, foot, children }: PageProps) {
   )
 }
 
-/** Let paper show all of the page, dark on white. Return what ends it. */
+/** Print the whole page, dark on white. Return a function that ends it. */
 export function followPrinting(): () => void {
   const begin = () => {
     printing.value = true

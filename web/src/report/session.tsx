@@ -32,8 +32,8 @@ interface SceneMark {
   readonly words: string
 }
 
-/** Return the playhead of a session, and what puts its scene into an element. first: the finding
- * at which it opens, null: at its beginning. */
+/** Return the playhead of a session, and the function that puts its scene into an element. first:
+ * the finding at which it opens, null: at its beginning. */
 export function useSession(
   session: SessionDocument,
   meshes: MeshBytes,

@@ -112,7 +112,7 @@ export function createSessionView(
   }
 }
 
-/** Return what puts the whole scene to a time, s. */
+/** Return a function that puts the whole scene to a time, s. */
 function drawing(
   stage: Stage,
   session: SessionDocument,
@@ -167,7 +167,7 @@ function drawing(
     present = names
   }
   scene.ready.then(() => {
-    // what the robots reach in the whole session is in the picture
+    // The picture contains all places that the robots reach in the session.
     const points: Vector3[] = []
     for (let i = 0; i < POSES; i++) {
       draw((i / (POSES - 1)) * session.duration)

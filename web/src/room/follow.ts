@@ -15,12 +15,12 @@ import type { RoomRobots } from './robots/robots'
 import { hopsOf } from './session/hops'
 import type { SystemPanels } from './systems/system_panels'
 
-/** Return what follows the lab for a room; says which motion could not be fetched. */
+/** Return the follower of a room; it reports a motion that could not be fetched. */
 export function roomFollower({ link, words, say }: Speech & Lab, courseOf: CourseOf): LabFollower {
   return new LabFollower(link, {
     commands: (name) => commandsOf({ link, say }, name),
     word: (state) => words.states[state],
-    // names stand in the picture, whose theme is the page's
+    // Names are part of the picture, whose theme is the page's.
     colour: (state) => THEMES[themeNow().name].states[state],
     stir: () => undefined,
     courseOf: (id) =>

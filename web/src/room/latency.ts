@@ -38,7 +38,7 @@ export class Stats {
     this.panel.group.visible = false
     board.add(this.panel.group)
     const { link } = ports
-    // what the lab kept for who comes late is old, and was not long on its way
+    // Latched messages are old without having been long on their way.
     let since = link.labTime()
     const opened = link.onStatus(({ phase }) => {
       if (phase === 'open') since = link.labTime()
@@ -97,7 +97,7 @@ export class Stats {
   }
 }
 
-/** Put what a window measured on `latency/clients`. */
+/** Publish the figures of a window on `latency/clients`. */
 export function tell(link: Link, { count, p50, p95, most }: Ages): void {
   const { roundTrip } = link.status
   if (count === 0 || Number.isNaN(roundTrip)) return

@@ -21,11 +21,11 @@ import { type Hop, hopsOf, refusalOf } from './session/hops'
 export interface RoomExtra {
   /** Return where the frames of a motion are; null: it is a trajectory of the lab. */
   motionUrl(id: string): string | null
-  /** Return what makes the tab; null: the person has no right to it. */
+  /** Return the maker of the tab; null: the person has no right to it. */
   tab(api: Api, may: Rights): Promise<MakeTab | null>
 }
 
-/** s between two looks at what is not there. */
+/** s between two checks of the link. */
 const PERIOD_S = 1
 
 function picture(url: string | null): HTMLImageElement | null {
@@ -40,15 +40,15 @@ function isAside({ id, severity }: Hop): boolean {
   return id === 'headset' && severity === 'info'
 }
 
-/** Return who is signed in, as they are in the room. */
+/** Return the person who is signed in, with their part in the room. */
 function personOf(current: Session | null): Person {
   const role = current?.user?.role
   const part = role === 'instructor' ? 2 : role === 'operator' ? 1 : 0
   return { name: current?.user?.name ?? '', part }
 }
 
-/** The lab in a person's room; without a headset, seen from the desktop. link: opened by who shows
- * it. */
+/** The lab in a person's room; without a headset, seen from the desktop. link: opened and closed
+ * by the caller. */
 function RoomView({ link, extra }: { link: Link; extra: RoomExtra }) {
   const api = useApi()
   const host = useRef<HTMLDivElement>(null)

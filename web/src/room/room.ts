@@ -86,7 +86,8 @@ type Ports = TabPorts &
   Checks &
   Surroundings
 
-/** The lab in a person's room: wires what the folders beside it do, once a frame. */
+/** The lab in a person's room: makes the parts of the folders beside it, and calls them in each
+ * frame. */
 export class Room {
   readonly troubles = signal<readonly string[]>([])
   readonly head = new Vector3().copy(SEATED.head)
@@ -390,8 +391,8 @@ export class Room {
     return this.objects.nearest(tip.setFromMatrixPosition(robot.tip.matrixWorld))
   }
 
-  /** Draw a frame: poses, input, playback, robots, panels, picture. time: of the frame, ms; frame: of
-   * a session, undefined without a headset. */
+  /** Draw a frame: poses, input, playback, robots, panels, picture. time: of the frame, ms; frame:
+   * of a session, undefined without a headset. */
   private draw(time: number, frame: XRFrame | undefined): void {
     const began = performance.now()
     const now = began / 1000
@@ -428,7 +429,7 @@ export class Room {
     this.stats.frame(now, this.frameMs)
   }
 
-  /** Follow the headset, its surfaces and what it points with. now: s. */
+  /** Follow the headset, its surfaces and its pointers. now: s. */
   private track(frame: XRFrame, space: XRReferenceSpace, now: number): void {
     this.anchor.update(frame, space)
     const viewer = frame.getViewerPose(space)

@@ -20,7 +20,7 @@ export function navigate(to: string, how: 'push' | 'replace' = 'push'): void {
   scrollTo(0, 0)
 }
 
-/** Follow links to our own pages without loading anew; return what ends it. */
+/** Follow links to our own pages without a reload; return a function that ends it. */
 export function followLinks(): () => void {
   const onClick = (event: MouseEvent) => {
     if (event.defaultPrevented || event.button !== 0) return
@@ -28,7 +28,7 @@ export function followLinks(): () => void {
     const link = (event.target as Element).closest?.('a')
     if (!link || link.origin !== location.origin || link.target || link.hasAttribute('download'))
       return
-    // A place on this page, and what the gateway itself serves.
+    // A place on this page, and files that the gateway serves.
     if (link.hash || /^\/(api|assets|ca)(\/|$)/.test(link.pathname)) return
     event.preventDefault()
     navigate(link.pathname + link.search)

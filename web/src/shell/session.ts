@@ -8,7 +8,7 @@ import { navigate } from './router'
 /** The session of the person who is signed in; null until the gateway has answered. */
 export const session = signal<Session | null>(null)
 
-/** Lead somebody whose sign-in was ended to the page that says so; nobody else. */
+/** Lead a person whose sign-in was ended to the page that says so. */
 export function leaveSignedOut(): void {
   const { value } = session
   if (!value?.user) return

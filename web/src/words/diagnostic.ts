@@ -13,7 +13,7 @@ export interface Fix {
 export interface Diagnostic {
   readonly severity: 'info' | 'warning' | 'error'
   readonly code: string
-  /** In English, for who reads no code. */
+  /** In English, for readers without the code's text. */
   readonly message: string
   readonly remedy: string
   readonly variable: string
@@ -40,7 +40,7 @@ export interface Told {
   readonly values?: Values | readonly { readonly key: string; readonly value: string }[]
 }
 
-/** Something that went wrong, with what is to be said of it. */
+/** An error with its diagnostic. */
 export class ToldError extends Error {
   override readonly name: string = 'ToldError'
   constructor(readonly told: Told) {
@@ -48,12 +48,12 @@ export class ToldError extends Error {
   }
 }
 
-/** Return what went wrong in a page itself, already in the reader's language. */
+/** Return the diagnostic of an error of a page itself, already in the reader's language. */
 export function own(message: string): Told {
   return { code: '', message }
 }
 
-/** Return what a diagnostic says in the language that is chosen; in English where it has none. */
+/** Return the text of a diagnostic in the chosen language; in English if it has none. */
 export function say(told: Told): { readonly message: string; readonly remedy: string } {
   const { message, remedy = '' } = told
   const found = Object.hasOwn(templates.value, told.code) ? templates.value[told.code] : undefined
@@ -63,7 +63,7 @@ export function say(told: Told): { readonly message: string; readonly remedy: st
   const missing = [...placeholders(text, false), ...placeholders(advice, false)].some(
     ({ name }) => values[name] === undefined || values[name] === null,
   )
-  // what another version of the lab says may have other values
+  // A diagnostic of another version of the lab may have other values.
   if (missing) return { message, remedy }
   const filled = (phrase: Phrase) => fill(phrase, values, words.value.joining, nested)
   return { message: filled(text), remedy: filled(advice) }
@@ -75,7 +75,7 @@ export function spoken(told: Told): string {
   return [message, remedy].filter(Boolean).join(' ')
 }
 
-/** Return what to tell a person of anything that was thrown. */
+/** Return the sentence for anything that was thrown. */
 export function sentence(error: unknown): string {
   if (error instanceof ToldError) return spoken(error.told)
   return error instanceof Error ? error.message : String(error)
@@ -98,7 +98,7 @@ function parsed(template: string): Phrase {
   return found
 }
 
-/** Return the text of a value that is another diagnostic, or what a library said. */
+/** Return the text of a value that is another diagnostic, or a text of a library. */
 function nested(value: unknown): string {
   return isTold(value) ? spoken(value) : String(value)
 }

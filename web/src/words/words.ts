@@ -20,7 +20,8 @@ export const words = computed(() => loaded.value.words)
 export const templates = computed(() => loaded.value.diagnostics)
 export const language = computed(() => loaded.value.language)
 
-/** Return the files of the languages beside English, by code. A call: tests without Vite have none. */
+/** Return the files of the languages beside English, by code. A call: tests without Vite have
+ * none. */
 function files(): ReadonlyMap<string, () => Promise<LanguageFile>> {
   const found = import.meta.glob<LanguageFile>(['./??.ts', '!./en.ts'])
   return new Map(Object.entries(found).map(([path, load]) => [path.slice(2, 4), load]))
@@ -31,13 +32,14 @@ export function languages(): readonly string[] {
   return ['en', ...files().keys()]
 }
 
-/** Return what a language calls itself, such as Deutsch. */
+/** Return the name of a language in itself, such as Deutsch. */
 export function languageName(code: string): string {
   const name = new Intl.DisplayNames([code], { type: 'language' }).of(code) ?? code
   return name.charAt(0).toLocaleUpperCase(code) + name.slice(1)
 }
 
-/** Return the language that was chosen here before, else the first of the browser's that there is. */
+/** Return the language that was chosen here before, else the first of the browser's that there
+ * is. */
 export function preferredLanguage(): string {
   const wanted = [localStorage.getItem(KEY), ...navigator.languages.map((tag) => tag.slice(0, 2))]
   const known = languages()

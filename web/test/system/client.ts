@@ -1,5 +1,5 @@
-/** A client of a real gateway, driven over stdin by test/system/test_link.py: a JSON line a command,
- * and a JSON line for each thing that happens. Arguments: url, cookie. */
+/** A client of a real gateway, driven over stdin by test/system/test_link.py: a JSON line a
+ * command, and a JSON line for each thing that happens. Arguments: url, cookie. */
 
 import { createInterface } from 'node:readline'
 import type { LinkError } from '../../src/link/link'

@@ -17,7 +17,8 @@ const FILES = import.meta.glob<LanguageFile>(['../../src/words/??.ts', '!../../s
   eager: true,
 })
 
-/** Return the placeholders of a template, such as `rows:rows`; the words of a choice by their keys. */
+/** Return the placeholders of a template, such as `rows:rows`; the words of a choice by their
+ * keys. */
 function placesOf(template: string): readonly string[] {
   const found = placeholders(parse(template)).map(({ name, quantity, words }) => {
     const keys = quantity === 'choice' ? words.map((word) => word.replace(/=.*/, '')) : []

@@ -38,7 +38,7 @@ function hatch(colour: string, ratio: number): CanvasPattern | null {
   return context.createPattern(tile, 'repeat')
 }
 
-/** Hatch what lies beyond the limits, and name them. */
+/** Hatch the ranges beyond the limits, and label the limits. */
 export function drawForbidden(plot: uPlot, line: Limits, theme: Theme, words: LimitWords): void {
   const { ctx, bbox } = plot
   const ratio = devicePixelRatio

@@ -13,12 +13,12 @@ const ORDER: readonly Role[] = ['display', 'student', 'operator', 'instructor']
 /** Letters of a code. */
 const LENGTH = 8
 
-/** Return the roles that somebody may give to a device: none above one's own. */
+/** Return the roles that a person may give to a device: none above their own. */
 export function rolesUpTo(own: Role): readonly Role[] {
   return ORDER.slice(0, ORDER.indexOf(own) + 1)
 }
 
-/** Return a code as the headset shows it, such as BCDF-GHJK; what is no whole code stays as it is. */
+/** Return a code as the headset shows it, such as BCDF-GHJK; an incomplete code stays as it is. */
 export function codeForm(text: string): string {
   const plain = text.toUpperCase().replace(/[^A-Z0-9]/g, '')
   return plain.length === LENGTH
@@ -26,7 +26,7 @@ export function codeForm(text: string): string {
     : text
 }
 
-/** A person who is signed in lets the device in that shows this code. */
+/** The form with which a signed-in person approves the device that shows this code. */
 export function ApprovePage({ code: given }: { code: string }) {
   const api = useApi()
   const own = session.value?.user?.role ?? 'student'

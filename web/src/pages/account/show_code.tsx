@@ -9,7 +9,7 @@ import { sentence } from '../../words/diagnostic'
 import { words } from '../../words/words'
 import { QrCode } from '../motion/lazy'
 
-/** The gateway expects to be asked this often. */
+/** ms between two requests that the gateway expects. */
 const ASK_EVERY_MS = 2000
 
 /** The page on a headset: code and QR, until a phone approves them. */

@@ -12,7 +12,7 @@ import { useLab } from './context'
 
 const FIRST = 'ur5e'
 
-/** Choose a robot and what it holds, and put it on a free place. */
+/** The dialog that adds a robot with an end effector at a free place. */
 export function AddRobot({ onClose }: { onClose: () => void }) {
   const api = useApi()
   const { link } = useLab()

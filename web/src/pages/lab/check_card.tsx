@@ -6,7 +6,7 @@ import { counted, kindOf, type RobotCheck } from '../../lab/robot_check'
 import { say, spoken } from '../../words/diagnostic'
 import { number, words } from '../../words/words'
 
-/** Shown before somebody asks for all. */
+/** Findings that are shown before all are requested. */
 const FEW = 3
 const MOST = 100
 const VERDICTS = {

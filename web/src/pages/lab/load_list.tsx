@@ -20,7 +20,7 @@ const EXAMPLE_NAME = 'quintic'
 interface LoadListProps {
   readonly robot: Robot
   readonly catalogue: LabCatalogue
-  /** Id of what is loaded; empty: nothing. */
+  /** Id of the loaded motion; empty: none. */
   readonly loaded: string
   readonly onLoaded: () => void
 }

@@ -30,7 +30,7 @@ const NOTHING: Rights = { commands: false, scene: false, replay: false, grades: 
 
 const say = (text: string) => showToast(text)
 
-/** The running lab: its scene, its robots and systems. link: opened by who shows the page. */
+/** The running lab: its scene, its robots and systems. link: opened and closed by the caller. */
 export function Lab({ link }: { link: Link }) {
   const api = useApi()
   const host = useRef<HTMLDivElement>(null)

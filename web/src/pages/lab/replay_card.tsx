@@ -8,7 +8,7 @@ import { words } from '../../words/words'
 import { useLab } from './context'
 import { Timeline } from './timeline'
 
-/** Play a recorded bag in this view, and say what the recorder does. */
+/** Replay a recorded bag in this view, and show the state of the recorder. */
 export function ReplayCard({ follower }: { follower: LabFollower }) {
   const [bag, setBag] = useState('')
   const w = words.value.lab

@@ -22,11 +22,11 @@ const MOST_TARGETS = 12
 interface RobotCardProps {
   readonly view: RobotView
   readonly catalogue: LabCatalogue
-  /** Nothing of the lab moves: what is loaded now is checked by itself. */
+  /** Nothing of the lab moves: a motion that is loaded now is checked automatically. */
   readonly idle: boolean
 }
 
-/** The check of what a robot has loaded; what is loaded from now on is checked by itself. */
+/** The check of a robot's motion; a motion that is loaded from now on is checked automatically. */
 function useCheck({ robot, playback }: RobotView, begins: boolean): RobotCheck {
   const api = useApi()
   const check = useMemo(() => new RobotCheck(api, robot.name), [api, robot.name])
@@ -41,7 +41,8 @@ function useCheck({ robot, playback }: RobotView, begins: boolean): RobotCheck {
   return check
 }
 
-/** The places at which the trajectory grasps and releases; a click seeks to one. The numbers are those in 3D. */
+/** The places at which the trajectory grasps and releases; a click seeks to one. The numbers are
+ * those in 3D. */
 function Targets({ view }: { view: RobotView }) {
   const { may } = useLab()
   const w = words.value.lab
@@ -65,7 +66,7 @@ function Targets({ view }: { view: RobotView }) {
   )
 }
 
-/** One robot: what it does, what it holds, its timeline, and what it can play. */
+/** One robot: its state, the object that it holds, its timeline, and its motions. */
 export function RobotCard({ view, catalogue, idle }: RobotCardProps) {
   const lab = useLab()
   const { may } = lab

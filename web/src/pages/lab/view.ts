@@ -9,8 +9,8 @@ export class LabView {
   private readonly stage: Stage
   private readonly meshes = new MeshLibrary()
 
-  /** Throws NoWebGL where the browser has none. say: is told what could not be drawn. pose: called
-   * before each picture; true asks for another one. */
+  /** Throws NoWebGL if the browser has none. say: reports things that could not be drawn. pose:
+   * called before each picture; true requests another one. */
   constructor(
     container: HTMLElement,
     label: string,

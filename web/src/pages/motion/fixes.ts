@@ -24,7 +24,7 @@ export function applied(options: ConvertOptions, { option, value }: Fix): Conver
   return null
 }
 
-/** Return what a fix's button says. */
+/** Return the label of a fix's button. */
 export function fixLabel({ option, value }: Fix, words: Words): string {
   const label = words.fixes[option as keyof Words['fixes']]
   return label === undefined ? `${option} = ${value}` : label(value)

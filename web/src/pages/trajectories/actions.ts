@@ -29,7 +29,7 @@ export async function removeWithUndo(
   return true
 }
 
-/** Let everybody see it, or nobody else. */
+/** Share it with everybody, or with nobody. */
 export async function setShared(
   catalogue: Catalogue,
   info: TrajectoryInfo,

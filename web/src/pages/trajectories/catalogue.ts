@@ -49,7 +49,7 @@ function same(one: readonly TrajectoryInfo[], other: readonly TrajectoryInfo[] |
   return JSON.stringify(one) === JSON.stringify(other)
 }
 
-/** The trajectories that a person may see, and what they look for. */
+/** The trajectories that a person may see, and the search for one. */
 export class Catalogue {
   readonly all = signal<readonly TrajectoryInfo[] | null>(null)
   readonly error = signal('')
@@ -61,7 +61,7 @@ export class Catalogue {
     found(this.all.value ?? [], this.text.value, this.scope.value, this.user),
   )
 
-  /** Counts what was changed here. */
+  /** Number of changes made here. */
   #changes = 0
 
   constructor(
@@ -69,7 +69,7 @@ export class Catalogue {
     readonly user: string,
   ) {}
 
-  /** Read the list. What was changed here meanwhile is newer than what is read. */
+  /** Read the list. A change made here meanwhile is newer than the list. */
   async load(): Promise<void> {
     const changes = this.#changes
     try {
@@ -81,8 +81,8 @@ export class Catalogue {
     }
   }
 
-  /** Read the list now, every few seconds while the page is looked at, and when it is looked at
-   * again: others change it. Return what ends that. */
+  /** Read the list now, every few seconds while the page is visible, and when it becomes visible:
+   * others change it. Return a function that ends it. */
   follow(): () => void {
     const look = () => {
       if (document.visibilityState === 'visible') void this.load()

@@ -25,7 +25,7 @@ interface DetailProps {
   id: string
 }
 
-/** Load the motion of a trajectory; null: none is asked for, or it is on its way. */
+/** Load the motion of a trajectory; null: none is requested, or it is not yet loaded. */
 function useMotion(id: string): [MotionDocument | null, string] {
   const api = useApi()
   const [motion, setMotion] = useState<MotionDocument | null>(null)

@@ -22,7 +22,7 @@ export function ownerName(info: TrajectoryInfo, user: string): string {
   return info.owner === user ? w.you : info.owner
 }
 
-/** Return who may see it, in words. */
+/** Return the people who may see it, in words. */
 export function audience(info: TrajectoryInfo, user: string): string {
   const w = words.value.trajectories
   if (info.shared) return w.shared

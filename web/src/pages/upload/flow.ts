@@ -70,7 +70,7 @@ export class UploadFlow {
     }
   }
 
-  /** Take a file and see what is in it. */
+  /** Take a file, and convert it. */
   async choose(file: File): Promise<void> {
     this.#running?.abort()
     this.file.value = file
@@ -82,7 +82,7 @@ export class UploadFlow {
     await this.run()
   }
 
-  /** Begin anew: back to the drop zone. */
+  /** Return to the drop zone. */
   reset(): void {
     this.#running?.abort()
     this.file.value = null

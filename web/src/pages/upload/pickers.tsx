@@ -2,7 +2,7 @@ import { words } from '../../words/words'
 import { EffectorPicker, RobotPicker } from '../motion/library_pickers'
 import type { UploadFlow } from './flow'
 
-/** Choose the robot and what it holds; the choice is kept for the next time. */
+/** Choose the robot and its end effector; the choice is kept for the next time. */
 export function Pickers({ flow }: { flow: UploadFlow }) {
   const library = flow.library.value
   if (library === null) return <div class="picker-waiting" aria-busy="true" />

@@ -21,7 +21,7 @@ function robotName(flow: UploadFlow, model: string): string {
   return flow.library.value?.robots.find((robot) => robot.model === model)?.name ?? model
 }
 
-/** An accepted file says what was found; of another one the findings do. */
+/** The verdict of an accepted file; of a refused one the findings say it. */
 function title(flow: UploadFlow, result: Result): string {
   const { conversion, choice } = result
   const w = words.value.upload

@@ -180,7 +180,7 @@ export function StripPlot({ strip, times, marks, begin, duration }: StripPlotPro
   )
 }
 
-/** The number of a finding or of what was done, on a plot. */
+/** The number of a finding or an event on a plot. */
 export function MarkDisc({ mark, x, y }: { mark: Mark; x: number; y: number }) {
   const { selected } = useContext(PlayheadContext)
   return (

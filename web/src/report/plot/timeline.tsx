@@ -10,7 +10,7 @@ const WIDTHS = { wide: 1280, middle: 760, narrow: 360 } as const
 type Width = keyof typeof WIDTHS
 const LEFT = 8
 const RIGHT = 12
-// Heights: above the bar stand collisions, below it what is held.
+// Heights: collisions are above the bar, held objects below it.
 const ROW = 38
 const TOP = 10
 const BAR = 20
@@ -32,7 +32,7 @@ function classOf(label: string): string {
   return `state-${label.toLowerCase().replace('_', '-')}`
 }
 
-/** Return the states; neighbours at rest that differ in what is loaded alone are one. */
+/** Return the states; neighbours at rest that differ only in the loaded motion are one. */
 export function joined(spans: readonly Span[]): Span[] {
   const found: Span[] = []
   for (const span of spans) {
@@ -44,7 +44,8 @@ export function joined(spans: readonly Span[]): Span[] {
   return found
 }
 
-/** Return what a bar may say, the longest first: of a run its number and its trajectory. */
+/** Return the possible labels of a bar, the longest first: of a run its number and its
+ * trajectory. */
 function textsOf(span: Span, runs: readonly SessionRun[]): string[] {
   if (!MOVING.includes(span.label)) return [stateWord(span.label)]
   const middle = (span.start + span.end) / 2
@@ -61,7 +62,7 @@ interface TimelineProps {
   readonly duration: number
 }
 
-/** A row a robot: its states, what it held, what it hit; and what the colours mean. */
+/** A row for each robot: its states, held objects and collisions; and the legend of the colours. */
 export function Timeline({ robots, runs, duration }: TimelineProps) {
   const w = words.value.report
   const shown = robots.filter(({ states }) => states.length > 0)

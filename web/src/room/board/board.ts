@@ -22,7 +22,8 @@ const TAB_MARGIN = 2.5
 export interface Tab {
   readonly id: string
   readonly words: string
-  /** Return the text that changes by itself, for example with time; the tab is repainted when it differs. */
+  /** Return the text that changes by itself, for example with time; the tab is repainted when it
+   * differs. */
   says?(): string
   draw(pen: Pen): void
 }
@@ -35,7 +36,7 @@ export interface TabPorts extends Speech, Lab {
 /** Return a tab of another part of the pages. */
 export type MakeTab = (ports: TabPorts, follower: LabFollower, drawings: Drawings) => Tab
 
-/** The panel beside the person: what there is to put into the room, and the room itself. */
+/** The panel beside the person, with tabs for the catalogues, the lab and the room. */
 export class Board {
   readonly panel: Panel
   tabs: readonly Tab[] = []

@@ -26,7 +26,7 @@ export class BoardPlace {
     this.stand = new Stand(board.panel.group, 'top')
   }
 
-  /** Take where somebody looks as straight ahead. */
+  /** Take the direction of a look as straight ahead. */
   face(look: Quaternion): void {
     this.yaw = yawOf(look)
   }

@@ -73,7 +73,8 @@ export function labTab(ports: TabPorts, follower: LabFollower, stats: Stats): Ta
     })
   }
 
-  /** Draw a part of a list, with buttons to the parts before and after it; returns where it begins. */
+  /** Draw a part of a list, with buttons to the parts before and after it; returns where it
+   * begins. */
   function drawRows(
     pen: Pen,
     x: number,

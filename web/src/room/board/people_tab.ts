@@ -7,7 +7,7 @@ import type { People } from '../people/people'
 import type { Lab, Speech } from '../ports'
 import { BOARD_WIDTH, BOTTOM, EDGE, type Tab, TOP } from './board'
 
-/** Somebody who is signed in here. */
+/** The person who is signed in. */
 export interface Person {
   readonly name: string
   readonly part: Part

@@ -37,14 +37,14 @@ export function settingsTab(ports: Speech, settings: Settings, tour: () => void)
   }
 }
 
-/** s: a headset says what it knows of the room within this. */
+/** s within which a headset reports the surfaces that it knows. */
 const SCAN_WAIT_S = 3
 
 /** The state of the room, for a person in it. */
 interface RoomStanding {
   /** Surfaces that the lab knows. */
   readonly surfaces: number
-  /** s since somebody entered; NaN: nobody is inside. */
+  /** s since a person entered; NaN: nobody is inside. */
   readonly insideFor: number
   /** Surfaces that the headset knows. */
   readonly scanned: number

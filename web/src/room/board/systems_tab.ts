@@ -12,7 +12,7 @@ import { BOARD_WIDTH, EDGE, type Tab, TOP } from './board'
 
 const MOST_LISTED = 6
 
-/** Making robot systems by touch, and what there is of them. */
+/** The tab that creates robot systems by touch, and lists them. */
 export function systemsTab(ports: Speech & Lab, creation: Creation, follower: LabFollower): Tab {
   return {
     id: 'systems',

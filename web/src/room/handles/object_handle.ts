@@ -49,7 +49,7 @@ export class ObjectHandle implements Target {
   private detaching = false
   private now = 0
   private releasedAt = Number.NEGATIVE_INFINITY
-  /** When somebody else's hand last moved it. */
+  /** Time at which the hand of another client last moved it, s. */
   private movedAt = Number.NEGATIVE_INFINITY
 
   constructor(
@@ -137,7 +137,7 @@ export class ObjectHandle implements Target {
     return this.object.held_by === 'hand' && this.now - this.movedAt < IN_HAND
   }
 
-  /** A hand takes what a gripper holds. */
+  /** Take it from the gripper that holds it. */
   private takeFromGripper(): void {
     const { held_by: robot } = this.object
     if (robot === '' || robot === 'hand') return

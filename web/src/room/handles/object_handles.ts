@@ -12,7 +12,8 @@ const NEAR = 0.15
 export class ObjectHandles {
   private readonly handles = new Map<string, ObjectHandle>()
 
-  /** robotAt: the robot whose fingers are at a place; empty: none. counted: their number changed. */
+  /** robotAt: the robot whose fingers are at a place; empty: none. counted: their number
+   * changed. */
   constructor(
     private readonly scene: LabScene,
     private readonly ports: ObjectPorts,

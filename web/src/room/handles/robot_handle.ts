@@ -12,12 +12,12 @@ import { upright } from '../scene/frames'
 import { ArmShape } from './arm_shape'
 import { Moves } from './moves'
 
-/** m: what of a robot's base can be taken hold of. */
+/** m: the cylinder of a robot's base that can be grabbed. */
 const RADIUS = 0.18
 const HEIGHT = 0.32
 const RING = 0.27
 const REACH = 0.09
-/** s between two places that the lab is told of. */
+/** s between two places that are sent to the lab. */
 const PERIOD = 0.2
 /** s after which the lab's own place is shown again. */
 const SETTLE = 0.8
@@ -39,7 +39,7 @@ interface Holder {
 }
 
 /** A robot's base: it is carried with one pointer, turned with two or with a stick, and stays
- * upright on what is below it. */
+ * upright on the surface below it. */
 export class RobotHandle implements Target {
   private readonly shape: ArmShape | null
   private readonly ring: Mesh<RingGeometry, MeshBasicMaterial>

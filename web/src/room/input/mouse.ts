@@ -19,7 +19,7 @@ export class Mouse {
       this.move(event)
       this.update(performance.now() / 1000)
       this.pointer.press('select')
-      // what is pressed does not turn the view
+      // A drag of a target does not turn the view.
       stage.controls.enabled = this.pointer.captured === null
       if (!stage.controls.enabled) canvas.setPointerCapture(event.pointerId)
     }

@@ -1,6 +1,7 @@
 import { Ray, Vector3 } from 'three'
 
-/** A hand out of view is guessed: what it drags stands still, and after this, s, it lets go. */
+/** s after which a hand out of view, whose pose is a guess, releases a target; until then the
+ * target stands still. */
 const LOST_S = 0.5
 /** m: a fingertip hovers from HOVER_IN on until it is farther than HOVER_OUT. */
 const HOVER_IN = 0.15
@@ -29,8 +30,8 @@ export function newHit(): Hit {
 /** select: trigger, pinch, touch or the left mouse button; grip: the squeeze or the right one. */
 export type Button = 'select' | 'grip'
 
-/** down and up bracket a capture, in which every move goes to the target, hit or not; cancel ends it
- * without an effect. */
+/** down and up bracket a capture, in which every move goes to the target, hit or not; cancel ends
+ * it without an effect. */
 export type Signal =
   | { readonly kind: 'enter' | 'leave' | 'move' | 'cancel'; readonly pointer: Pointer }
   | { readonly kind: 'down' | 'up'; readonly pointer: Pointer; readonly button: Button }
@@ -41,7 +42,8 @@ export interface Target {
   cast(ray: Ray, hit: Hit): boolean
   /** Return whether a hand at `point` can take hold of it. */
   reaches?(point: Vector3): boolean
-  /** Return how far a fingertip is in front of its face, m, and fill u and v; NaN: not before it. */
+  /** Return how far a fingertip is in front of its face, m, and fill u and v; NaN: not before
+   * it. */
   face?(point: Vector3, hit: Hit): number
   on(signal: Signal): void
 }
@@ -49,12 +51,13 @@ export interface Target {
 type PointerKind = 'mouse' | 'ray' | 'touch'
 export type Hand = 'left' | 'right' | 'none'
 
-/** One pointer and what it points at. A target that is pressed keeps it until it is released. */
+/** A pointer and its target. A pressed target captures the pointer until the release. */
 export abstract class Pointer {
   readonly hit: Hit = newHit()
   hovered: Target | null = null
   captured: Target | null = null
-  /** The place at which it holds things: grip, pinch or fingertip; for a mouse the origin of its ray. */
+  /** The place at which it holds things: grip, pinch or fingertip; for a mouse the origin of its
+   * ray. */
   readonly place = new Vector3()
   readonly ray = new Ray()
   tracked = false
@@ -118,7 +121,8 @@ export abstract class Pointer {
 export class RayPointer extends Pointer {
   private button: Button | null = null
 
-  /** Point; now: s. tracked: false while the device only guesses. Call after ray and place are set. */
+  /** Point; now: s. tracked: false while the device only guesses. Call after ray and place are
+   * set. */
   aim(now: number, tracked: boolean, targets: readonly Target[], hidden = false): void {
     if (this.lose(now, tracked)) return
     if (this.captured !== null) {
@@ -136,7 +140,7 @@ export class RayPointer extends Pointer {
         this.take(hit)
         nearest = target
       }
-      // what the hand itself is at goes before what its ray meets
+      // A target within reach of the hand goes before one that the ray meets.
       for (const target of targets) if (target.reaches?.(this.place)) nearest = target
     }
     this.hover(nearest)

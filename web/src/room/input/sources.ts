@@ -37,8 +37,8 @@ export class XrInputs {
   private readonly finger = new Vector3()
   private readonly undo: (() => void)[] = []
 
-  /** targets: what there is to point at now. marked: gets where a press on nothing was made, in the
-   * floor space, and says whether that was what it was for. */
+  /** targets: the present targets. marked: takes the place, in the floor space, of a press on no
+   * target; returns whether the press is used up. */
   constructor(
     private readonly session: XRSession,
     private readonly parent: Object3D,
@@ -102,7 +102,7 @@ export class XrInputs {
       if (pose !== undefined && !pose.emulatedPosition) each.measured = true
       const guessed = each.measured && pose?.emulatedPosition === true
       const here = pose !== undefined && !guessed
-      // what is dragged does not follow a guess
+      // A dragged target does not follow a guessed pose.
       const follows = ray.captured === null ? pose !== undefined : here
       if (pose !== undefined && follows) {
         this.matrix.fromArray(pose.transform.matrix)

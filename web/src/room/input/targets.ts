@@ -4,7 +4,7 @@ import type { Target } from './pointer'
 export class Targets {
   readonly all: Target[] = []
 
-  /** forget: is told of each target that is gone. */
+  /** forget: called with each target that is removed. */
   constructor(private readonly forget: (target: Target) => void) {}
 
   add(target: Target): void {

@@ -12,10 +12,12 @@ const BEFORE = 0.5
 /** m: a panel is drawn as large as it would be there, or smaller where its robot is far. */
 const NEAREST = 1.05
 const LARGEST = 3
-/** Of the picture's half height: what stays free at its top, for the page's own words, and elsewhere. */
+/** Free margins as parts of the picture's half height: at its top, for the page's own text, and
+ * elsewhere. */
 const FREE_TOP = 0.2
 const FREE = 0.03
-/** Of the picture's width and height: the most that a panel takes of a wide one and of a tall one. */
+/** Largest part of the picture's width and height that a panel takes, of a wide and of a tall
+ * picture. */
 const WIDE = { width: 0.38, height: 0.86 } as const
 const TALL = { width: 0.94, height: 0.42 } as const
 
@@ -73,7 +75,7 @@ export function dock(
   return moves
 }
 
-/** Widen the extent by what is seen below an object whose middle is at x, y. */
+/** Widen the extent by the visible children of an object whose middle is at x, y. */
 function measure(object: Object3D, x: number, y: number): void {
   for (const child of object.children) {
     if (!child.visible) continue

@@ -66,7 +66,7 @@ export class Panel implements Target {
       map: this.texture,
       alphaTest: 0.5,
       toneMapped: false,
-      // after what is seen through and the names of robots: nothing is written across a panel
+      // Drawn after transparent things and the names of robots: nothing covers a panel.
       transparent: true,
     })
     const face = new Mesh(this.geometry, this.material)
@@ -88,7 +88,7 @@ export class Panel implements Target {
     const pen = new Pen(context, this.width, this.height, this.hovered, this.active?.id ?? '')
     this.draw(pen)
     this.zones = pen.zones
-    // a drag goes on in the zone that was painted anew
+    // A drag continues in the repainted zone.
     if (this.active !== null) {
       this.active = this.zones.find(({ id }) => id === this.active?.id) ?? null
     }
@@ -115,7 +115,7 @@ export class Panel implements Target {
     return this.group.localToWorld(new Vector3(x * MM, y * MM, 0))
   }
 
-  /** The ids of what can be pressed now. */
+  /** Ids of the enabled zones. */
   get ids(): string[] {
     return this.zones.filter(({ enabled }) => enabled).map(({ id }) => id)
   }
@@ -174,7 +174,7 @@ export class Panel implements Target {
         const { active } = this
         this.active = null
         this.repaint()
-        // what was dragged stays where it was last; a button that was not let go does nothing
+        // A drag ends at its last position; a button that was not released does nothing.
         if (active?.drags) active.press(this.share, true)
       }
     }

@@ -11,7 +11,7 @@ export const FONT = 'system-ui, -apple-system, "Segoe UI", Roboto, "Liberation S
 export const TEXELS = 2
 /** Heights of text, mm: for reading at 0.9 m. */
 export const TEXT = { head: 30, body: 22, small: 18 } as const
-/** Of what is pressed, mm; and between two of them. */
+/** Height of a button, and the gap between two, mm. */
 export const HIT = 60
 export const GAP = 12
 /** Share of its size that a line too long for its place keeps. */
@@ -35,7 +35,7 @@ const CONTRAST: Theme = {
   },
 }
 
-/** Paint panels in black and white, or as usual; what is painted already is to be painted anew. */
+/** Paint panels in black and white, or as usual; painted panels must be repainted. */
 export function setContrast(high: boolean): void {
   PANEL_THEME = high ? CONTRAST : THEMES.dark
 }
@@ -46,7 +46,7 @@ export interface Zone {
   readonly y: number
   readonly width: number
   readonly height: number
-  /** Names it for tests and for keeping what is hovered over a repaint. */
+  /** Name of the zone, for tests, and to keep its hover across a repaint. */
   readonly id: string
   readonly enabled: boolean
   /** share: where across it was pressed or is dragged, 0 to 1; final: it was let go. */
@@ -67,7 +67,7 @@ interface ButtonLook {
 
 type Ink = 'ink' | 'second' | 'accent' | 'border'
 
-/** Draws a panel in mm and notes what can be pressed. */
+/** Draws a panel in mm, and collects its zones. */
 export class Pen {
   readonly zones: Zone[] = []
 

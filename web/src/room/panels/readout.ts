@@ -9,7 +9,7 @@ import {
 import { FONT, PANEL_THEME, TEXELS, TEXT } from './pen'
 
 const MM = 0.001
-/** mm before the panel, and its place in the order of what is drawn: right after the panel. */
+/** mm before the panel, and its render order: right after the panel. */
 const BEFORE = 1
 const AFTER_PANELS = 13
 
@@ -47,7 +47,7 @@ export class Readout {
     this.face.visible = on
   }
 
-  /** Paint what it says where that is new; return whether it is. */
+  /** Paint the text if it has changed; return whether it has. */
   set(left: string, right: string): boolean {
     const painted = this.theme === PANEL_THEME
     if (painted && left === this.left && right === this.right) return false

@@ -19,8 +19,8 @@ const wanted = new Vector3()
 const turned = new Quaternion()
 const tilt = new Quaternion()
 
-/** Keeps a panel where a person reads it: it stands still, and follows once it has been in the wrong
- * place for a while; never under a pointer. */
+/** Keeps a panel where a person reads it: it stands still, and follows once it has been in the
+ * wrong place for a while; never under a pointer. */
 export class Stand {
   private readonly place = new Vector3()
   private readonly turn = new Quaternion()
@@ -34,8 +34,8 @@ export class Stand {
     private readonly edge: Edge = 'bottom',
   ) {}
 
-  /** at: where it should be, in the floor space, m. now, step: s. held: a pointer is over it.
-   * It grows with more than `readAt`; with `still` it does not glide. On a screen it lies flat in the
+  /** at: where it should be, in the floor space, m. now, step: s. held: a pointer is over it. It
+   * grows with more than `readAt`; with `still` it does not glide. On a screen it lies flat in the
    * picture. Returns whether it moves. */
   update(
     at: Vector3,

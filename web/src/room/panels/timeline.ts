@@ -30,8 +30,8 @@ export interface Mark {
   readonly words: string
 }
 
-/** The timeline of a panel: what goes on is a bar and a knob of their own, so that time alone paints
- * nothing. */
+/** The timeline of a panel: bar and knob are meshes of their own, so that the passing time
+ * repaints nothing. */
 export class Timeline {
   private readonly flat = new MeshBasicMaterial({ toneMapped: false })
   private readonly bar = new Mesh(new PlaneGeometry(1, 1), this.flat)
@@ -44,8 +44,8 @@ export class Timeline {
   private now = 0
   private readAt = Number.NaN
 
-  /** width, height: of the panel, mm. noteAt: says what stands at its right end at a position, s.
-   * stir: a picture is due. */
+  /** width, height: of the panel, mm. noteAt: returns the text at its right end for a position, s.
+   * stir: requests a picture. */
   constructor(
     group: Group,
     private readonly width: number,
@@ -88,7 +88,7 @@ export class Timeline {
     this.knob.position.set((left + length) * MM, middle, this.knob.position.z)
   }
 
-  /** Paint what stands still: the track and its marks. */
+  /** Paint the static part: the track and its marks. */
   draw(pen: Pen, player: RemotePlayer, marks: readonly Mark[]): void {
     const { x, y, width, height } = this.track
     const middle = y + height / 2
@@ -119,7 +119,7 @@ export class Timeline {
     this.flat.dispose()
   }
 
-  /** Say what the time is. */
+  /** Paint the time. */
   private read(player: RemotePlayer): void {
     this.readAt = this.now
     const position = this.position(player)

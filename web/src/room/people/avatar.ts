@@ -16,14 +16,14 @@ const HEAD = 0.11
 const HAND = 0.045
 const ABOVE = 0.17
 const NAME = 0.026 // of a name, as a part of the distance to it
-/** s in which what is drawn comes near to what was told: messages come at 20 Hz at most. */
+/** Time constant, s, with which an avatar follows its messages, which arrive at 20 Hz at most. */
 const EASE = 0.06
 const JUMP = 0.6 // m
 
 const place = new Vector3()
 const turn = new Quaternion()
 
-/** An icon beside the word: a part is never told by a colour alone. */
+/** An icon beside the word: a part is never shown by a colour alone. */
 export const PART_ICONS = { 0: '○', 1: '▶', 2: '★' } as const
 const PART_COLOURS = { 0: 0xa9b5c2, 1: 0x6cb6ff, 2: 0xffe08a } as const
 

@@ -4,10 +4,10 @@ import { LinkError } from '../../link/link'
 import { RobotSystem, triggerType } from '../../protocol/mrlab_msgs'
 import { spoken } from '../../words/diagnostic'
 
-/** s: what several pauses do one after the other is one deed. */
+/** s within which several pauses count as one deed. */
 const TOGETHER = 1.5
 
-/** Return who moves now: systems, and robots that are in none. */
+/** Return the names of moving systems, and of moving robots that are in none. */
 export function movingNow({ robots, systems }: Pick<LabFollower, 'robots' | 'systems'>): string[] {
   const alone = robots.value
     .filter(({ state, playback }) => {
@@ -46,7 +46,8 @@ export async function pauseAll(
   return { paused, failed }
 }
 
-/** Says who paused what, in one sentence for pauses that come together. */
+/** Reports the pauses of other people; pauses of one person within a short time are one
+ * sentence. */
 export function pauseNews(
   link: Link,
   say: (who: string, names: readonly string[]) => void,

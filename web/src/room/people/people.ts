@@ -27,7 +27,7 @@ interface Hands {
   hand(side: 'left' | 'right'): Vector3 | null
 }
 
-/** Somebody who is here. */
+/** A person in the room. */
 interface Present {
   readonly name: string
   readonly part: Part
@@ -42,7 +42,7 @@ export class People {
   private toldAt = Number.NEGATIVE_INFINITY
   private now = 0
 
-  /** id: of this display, unique in the lab. changed: somebody came or left. */
+  /** id: of this display, unique in the lab. changed: a person came or left. */
   constructor(
     private readonly link: Link,
     private readonly world: Object3D,
@@ -60,8 +60,8 @@ export class People {
     return [...this.people.values()].map(({ avatar: { name, part } }) => ({ name, part }))
   }
 
-  /** Before each picture: move the others, and let go of who is silent. Returns whether somebody is
-   * drawn. now, step: s. */
+  /** Before each picture: update avatars, and remove silent people. Returns whether any is drawn.
+   * now, step: s. */
   update(now: number, step: number): boolean {
     this.now = now
     for (const [id, { avatar, seenAt }] of this.people) {
@@ -117,7 +117,7 @@ export class People {
       return
     }
     const part = partOf(message)
-    // who is nameless comes over the lab's own network, without a sign-in
+    // Without a name: a client of the lab's own network, which needs no sign-in.
     const name = message.name || message.id.slice(0, 8)
     let person = this.people.get(message.id)
     if (person !== undefined && (person.avatar.part !== part || person.avatar.name !== name)) {

@@ -12,7 +12,8 @@ const at = new Vector3()
 /** The eyes of the desktop view. */
 export const SEATED: Viewer = { head: new Vector3(0, 1.6, 0.9), look: new Quaternion() }
 
-/** Puts the scene before who enters, unless an anchor of an earlier session says where it stands. */
+/** Places the scene before a person who enters, unless an anchor of an earlier session places
+ * it. */
 export class Alignment {
   private aligned = false
   private restoring = false
@@ -39,7 +40,7 @@ export class Alignment {
     return !this.aligned && !this.anchor.found
   }
 
-  /** Put the scene's middle on the floor before somebody. */
+  /** Put the scene's middle on the floor before a person. */
   align({ head, look }: Viewer): void {
     at.set(0, 0, 0)
     let count = 0

@@ -44,7 +44,7 @@ export class SceneAnchor {
   /** Bring back the anchor of an earlier session, where there is one. */
   async restore(session: XRSession): Promise<void> {
     this.session = session
-    // what was placed without a headset is no place of this room
+    // A place that was chosen without a headset is no place of this room.
     this.wanted = false
     const place = ++this.placing
     const handle = localStorage.getItem(KEY)
@@ -61,8 +61,8 @@ export class SceneAnchor {
     }
   }
 
-  /** Put the group's origin on the floor so that `centre`, in the group's frame, is `away`, m, before
-   * the eyes, and hold it there from the next frame on. floor: its height, m. */
+  /** Put the group's origin on the floor so that `centre`, in the group's frame, is `away`, m,
+   * before the eyes, and hold it there from the next frame on. floor: its height, m. */
   place(head: Vector3, look: Quaternion, centre: Vector3, away: number, floor: number): void {
     forward.set(0, 0, -1).applyQuaternion(look).setY(0)
     if (forward.lengthSq() < 1e-4) forward.set(0, 0, -1)
@@ -97,7 +97,7 @@ export class SceneAnchor {
     this.waitsUntil = Number.NaN
   }
 
-  /** Forget what belongs to a session that ended. */
+  /** Forget the anchors of a session that ended. */
   end(): void {
     this.session = null
     this.anchor = null

@@ -5,7 +5,7 @@ import { type Surface, setSurfacesType } from '../../protocol/mrlab_msgs'
 import type { Lab } from '../ports'
 import { poseInWorld, vectorToRos } from '../scene/frames'
 
-/** s between two looks, and for which the room must be still before it is told. */
+/** s between two looks, and for which the room must be still before it is published. */
 const PERIOD = 0.5
 const STILL = 0.8
 /** m, and of a quaternion's numbers: smaller changes are the tracking's. */
@@ -31,8 +31,8 @@ const quaternion = new Quaternion()
 const scale = new Vector3()
 const corner = new Vector3()
 
-/** Follows what the headset knows of the room, and tells it when it has changed: only what is new
- * is built again. */
+/** Follows the surfaces that the headset knows, and reports them when they have changed: only new
+ * ones are built again. */
 export class RoomScan {
   /** Height of the headset's own floor in the floor space, m; NaN: it knows none. */
   floor = Number.NaN
@@ -106,7 +106,7 @@ export class RoomScan {
   ): boolean {
     const pose = frame.getPose(at, space)
     if (pose === undefined) {
-      // lost for a moment: what was known of it stays
+      // Lost for a moment: keep its last state.
       if (this.known.has(found)) seen.add(found)
       return false
     }

@@ -33,7 +33,7 @@ export class Spawning {
     this.list()
   }
 
-  /** Have the lab place a robot on what is before the eyes. */
+  /** Have the lab place a robot on the surface before the eyes. */
   async spawn({ id }: Entry): Promise<void> {
     const { ports } = this
     const request = {
@@ -68,7 +68,7 @@ export class Spawning {
         this.most = limit
         this.listed()
       })
-      // without physics there are no objects; the offer tells when it is there
+      // Without physics there are no objects; the next offer lists them.
       .catch(() => undefined)
   }
 }

@@ -25,7 +25,7 @@ export interface Place {
   x: number
   y: number
   z: number
-  /** what it is on */
+  /** name of the surface, or of the robot that stands there */
   support: string
 }
 
@@ -37,8 +37,8 @@ export interface Ground {
 
 const ENDLESS: Support = { name: FLOOR, height: 0, outline: new Float64Array() }
 
-/** Return the floor and every level plane, the highest first. A plane may come with its normal
- * downwards, for devices disagree; what is level is told by gravity alone. */
+/** Return the floor and every level plane, the highest first. Devices disagree on the direction of
+ * normals: a plane is level by gravity alone. */
 export function supportsOf(surfaces: readonly SurfaceShape[]): Support[] {
   const found: Support[] = []
   for (const { name, label, pose, vertices, triangles } of surfaces) {

@@ -19,8 +19,8 @@ const turn = new Quaternion()
 
 type Awaited = 'nothing' | 'first' | 'second'
 
-/** Aligns the headsets of a room: who touches the same two points in the same order sees the lab in
- * the same place. */
+/** Aligns the headsets of a room: people who touch the same two points in the same order see the
+ * lab in the same place. */
 export class TouchAlignment {
   awaited: Awaited = 'nothing'
   private readonly first = new Vector3()
@@ -30,8 +30,8 @@ export class TouchAlignment {
   /** The earlier pose of the scene in the frame of its present one: a recentre moves both. */
   private before: Matrix4 | null = null
 
-  /** group: what the anchor moves. marks: where the touched points are shown, in the floor space.
-   * ports: says what is awaited. */
+  /** group: moved by the anchor. marks: shows the touched points, in the floor space. ports: says
+   * which touch is awaited. */
   constructor(
     private readonly anchor: SceneAnchor,
     private readonly group: Group,
@@ -130,8 +130,8 @@ interface Footing {
 }
 
 /** Return where the lab stands by two points that were touched in the floor space: its origin is
- * below the first, its x points to the second. null: they are too near to each other. Heights do not
- * count: each headset knows its floor. */
+ * below the first, its x points to the second. null: they are too near to each other. Heights do
+ * not count: each headset knows its floor. */
 export function footingOf(first: Vector3, second: Vector3): Footing | null {
   const x = second.x - first.x
   const z = second.z - first.z

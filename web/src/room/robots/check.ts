@@ -14,7 +14,7 @@ import type { Speech } from '../ports'
 export const CHECK_WIDTH = 240
 const MOST_LISTED = 40
 
-/** Return what the button of a check says. */
+/** Return the label of the button of a check. */
 export function checkLabel(check: Check | null, { check: w }: Pick<Words, 'check'>): string {
   if (check === null) return w.check
   const { state, verdict, stale } = check
@@ -58,7 +58,7 @@ export interface Checks {
   readonly commands: boolean
 }
 
-/** The check of what a robot has loaded, on the robot's panel. */
+/** The check of a robot's loaded motion, on the robot's panel. */
 export class PanelCheck {
   private readonly check: RobotCheck
   private readonly stopListening: () => void
@@ -81,7 +81,7 @@ export class PanelCheck {
     })
   }
 
-  /** Have what is loaded checked, where it has been loaded since the panel came. */
+  /** Start a check of the loaded motion, if it was loaded after the panel was made. */
   follow({ playback, state }: RobotView): void {
     if (playback === null) return
     const { trajectory_id: id, trajectory_version: version } = playback
@@ -90,7 +90,7 @@ export class PanelCheck {
     void this.check.follow(id && `${id}@${version}`, begins)
   }
 
-  /** Return what is marked on the timeline of a motion of `duration` s. */
+  /** Return the marks on the timeline of a motion of `duration` s. */
   marks(duration: number): Mark[] {
     const { states } = PANEL_THEME
     return marksOf(this.check.check.value, duration).map(({ time, finding: { severity } }) => ({
@@ -117,7 +117,7 @@ export class PanelCheck {
     pen.box(x + 12, TOP + HIT + 4, CHECK_WIDTH - 24, LINE, checkColour(check))
   }
 
-  /** Draw what the check found; a finding leads to its instant. */
+  /** Draw the findings of the check; a finding leads to its instant. */
   drawFindings(pen: Pen, edge: number, list: PagedList, player: Player, back: () => void): void {
     const { words, commands } = this.ports
     const check = this.check.check.value

@@ -177,7 +177,7 @@ export class ControlPanel {
     drawButtons(pen, EDGE, ports, robot, shown, this.actions)
   }
 
-  /** Let the gripper lose what it holds, or fix to it what is nearest to its fingers. */
+  /** Detach the object that the gripper holds, or attach the one nearest to its fingers. */
   private useHand(): void {
     const { link } = this.ports
     const { holding } = this.robot
@@ -284,8 +284,8 @@ export class ControlPanel {
   }
 }
 
-/** Return whether a panel says the same of two: the lab says how a robot stands once a second, and a
- * panel that is painted costs a frame. */
+/** Return whether a panel says the same of two: the lab says how a robot stands once a second, and
+ * a panel that is painted costs a frame. */
 function looksAlike(one: RobotView, other: RobotView): boolean {
   const a = one.playback
   const b = other.playback

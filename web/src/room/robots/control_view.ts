@@ -24,11 +24,12 @@ interface ControlShown {
   readonly notice: string
   readonly loaded: boolean
   readonly telemetry: boolean
-  /** mm that stand beside what is said, at the right. */
+  /** mm that are taken to the right of the sentence. */
   readonly beside: number
 }
 
-/** Draw what a robot does, and why it halted: what stands between its name and its timeline. */
+/** Draw the status of a robot, between its name and its timeline: its motion, and the reason for a
+ * halt. */
 export function drawStatus(
   pen: Pen,
   edge: number,
@@ -58,7 +59,7 @@ export function drawStatus(
   if (!loaded) pen.text(edge, 238, w.chooseMotion, TEXT.body)
 }
 
-/** Draw the buttons of a robot: play, rate, motions, end effector and what can be shown. */
+/** Draw the buttons of a robot: play, rate, motions, end effector and drawings. */
 export function drawButtons(
   pen: Pen,
   edge: number,

@@ -116,7 +116,7 @@ export class RobotPanels {
   private place(name: string, entry: Entry, now: number, step: number): void {
     const frame = this.scene.base(name)
     const robot = this.scene.robot(name)
-    // out of the way of who touches robots one after the other
+    // Hidden while robots are chosen by touch.
     entry.control.panel.group.visible = frame !== undefined && !this.choosing.on
     if (frame === undefined || robot === undefined) return
     const { head, leftHanded, seated } = this.ports

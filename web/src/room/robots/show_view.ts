@@ -12,7 +12,7 @@ const STRIPES = 48
 const DEG = 180 / Math.PI
 const colour = new Color()
 
-/** Draw what can be shown about a robot: its tool's path, how far it reaches, another motion. */
+/** Draw the switches of a robot's drawings: its tool's path, its reach, another motion. */
 export function drawShow(
   pen: Pen,
   edge: number,

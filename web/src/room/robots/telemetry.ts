@@ -9,7 +9,7 @@ const WIDTH = 640
 const ROW = 62
 const TOP = 96
 const EDGE = 26
-/** Of what the gripper bears. */
+/** Height of the lines of the gripper's load. */
 const GRASP = 62
 /** Samples of a graph: 12 s. */
 const SAMPLES = 120

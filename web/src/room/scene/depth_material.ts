@@ -1,12 +1,10 @@
 import type { IUniform, Material } from 'three'
 
-/** Uniforms of the room's depth:
- * roomDepth: sampler2DArray, a layer an eye;
- * roomDepthView: width and height of an eye's part of the picture, px, 0: no depth now; z: where the
- * projection of the depth begins, m, or -(m of the value 1) of a depth without one; w: where it ends,
- * 0: nowhere;
- * roomDepthLayer: of each eye;
- * roomDepthFromView: mat4[2], from a place in an eye's part of the picture to one of its depth. */
+/** Uniforms of the room's depth: roomDepth: sampler2DArray, a layer an eye; roomDepthView: width
+ * and height of an eye's part of the picture, px, 0: no depth now; z: where the projection of the
+ * depth begins, m, or -(m of the value 1) of a depth without one; w: where it ends, 0: nowhere;
+ * roomDepthLayer: of each eye; roomDepthFromView: mat4[2], from a place in an eye's part of the
+ * picture to one of its depth. */
 type DepthUniforms = Readonly<Record<string, IUniform>>
 
 const DECLARED = /* glsl */ `

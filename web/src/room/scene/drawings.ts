@@ -24,7 +24,7 @@ interface Drawn {
 export class Drawings {
   private readonly robots = new Map<string, Drawn>()
 
-  /** say: is told what could not be fetched. */
+  /** say: reports a motion that could not be fetched. */
   constructor(
     private readonly scene: LabScene,
     private readonly follower: () => LabFollower,
@@ -121,7 +121,7 @@ export class Drawings {
     const base = this.scene.base(name)
     if (robot === undefined || base === undefined) return false
     if (drawn.robot !== robot) {
-      // another end effector: what was drawn is of another robot
+      // Another end effector: the drawings are of another robot.
       this.clear(drawn)
       drawn.robot = robot
       if (drawn.compared !== '') this.compare(name, drawn.compared)

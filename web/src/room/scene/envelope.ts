@@ -56,7 +56,7 @@ export class Envelope {
   private readonly farthest = new Float64Array(COUNT * 3)
   private next = 0
 
-  /** floor: height of the floor in the frame of the base, m: what is below is not shown. */
+  /** floor: height of the floor in the frame of the base, m: points below it are not shown. */
   constructor(
     private readonly chain: Chain,
     jointCount: number,

@@ -1,9 +1,9 @@
 import { type Object3D, Quaternion, Vector3 } from 'three'
 import type { Pose } from '../../protocol/geometry_msgs'
 
-/** ROS (REP 103): x forwards, y left, z up. WebXR: x right, y up, z backwards. Both right-handed, m.
- * This file is the only one that knows both; the lab's frame `world` is an Object3D that `stand`
- * turned, and three's matrices do the rest. */
+/** ROS (REP 103): x forwards, y left, z up. WebXR: x right, y up, z backwards. Both right-handed,
+ * m. This file is the only one that knows both; the lab's frame `world` is an Object3D that
+ * `stand` turned, and three's matrices do the rest. */
 export const ROS_TO_XR: Readonly<Quaternion> = new Quaternion(-0.5, 0.5, 0.5, 0.5)
 
 const turn = new Quaternion()
@@ -20,9 +20,9 @@ export function vectorToRos(vector: Vector3, into: Vector3): Vector3 {
   return into.set(-vector.z, -vector.x, vector.y)
 }
 
-/** Return the pose in the lab's frame of something that WebXR tracks: a head or a hand, whose x then
- * points forwards, or a plane, whose z then is its normal. position, quaternion: in the scene.
- * world: with a current matrixWorld. */
+/** Return the pose in the lab's frame of a tracked pose: of a head or a hand, x then points
+ * forwards; of a plane, z then is its normal. position, quaternion: in the scene. world: with a
+ * current matrixWorld. */
 export function poseInWorld(world: Object3D, position: Vector3, quaternion: Quaternion): Pose {
   world.matrixWorld.decompose(scale, turn, scale)
   place.copy(position)

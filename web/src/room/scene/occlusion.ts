@@ -24,9 +24,9 @@ interface Projected {
   readonly depthFar?: number
 }
 
-/** Hides what is behind real things, where the headset measures how far these are. Each fragment of a
- * robot or an object is compared with the depth at its place, so that no pass over the whole picture
- * is needed, and edges are soft. */
+/** Hides robots and objects behind real things whose depth the headset measures. Each fragment is
+ * compared with the depth at its place, so that no pass over the whole picture is needed, and
+ * edges are soft. */
 export class Occlusion {
   /** True if the person switched it on. */
   wanted = false
@@ -40,7 +40,7 @@ export class Occlusion {
   private lookedAt = Number.NEGATIVE_INFINITY
   private active = true
 
-  /** root: what is hidden behind real things, with all below it. */
+  /** root: is hidden behind real things, with all below it. */
   constructor(
     private readonly renderer: WebGLRenderer,
     private readonly root: Object3D,
@@ -71,7 +71,7 @@ export class Occlusion {
     this.map.dispose()
   }
 
-  /** Have the device measure no depth that nobody uses. */
+  /** Stop the measurement of depth while it is unused. */
   private pause(session: XRSession): void {
     if (this.active === this.wanted) return
     this.active = this.wanted

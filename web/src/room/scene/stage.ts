@@ -27,7 +27,7 @@ import { Occlusion } from './occlusion'
 
 /** m above the floor, of the eyes of the desktop view. */
 const EYES = 1.6
-const SHADOW = 1.6 // m, half of what the shadow covers at least
+const SHADOW = 1.6 // m, half of the least width of the shadow
 const SUN = new Vector3(1.2, 3.2, 1.4)
 /** s */
 const STILL_PERIOD = 0.5
@@ -130,8 +130,8 @@ export class RoomStage implements SceneHost {
     this.stirred = true
   }
 
-  /** Draw, in a headset always, on a desktop what was asked for and twice a second: software that
-   * draws slowly leaves the page time for clicks. now: s. */
+  /** Draw a picture: in a headset in each frame, on a desktop on request and twice a second, so
+   * that a slow renderer leaves the page time for clicks. now: s. */
   draw(now: number): boolean {
     const inside = this.renderer.xr.isPresenting
     if (!inside) {
@@ -152,7 +152,7 @@ export class RoomStage implements SceneHost {
     this.cost = step < SMOOTH ? 0 : this.cost + 0.3 * (step - this.cost)
   }
 
-  /** The room is not framed: who is in it walks. */
+  /** Do nothing: a person in the room walks. */
   frame(_points: readonly Vector3[]): void {}
 
   /** Show the floor that is there, with shadows on it, or a grid. */

@@ -7,7 +7,7 @@ import type { Chain } from '../../scene/robot/chain'
 
 const MOST_POINTS = 600
 const WIDTH = 0.008 // m
-/** From slow to fast: told apart with every kind of colour vision, and on light and dark walls. */
+/** From slow to fast: distinct with every kind of colour vision, and on light and dark walls. */
 const RAMP = [0x2f5fd0, 0x2aa6b8, 0x8fd05a, 0xf5d13d, 0xff8a3c].map((each) => new Color(each))
 
 /** The path of the tool in a motion, and its speed. */

@@ -45,8 +45,8 @@ export async function abilityOf({ secure, xr }: XrPlatform): Promise<Ability> {
   return { mode: null, hindrance: 'no_device' }
 }
 
-/** Return which of the wanted features a session does not have; one that does not tell has all.
- * depth: whether depth was asked for, too. */
+/** Return the wanted features that a session lacks; a session that lists none has all. depth:
+ * depth was requested, too. */
 export function missingOf(granted: readonly string[] | undefined, depth = false): Feature[] {
   if (granted === undefined) return []
   const wanted: readonly Feature[] = depth ? [...WANTED, DEPTH] : WANTED

@@ -19,15 +19,15 @@ export interface Way {
   readonly troubles: readonly string[]
 }
 
-/** One hop that failed, or is not there yet: what it is and what to do. */
+/** A hop that failed or is not ready: its problem, and the remedy. */
 export interface Hop {
   readonly id: 'headset' | 'gateway' | 'lab' | 'robots' | 'meshes'
   readonly severity: 'info' | 'warning' | 'error'
   readonly words: string
 }
 
-/** Return what stands between the lab and the eyes, the first hop first; empty: nothing does. Hops
- * behind one that failed say nothing: they cannot be known. */
+/** Return the problems between the lab and the eyes, the first hop first; empty: none. Hops behind
+ * one that failed are unknown and left out. */
 export function hopsOf(way: Way, words: Words['room']): Hop[] {
   const found: Hop[] = []
   const hindrance = way.ability?.hindrance ?? ''
@@ -59,7 +59,7 @@ export function hopsOf(way: Way, words: Words['room']): Hop[] {
   return found
 }
 
-/** Return why a headset did not let somebody in, for that person. */
+/** Return the reason for which a headset refused a session, for its person. */
 export function refusalOf(error: unknown, words: Words['room']): string {
   const name = error instanceof Error ? error.name : ''
   if (name === 'NotAllowedError' || name === 'SecurityError') {

@@ -3,15 +3,15 @@ import { DEPTH, EXTRA, type Feature, type Mode, missingOf, REQUIRED, WANTED } fr
 
 const FRAME_RATE = 72
 
-/** A session that runs: what it got, and how it ends. */
+/** A running session, and the features that it lacks. */
 export interface RoomSession {
   readonly session: XRSession
   readonly mode: Mode
   readonly missing: readonly Feature[]
 }
 
-/** Enter. Must be called by a person's tap. Rejects as `navigator.xr.requestSession` does. depth: ask
- * how far real things are, where they are seen. */
+/** Enter. Must be called by a person's tap. Rejects as `navigator.xr.requestSession` does. depth:
+ * request the depth of the visible room. */
 export async function enter(
   renderer: WebGLRenderer,
   mode: Mode,

@@ -59,7 +59,8 @@ export function randomId(bytes: number): string {
   return [...values].map((value) => value.toString(16).padStart(2, '0')).join('')
 }
 
-/** Keep the room as somebody chose it; returns how to end it. repaint: all panels. */
+/** Apply the settings to the room whenever they change; returns a function that ends it. repaint:
+ * all panels. */
 export function applySettings(settings: Settings, visit: Visit, repaint: () => void): () => void {
   const undo = [
     effect(() => {

@@ -10,7 +10,7 @@ import { enter, type RoomSession } from './session'
 /** m by which standing eyes are above sitting ones. */
 const LIFT = 0.4
 
-/** Somebody's stay in the room with a headset: its session and what it points with. */
+/** A person's stay in the room with a headset: the session and its pointers. */
 export class Visit {
   /** True while a headset is in the room. */
   readonly inside = signal(false)
@@ -43,7 +43,7 @@ export class Visit {
     return this.current?.missing ?? []
   }
 
-  /** Return how long somebody has been inside, s; NaN: nobody is. */
+  /** Return the time since the entry, s; NaN: nobody is inside. */
   lasts(now: number): number {
     return now - this.enteredAt
   }
@@ -62,7 +62,7 @@ export class Visit {
     return session
   }
 
-  /** Let who sits see from where they would stand; the real floor stays where it is seen. */
+  /** Raise a seated person to standing height, unless the real floor is visible. */
   seat(seated: boolean): void {
     if (this.floor === null) return
     const lift = seated && !this.passthrough
@@ -72,7 +72,7 @@ export class Visit {
     this.stage.renderer.xr.setReferenceSpace(space)
   }
 
-  /** Hide robots and objects behind real things; asked for when somebody enters. */
+  /** Hide robots and objects behind real things; requested at the next entry. */
   hide(behind: boolean): void {
     this.depth = behind
     this.stage.occlusion.wanted = behind

@@ -30,7 +30,7 @@ export type SystemPorts = Speech & Lab & Surroundings
 
 type View = 'control' | 'members' | 'confirm'
 
-/** Return the state whose colour a system has. */
+/** Return the state of a playback whose colour a system has. */
 function stateOf({ label }: RobotSystem): StateName {
   if (label === 'STAGING') return 'ADJUSTING'
   return STATE_NAMES.find((name) => name === label) ?? 'READY'

@@ -43,7 +43,7 @@ export class Guide {
     targets.add(this.panel.panel)
   }
 
-  /** Begin anew. */
+  /** Restart the tour. */
   begin(): void {
     this.tour.begin()
     this.panel.panel.repaint()

@@ -60,10 +60,10 @@ export class Tour {
     this.done()
   }
 
-  /** Take what is seen now; returns whether the step was done. */
+  /** Take the present state of the lab; returns whether the step was done. */
   see(seen: Seen): boolean {
     if (!this.begun) {
-      // what was so before the step began does not do it
+      // A state from before the step does not complete it.
       this.begun = true
       this.robots = seen.robots
       this.scrubs = seen.scrubs

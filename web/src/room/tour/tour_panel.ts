@@ -23,7 +23,7 @@ export class TourPanel {
   private prompt: Label | null = null
   private said = ''
 
-  /** board: what it hangs below. floor: the floor space, in which hands are. */
+  /** board: the panel hangs below it. floor: the floor space, in which hands are. */
   constructor(
     private readonly ports: Speech & Surroundings,
     private readonly tour: Tour,

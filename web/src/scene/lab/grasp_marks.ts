@@ -116,7 +116,7 @@ export class Contacts {
   }
 
   setTheme(theme: SceneTheme): void {
-    // a grasp touches too: red is for what went wrong
+    // A grasp is a contact too: red is for collisions.
     this.mesh.material.color.set(theme.info)
   }
 

@@ -14,7 +14,7 @@ const FIRST = 16 // instances for which there is room at first
 
 const matrix = new Matrix4()
 
-/** A mesh of a kind, in the frame of what is drawn. */
+/** A mesh of a kind, in the frame of the instance. */
 export interface KindPart {
   readonly geometry: BufferGeometry
   readonly material: Material
@@ -44,14 +44,14 @@ export class Instances {
   private readonly kinds = new Map<string, Kind>()
   private readonly shadow = new MeshDepthMaterial()
 
-  /** parent: what the meshes are put in; frames of instances are its children, too. */
+  /** parent: of the meshes, and of the frames of instances. */
   constructor(private readonly parent: Object3D) {}
 
   has(kind: string): boolean {
     return this.kinds.has(kind)
   }
 
-  /** Say what a kind looks like. Geometries and materials stay the caller's. */
+  /** Set the meshes of a kind. The caller owns geometries and materials. */
   define(kind: string, parts: readonly KindPart[]): void {
     const made = { parts, meshes: [], instances: [], drawn: new Float32Array(), fresh: true }
     this.kinds.set(kind, made)

@@ -29,7 +29,7 @@ interface Entry {
 export class LabObjects {
   private readonly known = new Map<string, Entry>()
   private readonly instances: Instances
-  /** Of the primitives: what is freed at the end. */
+  /** Geometries and materials of primitives, disposed of at the end. */
   private readonly made: { dispose(): void }[] = []
   private readonly scratch = new Matrix4()
   private readonly scale = new Vector3()
@@ -46,7 +46,7 @@ export class LabObjects {
     this.instances = new Instances(stage.world)
   }
 
-  /** Take over what is there; what is not among it disappears. */
+  /** Take over the present objects; all others disappear. */
   set(objects: readonly ShownObject[]): void {
     let changed = false
     for (const entry of this.known.values()) entry.seen = false
@@ -80,7 +80,7 @@ export class LabObjects {
     return true
   }
 
-  /** Before each picture: put what is held where the hands are now. Matrices are current. */
+  /** Before each picture: put held objects into the hands. Matrices are current. */
   follow(): void {
     for (const entry of this.known.values()) {
       const tip = entry.heldBy === '' ? undefined : this.toolOf(entry.heldBy)
@@ -138,7 +138,7 @@ export class LabObjects {
     }
   }
 
-  /** Put what is held where the lab says that it sits in the hand; return whether that is new. */
+  /** Put a held object at its place in the hand; return whether that is new. */
   private fit(entry: Entry, inTool: Pose | undefined): boolean {
     if (entry.heldBy === '' || inTool === undefined) return false
     const { position: p, orientation: q } = inTool

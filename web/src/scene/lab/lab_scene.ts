@@ -92,7 +92,8 @@ export class LabScene {
     return this.robots.get(name)?.robot
   }
 
-  /** Return another of a robot, as a ghost, that stands where it does; the caller disposes of it. */
+  /** Return another of a robot, as a ghost, that stands where it does; the caller disposes of
+   * it. */
   ghost(name: string): SceneRobot | undefined {
     const entry = this.robots.get(name)
     if (entry === undefined) return undefined
@@ -116,7 +117,7 @@ export class LabScene {
     if (entry !== undefined) place(entry.base, pose)
   }
 
-  /** Say what a robot does: the word is drawn above it, in the state's colour. */
+  /** Set the state of a robot: the word is drawn above it, in the state's colour. */
   setState(name: string, word: string, colour: string, filled = false): void {
     const entry = this.robots.get(name)
     if (entry === undefined) return
@@ -190,7 +191,7 @@ export class LabScene {
     return Promise.all([...this.robots.values()].map(({ robot }) => robot.ready))
   }
 
-  /** Before each picture: what is held follows the hands. */
+  /** Before each picture: held objects follow the hands. */
   update(): void {
     this.stage.world.updateMatrixWorld(true)
     this.objects.follow()

@@ -39,7 +39,7 @@ export function kindOf({ primitive: { type }, color: { a } }: Shape): string {
   return a < 1 ? `primitive ${known} ${a.toFixed(3)}` : `primitive ${known}`
 }
 
-/** Return what the primitives of a kind share: one of size 1 about its centre. */
+/** Return the geometry that primitives of a kind share, of size 1 about its centre. */
 export function primitiveParts({ primitive, color }: Shape): KindPart[] {
   const material = new MeshStandardMaterial({
     roughness: 0.6,
@@ -50,7 +50,7 @@ export function primitiveParts({ primitive, color }: Shape): KindPart[] {
   return [{ geometry: geometryOf(primitive.type), material, local: new Matrix4() }]
 }
 
-/** Return what makes an object's primitive of one of size 1. */
+/** Return the transform from a primitive of size 1 to an object's. */
 export function scaleOf({ primitive, size }: Shape): Vector3 {
   const [a = 0, b = 0, c = 0] = Array.from(primitive.dimensions)
   switch (primitive.type) {

@@ -31,7 +31,7 @@ export interface ShownSurface {
   readonly triangles: ArrayLike<number>
 }
 
-/** The surfaces of the room, drawn so that what stands before and behind them stays visible. */
+/** The surfaces of the room, drawn so that things before and behind them stay visible. */
 export class LabSurfaces {
   readonly group = new Group()
   private readonly solid = material(0.16)

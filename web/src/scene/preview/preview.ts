@@ -39,9 +39,9 @@ export interface MotionPreview {
   readonly time: number
   readonly duration: number
   readonly playing: boolean
-  /** Be told the time whenever it changes, once a picture at most. */
+  /** Receive the time whenever it changes, once a picture at most. */
   onTime(listener: (time: number) => void): () => void
-  /** Be told the number of a finding, from 1, whose mark is clicked. */
+  /** Receive the number of a finding, from 1, whose mark is clicked. */
   onSelect(listener: (number: number) => void): () => void
   /** Resolves when every mesh is there, or its placeholder. */
   readonly ready: Promise<void>

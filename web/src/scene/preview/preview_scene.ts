@@ -25,8 +25,8 @@ interface Marker {
   readonly finding: Diagnostic
 }
 
-/** A motion on the stage: the robot, its first and last pose, the tool's path, the findings. In place of
- * the two poses a second motion of the same robot may go along as a ghost. */
+/** A motion on the stage: the robot, its first and last pose, the tool's path, the findings. In
+ * place of the two poses a second motion of the same robot may go along as a ghost. */
 export class PreviewScene {
   readonly robot: SceneRobot
   readonly ready: Promise<void>
@@ -137,7 +137,8 @@ export class PreviewScene {
     return this.course.timeOfRow(finding.first_row)
   }
 
-  /** Return the number of the finding whose mark is at a place on the canvas, CSS pixels; 0: none. */
+  /** Return the number of the finding whose mark is at a place on the canvas, CSS pixels; 0:
+   * none. */
   markAt(x: number, y: number): number {
     const at = new Vector3()
     for (const { label, finding } of this.markers) {

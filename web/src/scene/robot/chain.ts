@@ -1,6 +1,6 @@
 import { Matrix4, Quaternion, Vector3 } from 'three'
 
-/** A joint of a chain and what lies between it and the joint before. */
+/** A joint of a chain, and the transform from the joint before. */
 export interface ChainJoint {
   /** Of its frame at 0 in that of the joint before, or of the base. */
   readonly rest: Matrix4
@@ -15,7 +15,8 @@ export interface ChainJoint {
 
 /** Sweeps over the joints after which the farthest place has settled. */
 const SWEEPS = 6
-/** Starts of a search: a joint's best depends on the others, and one start finds no more than a hill. */
+/** Starts of a search: a joint's best depends on the others, and one start finds no more than a
+ * hill. */
 const STARTS = 6
 /** Spreads the joints of a start; the golden ratio repeats nothing. */
 const SPREAD = 0.6180339887498949
@@ -61,9 +62,9 @@ export class Chain {
     return before === null ? into : into.applyMatrix4(before)
   }
 
-  /** Write the place farthest along a direction that the tool reaches within its limits. Each joint
-   * in turn goes to where it is farthest, its others held, from several starts. scratch: as long as the
-   * positions. */
+  /** Write the place farthest along a direction that the tool reaches within its limits. Each
+   * joint in turn goes to where it is farthest, its others held, from several starts. scratch: as
+   * long as the positions. */
   farthest(direction: Vector3, scratch: Float64Array, into: Vector3): Vector3 {
     let most = Number.NEGATIVE_INFINITY
     for (let start = 0; start < STARTS; start++) {
@@ -81,7 +82,8 @@ export class Chain {
     return into
   }
 
-  /** Move each joint to its best, from the last to the first: those before it stay where they are. */
+  /** Move each joint to its best, from the last to the first: those before it stay where they
+   * are. */
   private sweep(direction: Vector3, positions: Float64Array): void {
     this.tool(positions, at)
     for (let i = this.joints.length - 1; i >= 0; i--) {

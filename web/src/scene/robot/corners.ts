@@ -1,7 +1,8 @@
 import { type Box3, Mesh, type Object3D, Vector3 } from 'three'
 import { RobotBody } from './robot_body'
 
-/** Add the corners of the box about each mesh below `object`, in the frame of `world`, to `into`. */
+/** Add the corners of the box about each mesh below `object`, in the frame of `world`, to
+ * `into`. */
 export function pushCorners(object: Object3D, world: Object3D, into: Vector3[]): void {
   world.updateWorldMatrix(true, true)
   const inverse = world.matrixWorld.clone().invert()

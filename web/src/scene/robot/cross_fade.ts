@@ -9,8 +9,8 @@ export class CrossFade {
   private length = 0
   private settled = false
 
-  /** border: m, from where on the far level is shown; it stays until a part `hysteresis` of that
-   * nearer. duration: s in which one dissolves into the other, asked for at each change; 0: at once. */
+  /** border: distance from which the far level is shown, m; it stays until `hysteresis`, a part of
+   * the border, nearer. duration: time of a dissolve, s, read at each change; 0: at once. */
   constructor(
     private readonly border: number,
     private readonly hysteresis: number,
@@ -33,7 +33,7 @@ export class CrossFade {
     return progress < 1
   }
 
-  /** End at once what dissolves. */
+  /** End a dissolve at once. */
   end(): void {
     this.length = 0
     this.share = this.far ? 1 : 0

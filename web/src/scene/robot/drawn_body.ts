@@ -36,7 +36,7 @@ export class DrawnBody {
     private readonly looks: Looks,
     changed: () => void,
   ) {
-    // what is seen through would be seen through twice
+    // A transparent body would be drawn twice.
     const duration = () => (this.look === 'ghost' || looks.still() ? 0 : FADE)
     this.levels = new FadingLevels(changed, duration)
   }
@@ -46,7 +46,7 @@ export class DrawnBody {
     return this.bodies.length > 0
   }
 
-  /** Take in what lies below the robot, as it is seen nearby. */
+  /** Take the meshes below the robot as its near level. */
   merge(): void {
     const { root } = this
     this.parts = alike(partsBelow(root, this.linkOf))
@@ -57,7 +57,7 @@ export class DrawnBody {
     root.add(this.levels)
   }
 
-  /** Add what is seen from afar in place of what came packed. levels: packed files, a child a link. */
+  /** Add the far level of packed meshes. levels: packed files, a child a link. */
   addFar(levels: readonly Object3D[], links: Readonly<Record<string, Object3D>>): void {
     const [near] = this.bodies
     if (near === undefined) return

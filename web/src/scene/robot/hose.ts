@@ -56,7 +56,8 @@ export class Hose {
     return new Hose([first, second], stated.length, stated.radius)
   }
 
-  /** Place the rings where the links are now; root: of the robot. Their world frames are current. */
+  /** Place the rings where the links are now; root: of the robot. Their world frames are
+   * current. */
   follow(root: Object3D): void {
     const [first, second] = this.ends
     inverse.copy(root.matrixWorld).invert()

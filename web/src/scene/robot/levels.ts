@@ -23,7 +23,8 @@ export interface StatedEnd {
   readonly direction: Vector3
 }
 
-/** Return the packed levels that a description names; they stand for the folder meshes/ beside theirs. */
+/** Return the packed levels that a description names; they stand for the folder meshes/ beside
+ * theirs. */
 export function levelsOf(description: Document): Level[] {
   return [...description.querySelectorAll('robot > level_of_detail')].map((element) => {
     const near = element.getAttribute('near') ?? ''
@@ -71,7 +72,7 @@ export class FadingLevels extends LOD {
   private far: RobotBody | null = null
   private dissolves: readonly Dissolve[] = []
   private casting = true
-  /** Both are drawn once when they are new, which compiles what draws them while they dissolve. */
+  /** Both are drawn once when they are new, which compiles their shaders for a dissolve. */
   private fresh = true
 
   /** changed: another picture is due. duration: s in which they dissolve, 0: at once. now: s. */
@@ -83,13 +84,14 @@ export class FadingLevels extends LOD {
     super()
   }
 
-  /** Set what is shown nearby. */
+  /** Set the near level. */
   setNear(body: RobotBody): void {
     this.near = body
     this.addLevel(body)
   }
 
-  /** Set what is shown from `border` m on; it stays until a part `hysteresis` of that nearer. */
+  /** Set the level that is shown from `border` m on; it stays until `hysteresis`, a part of that,
+   * nearer. */
   setFar(body: RobotBody, border: number, hysteresis: number): void {
     if (this.near === null) return
     this.far = body
@@ -128,7 +130,7 @@ export class FadingLevels extends LOD {
     this.whole()
   }
 
-  /** End what dissolves, so that the bodies have their own materials. */
+  /** End a dissolve, so that the bodies have their own materials. */
   settle(): void {
     this.fade?.end()
     this.whole()
@@ -139,7 +141,7 @@ export class FadingLevels extends LOD {
     this.removeFromParent()
   }
 
-  /** Draw all of what is visible. */
+  /** Draw the visible level as a whole. */
   private whole(): void {
     for (const dissolve of this.dissolves) dissolve.end()
     if (this.near !== null) this.near.castShadow = this.casting

@@ -18,17 +18,17 @@ export class Looks {
     transparent: true,
     roughness: 0.9,
     metalness: 0,
-    // behind what it coincides with: a robot at its first pose is not tinted by its ghost
+    // Drawn behind surfaces that coincide: a ghost does not tint the robot at its first pose.
     polygonOffset: true,
     polygonOffsetFactor: 2,
     polygonOffsetUnits: 8,
   })
-  /** Of robots as they are made, by what is drawn on their links. */
+  /** Looks of unpainted robots, by the atlas of their links. */
   private readonly bodies = new Map<Texture | null, MeshStandardMaterial>()
   readonly shadow = new MeshDepthMaterial()
   readonly missing = new LineBasicMaterial({ color: 0xd6006c })
 
-  /** Return the look of a robot as it is made; atlas: what is drawn on its links, null: nothing. */
+  /** Return the look of an unpainted robot; atlas: drawings on its links, null: none. */
   bodyOf(atlas: Texture | null): MeshStandardMaterial {
     const known = this.bodies.get(atlas)
     if (known !== undefined) return known

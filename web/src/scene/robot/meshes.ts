@@ -68,7 +68,7 @@ function isGlb(bytes: ArrayBuffer): boolean {
   return bytes.byteLength > 4 && new DataView(bytes).getUint32(0, true) === 0x46546c67
 }
 
-/** Return whether a GLB's buffers are packed: what unpacks them is fetched then only. */
+/** Return whether a GLB's buffers are packed: the decoder is fetched only then. */
 function isPacked(bytes: ArrayBuffer): boolean {
   const head = new DataView(bytes)
   if (bytes.byteLength < 20 || !isGlb(bytes)) return false

@@ -31,7 +31,7 @@ export interface Painted {
 }
 
 /** Read a packed robot: a node a link, each with the colour, light and finish of its vertices, and
- * with a picture of what is drawn on it. */
+ * with a picture of the drawings on it. */
 export async function readPacked(bytes: ArrayBuffer): Promise<Object3D> {
   const loader = new GLTFLoader().setMeshoptDecoder(MeshoptDecoder)
   paletteInsteadOfTextures(loader)
@@ -79,8 +79,8 @@ interface Materials {
   }[]
 }
 
-/** Give the vertices of a mesh their colour with the baked light, and their finish; what is drawn on
- * keeps its place in the atlas, the rest is white there. */
+/** Give the vertices of a mesh their colour with the baked light, and their finish; vertices of
+ * drawings keep their place in the atlas, others point to its white. */
 export function paint({ geometry }: Mesh, painted: Painted, hasAtlas: boolean): void {
   const { palette, band = 1, white = [0, 0], drawings = [] } = painted
   const light = geometry.getAttribute('color')

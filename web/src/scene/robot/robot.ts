@@ -53,7 +53,7 @@ export class SceneRobot {
   meshesHere = 0
   /** The frame that works: the end effector's tcp, else tool0, else the last link. */
   readonly tip: Object3D
-  /** The flange's frame, in which what is held is placed. */
+  /** The flange's frame, in which a held object is placed. */
   readonly tool: Object3D
   private readonly movables = new Map<string, Movable>()
   private readonly ordered: (Movable | undefined)[]
@@ -153,8 +153,8 @@ export class SceneRobot {
     for (const finger of this.fingers) this.move(finger, closed ? finger.upper : finger.lower)
   }
 
-  /** Return the chain from its base to its tip, with the arm's joints in the order of its positions;
-   * other joints stay as they are now. */
+  /** Return the chain from its base to its tip, with the arm's joints in the order of its
+   * positions; other joints stay as they are now. */
   chain(): Chain {
     const places = new Map(this.ordered.map((found, place) => [found?.joint, place] as const))
     const joints: ChainJoint[] = []
@@ -225,7 +225,8 @@ export class SceneRobot {
     this.root.removeFromParent()
   }
 
-  /** Compute where its frames are, unless nothing has moved: most of the nodes of a scene are links. */
+  /** Compute where its frames are, unless nothing has moved: most of the nodes of a scene are
+   * links. */
   private settle(): void {
     const { root } = this
     const above = root.parent?.matrixWorld
@@ -310,7 +311,7 @@ export class SceneRobot {
     return found
   }
 
-  /** Meshes, or what stands for them, are here. */
+  /** True once the meshes, or their placeholders, are loaded. */
   private arrived(objects: readonly Object3D[], meshes: number): void {
     this.meshesHere += meshes
     for (const object of objects) this.adopt(object)
@@ -320,7 +321,7 @@ export class SceneRobot {
   /** Draw the links as one mesh from now on, and from afar as one of few triangles. */
   private merge(levels: readonly Level[], meshes: MeshSource): void {
     if (this.disposed) return
-    // one that collided while it was loaded is painted: its body is made of what it looks like else
+    // A robot that collided while it was loaded is painted: make its body from its unpainted look.
     for (const [mesh, material] of this.own) mesh.material = material
     this.body.merge()
     this.settleBody()
@@ -331,7 +332,7 @@ export class SceneRobot {
         this.body.addFar(far, this.root.links)
         this.settleBody()
       },
-      // what is seen nearby is drawn from afar, too
+      // The near level is drawn from afar, too.
       () => undefined,
     )
   }
@@ -345,8 +346,8 @@ export class SceneRobot {
     this.changed()
   }
 
-  /** Leave out of each frame what no longer changes: the place of a link in its joint, and links
-   * that the body draws. */
+  /** Freeze matrices that no longer change: of a link in its joint, and of links that the body
+   * draws. */
   private rest(): void {
     this.settled = false
     this.root.traverse((node) => {
@@ -402,7 +403,7 @@ function stands(link: Object3D, root: Object3D): boolean {
   return false
 }
 
-/** Return whether an object or what is below it can be drawn. */
+/** Return whether an object or one of its descendants can be drawn. */
 function isDrawn(object: Object3D): boolean {
   const own = object instanceof Mesh || object instanceof LineSegments
   return own || object.children.some(isDrawn)

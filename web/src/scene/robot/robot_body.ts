@@ -45,12 +45,12 @@ export interface Part {
   readonly link: Object3D
   /** Its vertices in the link's frame. */
   readonly inLink: Matrix4
-  /** Of a mesh that bends: what its `skinIndex` names, in place of the link. */
+  /** Bones of a mesh that bends, which its `skinIndex` names, in place of the link. */
   readonly bones?: readonly Object3D[]
 }
 
 /** All links of a robot as one mesh, each link a bone: one draw call in place of one a link and
- * material. What has textures, or is seen through, stays a mesh of its own. */
+ * material. A textured or transparent part stays a mesh of its own. */
 export class RobotBody extends SkinnedMesh<BufferGeometry, Material | Material[]> {
   /** The box about the part of each link, in the link's frame. */
   readonly boxes: readonly Box3[]
@@ -81,7 +81,7 @@ export class RobotBody extends SkinnedMesh<BufferGeometry, Material | Material[]
       })
       start += count
     }
-    // a link is all that a skeleton asks of a bone: where it is
+    // A skeleton reads only the world matrix of a bone, which a link has.
     this.bind(
       new Links(
         links as Bone[],
@@ -89,7 +89,8 @@ export class RobotBody extends SkinnedMesh<BufferGeometry, Material | Material[]
       ),
       new Matrix4(),
     )
-    // of its own, because three makes a shadow's program anew between meshes with and without bones
+    // A material of its own: three recompiles a shadow's program between meshes with and without
+    // bones.
     this.customDepthMaterial = shadow
     // where its links are now is known to the processor of vertices alone
     this.frustumCulled = false
@@ -122,7 +123,7 @@ export class RobotBody extends SkinnedMesh<BufferGeometry, Material | Material[]
     }
   }
 
-  /** Return how high its highest point is at most, m in the scene, whose y is up. */
+  /** Return an upper bound of its height, m in the scene, whose y is up. */
   top(): number {
     const { boxes, skeleton } = this
     let highest = Number.NEGATIVE_INFINITY
@@ -180,7 +181,7 @@ export function partsBelow(root: Object3D, linkOf: (mesh: Mesh) => Object3D | nu
   return parts
 }
 
-/** Take the meshes of parts out of their links, with what is empty then. */
+/** Take the meshes of parts out of their links, with the nodes that are empty then. */
 export function detach(parts: readonly Part[]): void {
   for (const { mesh, link } of parts) {
     let empty: Object3D | null = mesh
@@ -192,7 +193,7 @@ export function detach(parts: readonly Part[]): void {
   }
 }
 
-/** Return the picture of what is drawn on parts; null: nothing is. */
+/** Return the picture of the drawings on parts; null: there are none. */
 export function atlasOf(parts: readonly Part[]): Texture | null {
   for (const { mesh } of parts) {
     const found = plain(mesh.material as Material | Material[])
@@ -201,8 +202,8 @@ export function atlasOf(parts: readonly Part[]): Texture | null {
   return null
 }
 
-/** Return the material of bodies: colour, roughness and metalness come with the vertices, what is
- * drawn on them with an atlas, which is white elsewhere. */
+/** Return the material of bodies: colour, roughness and metalness are in the vertices, drawings in
+ * an atlas, which is white elsewhere. */
 export function bodyMaterial(atlas: Texture | null): MeshStandardMaterial {
   const material = new MeshStandardMaterial({
     vertexColors: true,
@@ -322,7 +323,7 @@ function geometryOf(
     }
     const { index: own } = geometry
     const count = own?.count ?? places.count
-    // what is mirrored is seen from its other side
+    // A mirrored part shows its other side.
     const mirrored = inLink.determinant() < 0
     for (let i = 0; i < count; i++) {
       const place = mirrored ? i - (i % 3) + 2 - (i % 3) : i

@@ -82,7 +82,7 @@ export class Floor {
     this.shadow.opacity = theme.name === 'dark' ? 0.5 : 0.2
   }
 
-  /** Let the lines reach as far as what stands here needs, m. */
+  /** Set the reach of the lines, m. */
   setReach(reach: number): void {
     const uniform = this.grid.uniforms.reach
     if (uniform) uniform.value = Math.min(Math.max(reach, 2), RADIUS)
@@ -111,7 +111,7 @@ export class ContactPatch extends Mesh<PlaneGeometry, ShaderMaterial> {
     this.fit(USUAL)
   }
 
-  /** Fit it to what stands there. width: of its foot, m. */
+  /** Fit it to a robot's foot. width: of the foot, m. */
   fit(width: number): void {
     const diameter = width + SOFT
     this.scale.set(diameter, diameter, 1)

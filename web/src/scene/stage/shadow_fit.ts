@@ -1,6 +1,6 @@
 import { type DirectionalLight, Matrix4, Vector3 } from 'three'
 
-/** m by which what a shadow covers grows: its edges would shimmer if that followed each motion. */
+/** m by which the square of a shadow grows: its edges would shimmer if it followed each motion. */
 const STEP = 0.5
 /** m by which a place may move and is still the same one. */
 const SAME = 0.01
@@ -15,8 +15,8 @@ const TEXELS = 5
 
 const ball = new Vector3()
 
-/** Fits what the shadow of a sun covers to what casts it: a square about a place, and whatever
- * leaves that. It shrinks when it is put about another place. */
+/** Fits the shadow of a sun to the meshes that cast it: a square about a place, grown to contain
+ * them. It shrinks when it is put about another place. */
 export class ShadowFit {
   /** The scene's frame in that of the light, whose z points to the sun. */
   private readonly inLight = new Matrix4()

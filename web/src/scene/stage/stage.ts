@@ -30,11 +30,11 @@ const STANDS = 0.4 // s without a new picture
 // From the front right and a little above, in ROS axes: as the pictures of the robots are taken.
 const VIEW = new Vector3(1.05, -1.0, 0.62).normalize()
 const LIGHT = new Vector3(0.55, 1.5, 0.75).normalize() // in the scene's axes
-const SHADOW = 1.25 // half of what the shadow covers, radii of what is shown
+const SHADOW = 1.25 // half of the shadow's width, in radii of the shown points
 const MARGIN = 1.08 // of the distance at which everything just fits
 const TURN = Math.PI / 24 // rad, a press of an arrow key
 
-/** Called before each picture; true asks for another one. now: s, of performance.now(). */
+/** Called before each picture; true requests another one. now: s, of performance.now(). */
 type FrameListener = (now: number) => boolean
 
 /** A canvas with light, floor and camera. It draws when something changed, and only then. */
@@ -68,7 +68,7 @@ export class Stage {
   private waiting: ReturnType<typeof setTimeout> | undefined
   private sharpening: ReturnType<typeof setTimeout> | undefined
 
-  /** Throws NoWebGL where the browser has none. label: what the picture shows, for screen readers. */
+  /** Throws NoWebGL if the browser has none. label: of the picture, for screen readers. */
   constructor(
     private readonly container: HTMLElement,
     label: string,
@@ -166,7 +166,7 @@ export class Stage {
     return into
   }
 
-  /** Turn the camera about what it looks at, rad. */
+  /** Turn the camera about its target, rad. */
   turn(azimuth: number, polar: number): void {
     const offset = this.scratch.copy(this.camera.position).sub(this.controls.target)
     const radius = offset.length()
@@ -286,7 +286,7 @@ export class Stage {
     const up = new Vector3().crossVectors(back, right)
     const target = new Box3().setFromPoints(this.framed).getCenter(new Vector3())
     let distance = 0
-    // centring what is seen changes what just fits: a few rounds settle it
+    // Centring changes the distance that just fits: a few rounds converge.
     for (let round = 0; round < 4; round++) {
       distance = 0
       for (const point of this.framed) {

@@ -14,7 +14,7 @@ export interface SceneTheme {
   readonly info: string
 }
 
-/** Return the theme that the page has now: its data-theme, else what the person's system prefers. */
+/** Return the theme of the page: its data-theme, else the preference of the person's system. */
 export function themeNow(): SceneTheme {
   const named = document.documentElement.dataset.theme
   const dark =
@@ -34,7 +34,7 @@ export function themeNow(): SceneTheme {
   }
 }
 
-/** Call `listener` whenever the theme changes; return what ends that. */
+/** Call `listener` whenever the theme changes; return a function that ends it. */
 export function onTheme(listener: (theme: SceneTheme) => void): () => void {
   const changed = () => listener(themeNow())
   const media = matchMedia('(prefers-color-scheme: dark)')
@@ -47,7 +47,7 @@ export function onTheme(listener: (theme: SceneTheme) => void): () => void {
   }
 }
 
-/** Return whether the person asked for less motion. */
+/** Return whether the person prefers reduced motion. */
 export function reducedMotion(): boolean {
   return matchMedia('(prefers-reduced-motion: reduce)').matches
 }
