@@ -99,9 +99,8 @@ class Gateway:
 
     def opening(self) -> str:
         """Return an address that signs the local user in, once."""
-        from mrlab_ros.gateway.people.accounts import Accounts
-        from mrlab_ros.gateway.people.database import FILE, Database
-        from mrlab_ros.gateway.people.passwords import Passwords
+        from mrlab_ros.gateway.people.accounts import Accounts, Passwords
+        from mrlab_ros.gateway.people.sign_ins import FILE, Database
 
         database = Database(self.state / FILE)
         secret = Accounts(database, Passwords()).open(time.time())

@@ -32,7 +32,7 @@ from mrlab_ros.messages.trajectories import trajectory_to_message
 from mrlab_ros.nodes.lab.node import LabNode
 from mrlab_ros.nodes.playback.host import PlaybackHostNode
 from mrlab_ros.ros import share
-from mrlab_ros.ros.services import call
+from mrlab_ros.ros.calls import call
 from mrlab_ros.ros.spinning import SpunNode
 
 LIBRARY = RobotLibrary(share.directory() / "robots")

@@ -27,7 +27,7 @@ from mrlab_ros.messages import qos
 from mrlab_ros.processes.lab import lab_processes, parameter_file
 from mrlab_ros.processes.options import LabOptions, new_lab_id
 from mrlab_ros.processes.supervisor import Supervisor
-from mrlab_ros.ros.services import NoAnswer, call
+from mrlab_ros.ros.calls import NoAnswer, call
 
 MODEL = "ur5e"
 FREEZE_S = 3.0

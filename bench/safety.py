@@ -32,7 +32,7 @@ from mrlab_ros.processes.lab import LabProcess, parameter_file
 from mrlab_ros.processes.options import LabOptions
 from mrlab_ros.processes.supervisor import Supervisor
 from mrlab_ros.ros import share
-from mrlab_ros.ros.services import NoAnswer, call
+from mrlab_ros.ros.calls import NoAnswer, call
 from mrlab_ros.ros.spinning import SpunNode
 
 MODEL = "ur5e"

@@ -21,8 +21,8 @@ from mrlab_ros.processes.lab import lab_processes, parameter_file
 from mrlab_ros.processes.options import LabOptions, new_lab_id
 from mrlab_ros.processes.supervisor import Supervisor
 from mrlab_ros.ros import share
+from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.graph_node import Graph
-from mrlab_ros.ros.services import NoAnswer
 
 # A lab that takes longer is broken, s.
 LONGEST_S = 60.0

@@ -192,7 +192,7 @@ def processes(context):
     later = afterwards(value, reach)
     ready = ExecuteProcess(
         cmd=[
-            *python_process.command("mrlab_ros.processes.ready"),
+            *python_process.command("mrlab_ros.processes.readiness"),
             *(options.lab_id, str(len(options.robots)), ",".join(names)),
             *(CALLED[name] for name in later),
         ],

@@ -11,9 +11,9 @@ if TYPE_CHECKING:
     from mrlab_ros.client.lab import FileRefused as FileRefused
     from mrlab_ros.client.lab import Lab as Lab
     from mrlab_ros.client.lab import Recording as Recording
-    from mrlab_ros.client.motion import Motion as Motion
     from mrlab_ros.client.robot import JointSample as JointSample
     from mrlab_ros.client.robot import LabRobot as LabRobot
+    from mrlab_ros.client.robot import Motion as Motion
     from mrlab_ros.client.robot import Run as Run
     from mrlab_ros.core.base.errors import LabError as LabError
     from mrlab_ros.core.conversion.options import Options as Options

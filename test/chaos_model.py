@@ -13,7 +13,7 @@ from mrlab_msgs.srv import Trigger
 from rclpy.node import Node
 
 from mrlab_ros.messages import qos
-from mrlab_ros.ros.services import NoAnswer, call
+from mrlab_ros.ros.calls import NoAnswer, call
 from mrlab_ros.ros.spinning import SpunNode
 
 # After a blow the next command works within this time, s: 5 on a machine that is not busy.

@@ -12,8 +12,8 @@ from fastapi.testclient import TestClient
 
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.gateway.app import create_app
+from mrlab_ros.gateway.people.accounts import Passwords
 from mrlab_ros.gateway.people.oidc import Oidc
-from mrlab_ros.gateway.people.passwords import Passwords
 from mrlab_ros.gateway.people.people import People
 from mrlab_ros.gateway.ports import Ports
 from mrlab_ros.gateway.settings import Settings

@@ -63,7 +63,7 @@ class Gateway:
     def invite(self, name: str, role: Role) -> str:
         """Let somebody in; return the one-time link."""
         from mrlab_ros.gateway.people.accounts import Accounts
-        from mrlab_ros.gateway.people.database import Database
+        from mrlab_ros.gateway.people.sign_ins import Database
 
         accounts = Accounts(Database(self.state / "users.sqlite"))
         accounts.add(name, role)

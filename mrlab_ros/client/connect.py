@@ -7,9 +7,9 @@ import time
 from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.bridge.links import local_endpoint
 from mrlab_ros.processes.run_file import RunFile, domains, nobody
+from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.environment import domain_id, skip_generator
 from mrlab_ros.ros.graph import GraphClient
-from mrlab_ros.ros.services import NoAnswer
 
 # After so many looks a node of a lab is in the graph; its topics and services may take longer.
 # They are counted, not timed: on a busy machine looks and discovery take longer alike.

@@ -12,7 +12,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
 from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.messages import qos
-from mrlab_ros.messages.playback import unknown_state
+from mrlab_ros.messages.status import unknown_state
 from mrlab_ros.messages.time import time_from_message
 from mrlab_ros.ros.graph import GraphClient, Watch
 

@@ -15,8 +15,7 @@ from mrlab_msgs.srv import Trigger
 
 from mrlab_ros.client.connect import open_graph
 from mrlab_ros.client.diagnostics import BAD_BASE_PLACE, NO_SINGLE_BAG
-from mrlab_ros.client.motion import Motion, motion_of
-from mrlab_ros.client.robot import LabRobot, standing, surviving
+from mrlab_ros.client.robot import LabRobot, Motion, motion_of, standing, surviving
 from mrlab_ros.core.base.diagnostic import heard
 from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.conversion.options import Options

@@ -16,8 +16,8 @@ from rclpy.serialization import deserialize_message, serialize_message
 from mrlab_ros.adapters.zenoh.links import NoQueryable, Refusal, ZenohLink
 from mrlab_ros.core.bridge.links import key_of
 from mrlab_ros.messages.definitions import fitted
+from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.graph import CALL_TIMEOUT_S, FIND_TIMEOUT_S, GraphClient
-from mrlab_ros.ros.services import NoAnswer
 
 BRIDGE = "/@mrlab/bridge"
 # How old what the bridge said of the graph may be, s.

@@ -1,4 +1,9 @@
-"""One robot of a running lab, and a run of it."""
+"""One robot of a running lab, and a run of it.
+
+How a run of one robot goes, read off the states that follow `play`.
+
+A trajectory of the lab's catalogue.
+"""
 
 from __future__ import annotations
 
@@ -6,25 +11,98 @@ import math
 import time
 import traceback
 from collections.abc import Callable, Collection, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
 from mrlab_msgs import msg, srv
 from mrlab_msgs.srv import SetLoop, Trigger
 
 from mrlab_ros.client import diagnostics as say
-from mrlab_ros.client.course import Course, halted
 from mrlab_ros.client.follow import Follower
-from mrlab_ros.client.motion import Motion
-from mrlab_ros.core.base.diagnostic import heard
+from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, heard
 from mrlab_ros.core.base.diagnostics import ILLEGAL_EVENT
 from mrlab_ros.core.base.errors import LabError, Misuse
-from mrlab_ros.core.playback.diagnostics import OF_ROBOT
+from mrlab_ros.core.playback.diagnostics import HALTED_BY_CONTACT, OF_ROBOT
 from mrlab_ros.core.playback.states import State
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.time import time_from_message
+from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.graph import GraphClient
-from mrlab_ros.ros.services import NoAnswer
+
+
+@dataclass(frozen=True)
+class Motion:
+    """A trajectory of the catalogue. frame_rate: Hz; duration: s.
+
+    version: grows with each conversion under the same id; 0: not known. Known only of a file that
+    was just converted: warnings, sentences, and findings, with the notes and each with its remedy.
+    """
+
+    id: str
+    robot_model: str
+    frame_rate: float
+    frame_count: int
+    duration: float
+    warnings: tuple[str, ...] = ()
+    version: int = 0
+    findings: tuple[Diagnostic, ...] = field(default=(), repr=False)
+
+
+def motion_of(info: msg.TrajectoryInfo) -> Motion:
+    """Return the catalogue's entry."""
+    return Motion(
+        info.id,
+        info.robot_model,
+        info.frame_rate,
+        info.frame_count,
+        info.duration,
+        tuple(warning.message for warning in info.warnings),
+        info.version,
+    )
+
+
+class Course:
+    """Reads a run off its states: how it stands, and how it ended."""
+
+    def __init__(self, robot: str, objects: Callable[[], Collection[str]] = tuple) -> None:
+        """objects: returns the names of the objects of the scene."""
+        self._robot = robot
+        self._objects = objects
+        self.moving = False
+        self.complete = False
+
+    def take(self, state: Any) -> None:
+        """Take the next state; raise LabError where it says that the run will not complete."""
+        kind = msg.PlaybackState
+        if state.state in (kind.ADJUSTING, kind.PLAYING):
+            self.moving = True
+        elif state.state == kind.COMPLETE:
+            self.complete = True
+        elif state.state == kind.COLLISION_HALT:
+            raise Misuse(halted(self._robot, heard(state), self._objects()))
+        elif state.state == kind.IDLE and self.moving:
+            raise LabError(say.PLAYBACK_GONE(robot=self._robot))
+        elif state.state == kind.READY and self.moving and not self.complete:
+            why = heard(state) if state.message else None
+            raise Misuse(say.ENDED_EARLY(robot=self._robot, why=why))
+
+
+def halted(robot: str, why: Diagnostic, objects: Collection[str] = ()) -> Diagnostic:
+    """Return what is said of a robot that a collision halted, with the commands that end it.
+
+    why: what its state says. objects: the names of those in the scene, which can be removed.
+    """
+    place, resume = Fix(command=f"place {robot} --at X,Y"), Fix(command=f"resume {robot}")
+    reason = why if why.message else None
+    if why.message and why.code != HALTED_BY_CONTACT.code:
+        # It was taken elsewhere already; what it touches there is not said.
+        fixes = (Fix(command="objects list"), place, resume)
+        return say.STILL_HALTED(robot=robot, why=reason, fixes=fixes)
+    other = why.values.get("other", "")
+    remove = (Fix(command=f"objects remove {other}"),) if other in objects else ()
+    fixes = (Fix(command=f"stop {robot}"), *remove, place, resume)
+    return say.HALTED(robot=robot, why=reason, fixes=fixes)
+
 
 T = TypeVar("T")
 # A robot of the scene has published its state by then, and moves by then after play, s.

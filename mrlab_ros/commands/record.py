@@ -247,7 +247,7 @@ def _stop(graph: GraphClient, size: Callable[[], int]) -> Diagnostic:
 
     from mrlab_ros.messages import qos
     from mrlab_ros.messages.status import living_in
-    from mrlab_ros.ros.services import NoAnswer
+    from mrlab_ros.ros.calls import NoAnswer
 
     signs = Signs(time.monotonic())
 

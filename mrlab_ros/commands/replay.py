@@ -138,7 +138,7 @@ def _print_states() -> Callable[[Any], None]:
 def _follow(watch: Watch[Any], keyboard: Keyboard | None, show: Callable[[Any], None]) -> None:
     from mrlab_msgs import msg
 
-    from mrlab_ros.ros.services import NoAnswer
+    from mrlab_ros.ros.calls import NoAnswer
 
     working = (msg.RecorderState.REPLAYING, msg.RecorderState.PAUSED)
     # A short one may be over already; what is latched from before says nothing of it.

@@ -325,8 +325,8 @@ def _systems(graph: GraphClient, name: str = "") -> list[Any]:
     """
     from mrlab_msgs import msg
 
+    from mrlab_ros.ros.calls import NoAnswer
     from mrlab_ros.ros.graph import LATCHED_BURST_S
-    from mrlab_ros.ros.services import NoAnswer
 
     watch = graph.watch(msg.RobotSystems, "/systems")
     watch.wait(lambda _: True, 5.0)

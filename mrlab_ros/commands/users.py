@@ -139,7 +139,7 @@ def opened(folder: Path | None, url: str) -> Iterator[Users]:
     from mrlab_ros.adapters.keys.folder import Keys
     from mrlab_ros.commands.open import running_web
     from mrlab_ros.gateway.people.accounts import Accounts
-    from mrlab_ros.gateway.people.database import FILE, Database
+    from mrlab_ros.gateway.people.sign_ins import FILE, Database
 
     running = None
     try:

@@ -15,15 +15,13 @@ from mrlab_ros.adapters.store.objects import open_store
 from mrlab_ros.gateway import authority, errors, pages
 from mrlab_ros.gateway.assets import routes as asset_routes
 from mrlab_ros.gateway.assets.cache import AssetCache
-from mrlab_ros.gateway.assets.robots import Robots
+from mrlab_ros.gateway.assets.routes import Robots
 from mrlab_ros.gateway.checks import routes as check_routes
-from mrlab_ros.gateway.checks.desk import CheckDesk
-from mrlab_ros.gateway.checks.process import CheckProcess
+from mrlab_ros.gateway.checks.desk import CheckDesk, CheckProcess
 from mrlab_ros.gateway.checks.scene import SceneWatch
 from mrlab_ros.gateway.classroom import routes as class_routes
 from mrlab_ros.gateway.classroom.folder import ClassFolder
-from mrlab_ros.gateway.guard import Guard
-from mrlab_ros.gateway.hosts import Hosts
+from mrlab_ros.gateway.guard import Guard, Hosts
 from mrlab_ros.gateway.link import socket
 from mrlab_ros.gateway.link.limits import read_limits
 from mrlab_ros.gateway.people import oidc_routes, pairing_routes

@@ -1,8 +1,7 @@
-"""A playback's state, clock, telemetry and grasp targets as messages.
+"""State, clock, telemetry, grasp targets, goals and joint commands of a playback as messages.
 
-Telemetry as CDR: past rclpy, which takes ten times as long.
-
-Layout of a mrlab_msgs/Telemetry: as joint_states.py describes it up to the names; then
+Telemetry is written as CDR past rclpy, which takes ten times as long. Layout of
+a mrlab_msgs/Telemetry: as joint_states.py describes it up to the names; then
 
     uint32 count, zeros to a multiple of 8, float64 velocities
     uint32 count, zeros to a multiple of 8, float64 effort proxies
@@ -10,10 +9,6 @@ Layout of a mrlab_msgs/Telemetry: as joint_states.py describes it up to the name
     string held_object, zeros to a multiple of 8
     float64 mass, payload, slip margin, wrist moment, deadline error and its largest
     uint32 frames sent, uint32 frames lost
-
-Goals, feedback and results of FollowJointTrajectory, and joint commands.
-
-States of what has published none. Apart: a command needs no more of the messages than this.
 """
 
 from __future__ import annotations
@@ -227,8 +222,3 @@ def _point(
         velocities=[] if velocities is None else velocities.tolist(),
         time_from_start=Duration(sec=whole // SECOND, nanosec=whole % SECOND),
     )
-
-
-def unknown_state() -> msg.PlaybackState:
-    """Return what stands for the state of a playback that has not published one."""
-    return msg.PlaybackState(label="?")

@@ -1,9 +1,4 @@
-"""Signs of life of the lab's processes as diagnostic messages, and back.
-
-Reports of the bridge's delays as messages.
-
-The state of the recorder as a message.
-"""
+"""Signs of life, delays of the bridge and states of the recorder as messages."""
 
 from __future__ import annotations
 
@@ -147,3 +142,8 @@ def recorder_state_to_message(
         messages=messages,
         bytes=size,
     )
+
+
+def unknown_state() -> msg.PlaybackState:
+    """Return what stands for the state of a playback that has not published one."""
+    return msg.PlaybackState(label="?")

@@ -49,7 +49,7 @@ NODES = {
         "mrlab_ros.nodes.bridge.node", "BridgeNode", "bridge", in_replay=True, numpy=False
     ),
     "converter": NodeEntry(
-        "mrlab_ros.nodes.converter",
+        "mrlab_ros.nodes.converter.node",
         "ConverterNode",
         "converter",
         ("/trajectories", "TrajectoryCatalogue"),

@@ -1,4 +1,8 @@
-"""Which parts of a lab are complete in the graph."""
+"""Readiness of a lab: its nodes, services and robots, and a program that waits for it.
+
+The launch file runs `python -m mrlab_ros.processes.readiness` beside the lab. It prints
+`... ready LAB ROBOTS NODE,NODE,... SERVICE...` and ends; programs that call the lab start then.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +17,9 @@ from mrlab_ros.processes.lab import NodeEntry
 
 if TYPE_CHECKING:
     from mrlab_ros.ros.graph_node import Graph
-
+import functools
+import signal
+import sys
 
 # A lab that is incomplete after this time is in trouble, s.
 READY_TIMEOUT_S = 20.0
@@ -108,3 +114,41 @@ class Readiness:
         """Return why a call of `service` would reach another lab, too; None: it would not."""
         servers = self._graph.node.count_services(service)
         return self._neighbours.why_not(service, servers, time.monotonic())
+
+
+# The lab is waited for this often, for readiness.READY_TIMEOUT_S each time.
+MOST_WAITS = 15
+
+
+def main() -> None:
+    """Exit with 0 once the nodes and so many robots of the lab with the id LAB are there.
+
+    Exits with 1 where they do not come, or where another lab on the domain would carry out a call
+    of one of the services, too.
+    """
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    began = time.monotonic()
+    lab, robots, names, services = sys.argv[1], int(sys.argv[2]), sys.argv[3], sys.argv[4:]
+    from mrlab_ros.core.runtime.identity import Identity
+    from mrlab_ros.processes.lab import NODES
+    from mrlab_ros.ros.graph_node import Graph
+
+    nodes = [NODES[name] for name in names.split(",")]
+    identity = Identity(lab, functools.partial(print, flush=True))
+    with Graph() as graph:
+        readiness = Readiness(graph, nodes, robots, identity)
+        for _ in range(MOST_WAITS):
+            missing = readiness.wait(threading.Event())
+            if not missing:
+                break
+            said = f"{missing} is missing after {time.monotonic() - began:.0f} s"
+            print(f"the lab is not ready: {said}; the lines above say why", flush=True)
+        else:
+            sys.exit("nobody waits for the lab any longer")
+        print(f"the lab is ready after {time.monotonic() - began:.1f} s", flush=True)
+        if refused := [why for service in services if (why := readiness.why_not(service))]:
+            sys.exit("\n".join(map(str, refused)))
+
+
+if __name__ == "__main__":
+    main()

@@ -23,10 +23,10 @@ from mrlab_ros.core.base.errors import Misuse
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.definitions import fitted
 from mrlab_ros.ros import environment
+from mrlab_ros.ros.calls import NoAnswer, call
 from mrlab_ros.ros.diagnostics import CLIENT_CLOSED, NOT_OFFERED
 from mrlab_ros.ros.environment import domain_id
 from mrlab_ros.ros.graph import CALL_TIMEOUT_S, FIND_TIMEOUT_S, GraphClient
-from mrlab_ros.ros.services import NoAnswer, call
 
 OFFER_PERIOD_S = 0.05
 # How long closing waits for a callback that runs, s.

@@ -15,9 +15,9 @@ from std_msgs.msg import String
 from mrlab_ros.adapters.zenoh.configuration import configuration
 from mrlab_ros.adapters.zenoh.session import ZenohSession
 from mrlab_ros.core.bridge.rules import ServiceRule, TopicRule
-from mrlab_ros.nodes.bridge.context import BridgeContext, Count
 from mrlab_ros.nodes.bridge.inward import Inward
-from mrlab_ros.nodes.bridge.sender import Sender
+from mrlab_ros.nodes.bridge.outward import Sender
+from mrlab_ros.nodes.bridge.routes import BridgeContext, Count
 from mrlab_ros.nodes.bridge.services import Services
 
 PLAY = "/ur5e_1/play"

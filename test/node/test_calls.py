@@ -12,8 +12,8 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from std_msgs.msg import String
 
 from mrlab_ros.messages import qos
+from mrlab_ros.ros.calls import NoAnswer, call, call_each
 from mrlab_ros.ros.graph_node import Graph
-from mrlab_ros.ros.services import NoAnswer, call, call_each
 
 SENSOR = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
 OFFERED = {"latched": qos.LATCHED, "stream": qos.STREAM, "sensor": SENSOR}

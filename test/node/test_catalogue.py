@@ -19,8 +19,8 @@ from small_lab import labels, listen_state, load, make, spawn
 from mrlab_ros.adapters.trajectories import npz_file
 from mrlab_ros.core.trajectory.trajectory import Channels
 from mrlab_ros.messages import qos
-from mrlab_ros.nodes import catalogue
-from mrlab_ros.nodes.converter import ConverterNode
+from mrlab_ros.nodes.converter import catalogue
+from mrlab_ros.nodes.converter.node import ConverterNode
 from mrlab_ros.nodes.lab.node import LabNode
 from mrlab_ros.nodes.playback.host import PlaybackHostNode
 

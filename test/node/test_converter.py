@@ -21,8 +21,8 @@ from rclpy.parameter import Parameter
 from mrlab_ros.adapters.trajectories import formats, npz_file
 from mrlab_ros.adapters.workspaces.reader import WorkspaceReader
 from mrlab_ros.messages import qos
-from mrlab_ros.nodes.converter import ConverterNode
-from mrlab_ros.nodes.trajectories import MOST_ANNOUNCED
+from mrlab_ros.nodes.converter.catalogue import MOST_ANNOUNCED
+from mrlab_ros.nodes.converter.node import ConverterNode
 from mrlab_ros.ros.spinning import spin
 
 DEADLINE = 60.0  # s; far above what any of this takes

@@ -17,7 +17,7 @@ from mrlab_msgs import srv
 
 from mrlab_ros.adapters.workspaces.reader import MiB
 from mrlab_ros.messages import qos
-from mrlab_ros.nodes.converter import ConverterNode
+from mrlab_ros.nodes.converter.node import ConverterNode
 from mrlab_ros.nodes.lab.node import LabNode
 
 UPLOADS = 150

@@ -8,7 +8,7 @@ from rclpy.node import Node
 from std_msgs.msg import String
 
 from mrlab_ros.messages import qos
-from mrlab_ros.ros.graph import GraphChanges
+from mrlab_ros.ros.graph_changes import GraphChanges
 
 
 @pytest.fixture

@@ -18,7 +18,7 @@ from mrlab_ros.core.bridge import guests
 from mrlab_ros.core.bridge.access import Login
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.messages import qos
-from mrlab_ros.nodes.bridge import zenoh_settings
+from mrlab_ros.nodes.bridge import node
 from mrlab_ros.nodes.bridge.node import BridgeNode
 
 REPORTS = "latency/clients"
@@ -124,7 +124,7 @@ def test_messages_that_are_too_large_or_too_many_do_not_reach_the_bridge(start, 
 
 def test_one_viewer_cannot_keep_the_teacher_out(start, enter, monkeypatch):
     # Together fewer sessions than the viewer tries to have.
-    monkeypatch.setattr(zenoh_settings, "LEAST_SESSIONS", 0)
+    monkeypatch.setattr(node, "LEAST_SESSIONS", 0)
     monkeypatch.setattr(guests, "SPARE", 10)
     start(sessions_each=3)
     crowd = []

@@ -19,7 +19,7 @@ from sensor_msgs.msg import JointState
 
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes.bridge.node import BridgeNode
-from mrlab_ros.nodes.converter import ConverterNode
+from mrlab_ros.nodes.converter.node import ConverterNode
 from mrlab_ros.nodes.coordinator.node import CoordinatorNode
 from mrlab_ros.nodes.lab.node import LabNode
 from mrlab_ros.nodes.playback.host import PlaybackHostNode

@@ -16,7 +16,7 @@ from mrlab_ros.core.base import diagnostics as base
 from mrlab_ros.core.physics import diagnostics as physics
 from mrlab_ros.core.scene import diagnostics as scenes
 from mrlab_ros.messages import qos
-from mrlab_ros.nodes.converter import ConverterNode
+from mrlab_ros.nodes.converter.node import ConverterNode
 from mrlab_ros.nodes.coordinator.node import CoordinatorNode
 from mrlab_ros.nodes.lab.node import LabNode
 from mrlab_ros.nodes.physics.diagnostics import CANNOT_HOLD_FIXED, TOO_MANY_OBJECTS

@@ -22,7 +22,7 @@ from mrlab_ros.adapters.store import keys
 from mrlab_ros.adapters.store.objects import open_store
 from mrlab_ros.adapters.trajectories import npz_file
 from mrlab_ros.messages import qos
-from mrlab_ros.nodes.converter import ConverterNode
+from mrlab_ros.nodes.converter.node import ConverterNode
 from mrlab_ros.nodes.lab.node import LabNode
 from mrlab_ros.nodes.playback.host import PlaybackHostNode
 

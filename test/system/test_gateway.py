@@ -30,7 +30,7 @@ from websockets.sync.client import ClientConnection, connect
 from mrlab_ros.commands.up.web import opening_url
 from mrlab_ros.core.base.errors import BadInput, Unavailable
 from mrlab_ros.gateway.__main__ import WRONG_CONFIGURATION, serve, settings_of
-from mrlab_ros.gateway.people.database import FILE
+from mrlab_ros.gateway.people.sign_ins import FILE
 
 DEADLINE = 60.0
 PASSWORD = "correct horse battery"

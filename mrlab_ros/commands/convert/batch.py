@@ -1,4 +1,7 @@
-"""What `mrlab convert` does: a batch of files, or a message, to results and files."""
+"""What `mrlab convert` does: a batch of files, or a message, to results and files.
+
+Where `mrlab convert` writes files and pictures; what cannot be written ends no batch.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +11,7 @@ import os
 import sys
 import tempfile
 import time
-from collections import deque
+from collections import Counter, deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor
 from contextlib import AbstractContextManager
@@ -38,12 +41,16 @@ from mrlab_ros.commands import output
 from mrlab_ros.commands.convert import report
 from mrlab_ros.commands.convert.diagnostics import (
     FILES_OR_TOPIC,
+    FOLDER_NOT_WRITABLE,
     FOLDER_WITHOUT_FILES,
     LIMIT_OUT_OF_RANGE,
+    NOT_WRITTEN,
+    ONE_PICTURE,
+    TARGET_THERE,
+    WOULD_REPLACE_INPUT,
 )
 from mrlab_ros.commands.convert.options import convert_words
 from mrlab_ros.commands.convert.outcomes import EXIT_CODES
-from mrlab_ros.commands.convert.targets import PICTURES, Targets, check_free
 from mrlab_ros.core.base.errors import BadInput, LabError, Misuse
 from mrlab_ros.core.base.foreign_text import file_name
 from mrlab_ros.core.conversion.convert import (
@@ -54,6 +61,67 @@ from mrlab_ros.core.conversion.convert import (
 from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE, Options
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.ros import share
+
+PICTURES = (".png", ".svg", ".html")
+
+
+def check_free(targets: Iterable[Path], inputs: Iterable[Path], *, force: bool) -> None:
+    """Raise Misuse where writing `targets` would replace an input, or any file without `force`."""
+    there = [path for path in targets if path.exists()]
+    # not Path.resolve, which raises for a loop of links
+    read = set(map(os.path.realpath, inputs))
+    for path in there:
+        if os.path.realpath(path) in read:
+            raise Misuse(WOULD_REPLACE_INPUT(file=str(path)))
+    if there and not force:
+        raise Misuse(TARGET_THERE(file=str(there[0]), more=len(there) - 1 or None))
+
+
+class Targets:
+    """The folders of a batch, and what could not be written into them."""
+
+    def __init__(self, out: Path | None, plot: Path | None, count: int) -> None:
+        """Make the folders for `count` inputs.
+
+        Raises BadInput where nothing can be written there, Misuse where several inputs have one
+        picture.
+        """
+        self._problems: list[tuple[str, str]] = []
+        folders = {"out": out}
+        if plot is not None:
+            is_picture = plot.suffix in PICTURES
+            if is_picture and count > 1:
+                raise Misuse(ONE_PICTURE(file=str(plot), count=count))
+            folders["plot"] = plot.parent if is_picture else plot
+        for option, folder in folders.items():
+            if folder is not None:
+                _make(option, folder)
+
+    @contextlib.contextmanager
+    def writing(self) -> Iterator[None]:
+        """Keep what goes wrong while something is written for `report`."""
+        try:
+            yield
+        except OSError as error:
+            self._problems.append((error.strerror or str(error), str(error.filename or "")))
+
+    def report(self) -> bool:
+        """Say on stderr what was not written; return whether there was anything."""
+        for (why, file), count in Counter(self._problems).items():
+            times = count if count > 1 else None
+            print(NOT_WRITTEN(times=times, error=why, file=file), file=sys.stderr)
+        return bool(self._problems)
+
+
+def _make(option: str, folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        tempfile.TemporaryFile(dir=folder).close()
+    except OSError as error:
+        raise BadInput(
+            FOLDER_NOT_WRITABLE(option=option, folder=str(folder), error=error.strerror)
+        ) from None
+
 
 # the worst of a batch: a refusal, then a choice that is open
 BADNESS = (0, 2, 1)

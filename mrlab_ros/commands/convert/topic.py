@@ -19,8 +19,8 @@ from mrlab_ros.commands.convert.diagnostics import (
 )
 from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.conversion.workspace import JOINT_TRAJECTORY
+from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.graph_node import Graph
-from mrlab_ros.ros.services import NoAnswer
 
 LOOK_EVERY = 0.05  # s
 

@@ -55,9 +55,8 @@ def _live(console: Console, view: View, presence: Presence) -> None:
     """Show the tables until q or Ctrl-C, as much of them as fits, and let keys scroll."""
     from rich.live import Live
 
-    from mrlab_ros.commands.status.scroll import Scroll
     from mrlab_ros.commands.status.table import overview
-    from mrlab_ros.commands.status.view import MISSING_AFTER_S
+    from mrlab_ros.commands.status.view import MISSING_AFTER_S, Scroll
 
     scroll = Scroll(console, sys.stdin.fileno() if sys.stdin.isatty() else None)
     with scroll, Live(console=console, auto_refresh=False, screen=True) as live:

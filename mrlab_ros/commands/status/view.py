@@ -1,4 +1,9 @@
-"""What `mrlab status` knows of the running lab, kept up to date by its graph."""
+"""What `mrlab status` knows of the running lab, kept up to date by its graph.
+
+A window on lines that are more than the terminal has, moved with keys.
+
+The facts of `mrlab status`, ready for JSON: SI units, null where nothing is known.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +13,6 @@ import time
 from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from mrlab_ros.commands.status.facts import latency_facts, recorder_facts, robot_facts, said_of
 from mrlab_ros.core.base.diagnostic import Diagnostic, plain
 from mrlab_ros.core.runtime.watch import SILENT_AFTER_S
 from mrlab_ros.processes.lab import NODES, PROCESSES
@@ -18,6 +22,162 @@ from mrlab_ros.processes.web import gateway_answers
 if TYPE_CHECKING:
     from mrlab_ros.client.follow import Follower
     from mrlab_ros.ros.graph import GraphClient, Watch
+import os
+import select
+import termios
+import tty
+from types import TracebackType
+from typing import TYPE_CHECKING
+
+from rich.segment import Segment, Segments
+from rich.text import Text
+
+if TYPE_CHECKING:
+    from rich.console import Console, ConsoleOptions, RenderableType, RenderResult
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from mrlab_ros.client.follow import Follower
+
+
+# From where to where, in the order of LatencyHop's constants.
+HOPS = (("published", "bridged"), ("bridged", "received"), ("published", "received"))
+
+
+def robot_facts(robot: Any, follower: Follower) -> dict[str, Any]:
+    state, position = follower.state, robot.pose.position
+    known = follower.watch.value is not None
+    moving = bool(follower.errors)
+    return {
+        "name": robot.name,
+        "model": robot.model,
+        "end_effector": robot.end_effector,
+        "position": [position.x, position.y, position.z],
+        "state": state.label if known else None,
+        **said_of(state),
+        "trajectory": state.trajectory_id or None,
+        "frame": follower.frame,
+        "frame_count": state.frame_count,
+        "duration": state.duration,
+        "rate": state.rate,
+        "system": state.system or None,
+        "deadline_error": follower.errors[-1] if moving else None,
+        "deadline_error_max": follower.error_max if moving else None,
+        "frames_lost": follower.frames_lost,
+    }
+
+
+def said_of(state: Any) -> dict[str, Any]:
+    """Return what a state says: its text, its code, and the values by name."""
+    values = {each.key: each.value for each in state.values}
+    return {"message": state.message, "code": state.code, "values": values}
+
+
+def recorder_facts(state: Any) -> dict[str, Any] | None:
+    if state is None:
+        return None
+    return {
+        "state": ("STOPPED", "RECORDING", "REPLAYING", "PAUSED")[state.state],
+        "bag": state.bag or None,
+        "position": state.position,
+        "duration": state.duration,
+        "rate": state.rate,
+        "messages": state.messages,
+        **said_of(state),
+    }
+
+
+def latency_facts(observer: str, report: Any) -> dict[str, Any]:
+    return {
+        "observer": observer,
+        "window": report.window,
+        "clock_error": report.clock_error,
+        "hops": [
+            {
+                "from": HOPS[hop.hop][0],
+                "to": HOPS[hop.hop][1],
+                "topic": hop.topic or None,
+                "count": hop.count,
+                "p50": hop.p50,
+                "p95": hop.p95,
+                "max": hop.max,
+            }
+            for hop in report.hops
+            if hop.hop < len(HOPS)
+        ],
+    }
+
+
+UP, DOWN, PAGE_UP, PAGE_DOWN = b"\x1b[A", b"\x1b[B", b"\x1b[5~", b"\x1b[6~"
+LINES = {UP: -1, b"k": -1, DOWN: 1, b"j": 1, b"\r": 1}
+PAGES = {PAGE_UP: -1, b"b": -1, PAGE_DOWN: 1, b" ": 1}
+
+
+class Scroll:
+    """Shows the part of a text that fits. Keys are read from `terminal`, none where it is None."""
+
+    def __init__(self, console: Console, terminal: int | None) -> None:
+        self._console = console
+        self._terminal = terminal
+        self._before: Any = None
+        self.whole: RenderableType = ""
+        self.top = 0
+        self.ended = False
+
+    def __enter__(self) -> Scroll:
+        if self._terminal is not None:
+            self._before = termios.tcgetattr(self._terminal)
+            tty.setcbreak(self._terminal)
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        if self._terminal is not None:
+            termios.tcsetattr(self._terminal, termios.TCSADRAIN, self._before)
+
+    def take(self, whole: RenderableType) -> None:
+        """Show this from now on, at the same place."""
+        self.whole = whole
+
+    def key(self, timeout: float) -> bool:
+        """Wait up to `timeout` s for a key and do what it says; return whether there was one."""
+        if self._terminal is None:
+            time.sleep(timeout)
+            return False
+        if not select.select([self._terminal], [], [], timeout)[0]:
+            return False
+        self.press(os.read(self._terminal, 16))
+        return True
+
+    def press(self, typed: bytes) -> None:
+        """Do what a key says; what the terminal has no lines for is not scrolled past."""
+        if typed in (b"q", b"Q"):
+            self.ended = True
+        self.top += LINES.get(typed, 0) + PAGES.get(typed, 0) * (self._console.height - 2)
+
+    def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
+        lines = console.render_lines(self.whole, options.update(height=None), pad=False)
+        height = console.height
+        if len(lines) <= height:
+            self.top = 0
+            footer, shown = None, lines
+        else:
+            room = height - 1
+            self.top = max(0, min(self.top, len(lines) - room))
+            shown = lines[self.top : self.top + room]
+            last = self.top + len(shown)
+            footer = f"lines {self.top + 1} to {last} of {len(lines)}; arrows scroll, q ends"
+        for number, line in enumerate(shown):
+            yield Segments(line)
+            if footer or number < len(shown) - 1:
+                yield Segment.line()
+        if footer:
+            yield Text(footer[: options.max_width], "reverse", end="")
+
 
 # What a robot that was just found has to say is there by then, s.
 SETTLE_TIMEOUT_S = 6.0

@@ -134,7 +134,7 @@ def run_facts(options: LabOptions) -> dict[str, Any]:
 
 def users_file(state_dir: Path, keys: Path | None) -> Path:
     """Return the file of people and sign-ins that the gateway of a lab has."""
-    from mrlab_ros.gateway.people.database import FILE
+    from mrlab_ros.gateway.people.sign_ins import FILE
 
     return (keys.expanduser().resolve() if keys is not None else state_dir) / FILE
 
@@ -142,7 +142,7 @@ def users_file(state_dir: Path, keys: Path | None) -> Path:
 def opening_url(address: str, users: Path, path: str = "/") -> str:
     """Return a URL that signs this machine's user in, once."""
     from mrlab_ros.gateway.people.accounts import Accounts
-    from mrlab_ros.gateway.people.database import Database
+    from mrlab_ros.gateway.people.sign_ins import Database
 
     database = Database(users)
     try:

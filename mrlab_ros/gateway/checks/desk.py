@@ -1,21 +1,74 @@
-"""Checks one motion after another, and keeps what came of each."""
+"""Checks one motion after another, and keeps what came of each.
+
+Runs each check in a process of its own, which is ended when it takes too long.
+
+What the routes about checks take and answer.
+"""
 
 from __future__ import annotations
 
 import asyncio
+import contextlib
+import json
 import logging
+import pickle
+from asyncio.subprocess import PIPE
 from collections import OrderedDict
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Annotated, Any, Literal, Protocol
 
+from pydantic import BaseModel, Field
+
+from mrlab_ros.adapters import python_process
 from mrlab_ros.adapters.checking.in_lab import Task
-from mrlab_ros.core.base.diagnostic import Diagnostic, plain
-from mrlab_ros.core.base.errors import LabError
+from mrlab_ros.core.base.diagnostic import Diagnostic, from_plain, plain
+from mrlab_ros.core.base.errors import BadInput, LabError, Unavailable
 from mrlab_ros.core.checking.lab_scene import LabScene, changed
-from mrlab_ros.gateway.checks.answers import Check
-from mrlab_ros.gateway.checks.diagnostics import CHECK_FAILED, TOO_MANY_CHECKS
+from mrlab_ros.gateway.checks.diagnostics import (
+    CHECK_ENDED_EARLY,
+    CHECK_FAILED,
+    CHECK_TOO_SLOW,
+    TOO_MANY_CHECKS,
+)
 from mrlab_ros.gateway.errors import TooMany
+from mrlab_ros.gateway.store.answers import Finding, Strict
+
+# It gives way to others, so a busy machine takes long.
+PATIENCE_S = 300.0
+LAST_LINES = 3
+
+
+class CheckProcess:
+    """Checks by `mrlab_ros.adapters.checking.in_lab`."""
+
+    async def check(self, task: Task) -> Mapping[str, Any]:
+        command = python_process.command("mrlab_ros.adapters.checking.in_lab")
+        process = await asyncio.create_subprocess_exec(
+            *command, stdin=PIPE, stdout=PIPE, stderr=PIPE, start_new_session=True
+        )
+        try:
+            said, problems = await asyncio.wait_for(
+                process.communicate(pickle.dumps(task)), PATIENCE_S
+            )
+        except asyncio.TimeoutError:
+            raise Unavailable(CHECK_TOO_SLOW(limit=PATIENCE_S)) from None
+        finally:
+            if process.returncode is None:
+                with contextlib.suppress(ProcessLookupError):
+                    process.kill()
+                await process.wait()
+        try:
+            told = json.loads(said)
+        except ValueError:
+            lines = problems.decode(errors="replace").strip().splitlines()[-LAST_LINES:]
+            log.warning("a check ended with %s: %s", process.returncode, " | ".join(lines))
+            raise Unavailable(CHECK_ENDED_EARLY(status=process.returncode)) from None
+        if "problem" in told:
+            raise BadInput(from_plain(told["problem"]))
+        report: Mapping[str, Any] = told["report"]
+        return report
+
 
 MOST_WAITING = 12
 MOST_KEPT = 100
@@ -146,3 +199,58 @@ def answer(key: Key, entry: Entry | None, now: LabScene | None) -> Check:
             "conditions": own.get("hardware", ()),
         }
     )
+
+
+Robot = Annotated[str, Field(min_length=1, max_length=100)]
+TrajectoryId = Annotated[str, Field(min_length=1, max_length=600)]
+
+
+class CheckWanted(Strict):
+    """Which robot of the lab shall play which trajectory, such as quintic@3."""
+
+    robot: Robot
+    trajectory: TrajectoryId
+
+
+class CheckFinding(Finding):
+    """A finding of a check. time, end: s from the first frame; null: it has no instant.
+
+    kind, other: what the robot meets, such as object or robot, and its name; empty: nothing.
+    """
+
+    robot: str = ""
+    link: str = ""
+    time: float | None = None
+    end: float | None = None
+    kind: str = ""
+    other: str = ""
+
+
+class CheckCondition(BaseModel):
+    """One condition of a real controller. state: ok, not or unknown. found: the figure against
+    its limit, or why it is not known."""
+
+    condition: CheckFinding
+    state: str
+    found: CheckFinding
+
+
+class Check(BaseModel):
+    """A check of a robot's motion in the lab.
+
+    state: none where nobody asked. stale: what has changed in the lab since; null: nothing.
+    problem: why it failed. verdict, summary, claim, hash: of the report, mrlab.check.1.
+    """
+
+    state: Literal["none", "waiting", "running", "done", "failed"]
+    robot: str
+    trajectory: str
+    stale: CheckFinding | None = None
+    problem: CheckFinding | None = None
+    verdict: str = ""
+    summary: CheckFinding | None = None
+    claim: CheckFinding | None = None
+    hash: str = ""
+    duration: float | None = None
+    findings: list[CheckFinding] = []
+    conditions: list[CheckCondition] = []

@@ -12,12 +12,11 @@ from fastapi.concurrency import run_in_threadpool
 from mrlab_ros.adapters.checking.in_lab import Task
 from mrlab_ros.core.base.errors import LabError, Unavailable
 from mrlab_ros.core.trajectory.catalogue import Record, Version
-from mrlab_ros.gateway.checks import answers
+from mrlab_ros.gateway.checks import desk
 from mrlab_ros.gateway.checks.desk import CheckDesk, Key, answer
 from mrlab_ros.gateway.checks.scene import SceneWatch
 from mrlab_ros.gateway.diagnostics import GATEWAY_WITHOUT_LAB
-from mrlab_ros.gateway.people.person import CurrentPerson, Person
-from mrlab_ros.gateway.people.rate_limits import Limit, RateLimit
+from mrlab_ros.gateway.people.person import CurrentPerson, Limit, Person, RateLimit
 from mrlab_ros.gateway.share import directory
 from mrlab_ros.gateway.store.shelf import Shelf, shelf_of
 
@@ -56,8 +55,8 @@ async def _key(shelf: Shelf, person: Person, robot: str, text: str) -> tuple[Key
 
 @router.post("", status_code=202)
 async def begin(
-    person: CurrentPerson, shelf: TheShelf, checking: TheChecking, wanted: answers.CheckWanted
-) -> answers.Check:
+    person: CurrentPerson, shelf: TheShelf, checking: TheChecking, wanted: desk.CheckWanted
+) -> desk.Check:
     """Check a stored trajectory on a robot of the lab, in the scene as it is now.
 
     Another check of the same robot ends; the same one, of an unchanged scene, is not run again.
@@ -82,7 +81,7 @@ async def state(
     checking: TheChecking,
     robot: RobotName,
     trajectory: Wanted,
-) -> answers.Check:
+) -> desk.Check:
     """Return what is known of a check, and what has changed in the lab since."""
     key, _, _ = await _key(shelf, person, robot, trajectory)
     entry = checking.desk.find(key)

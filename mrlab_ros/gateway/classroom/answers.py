@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pydantic import BaseModel
 
-from mrlab_ros.gateway.checks.answers import CheckFinding
+from mrlab_ros.gateway.checks.desk import CheckFinding
 
 
 class Mark(BaseModel):

@@ -1,15 +1,91 @@
-"""What the gateway needs of the lab: services, newest values, samples, presence."""
+"""What the gateway needs of the lab: services, newest values, samples, presence.
+
+The bridge's liveliness tokens, read back into what the lab offers.
+
+Key expressions: keys in which `*` stands for one part and `**` for any parts.
+"""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
+from functools import lru_cache
 from types import MappingProxyType
 from typing import Any, Protocol
 
 from mrlab_ros.core.base.errors import LabError
+from mrlab_ros.core.bridge.rules import SLASH
 from mrlab_ros.gateway.lab.definitions import Definitions
+
+
+@lru_cache(maxsize=4096)
+def pattern(expression: str) -> re.Pattern[str]:
+    """Return the pattern that the keys of an expression match."""
+    parts = {"*": "/[^/]+", "**": "(?:/[^/]+)*"}
+    return re.compile("".join(parts.get(p, "/" + re.escape(p)) for p in expression.split("/")))
+
+
+def matches(expression: str, key: str) -> bool:
+    """Return whether a key belongs to an expression."""
+    return pattern(expression).fullmatch(f"/{key}") is not None
+
+
+class TokenTable:
+    """The tokens that live now. prefix: what every key of the lab begins with."""
+
+    def __init__(self, prefix: str) -> None:
+        self._prefix = f"{prefix}/" if prefix else ""
+        self._tokens: dict[str, None] = {}
+
+    def add(self, token: str) -> None:
+        self._tokens[token] = None
+
+    def remove(self, token: str) -> None:
+        self._tokens.pop(token, None)
+
+    def clear(self) -> None:
+        self._tokens.clear()
+
+    @property
+    def has_bridge(self) -> bool:
+        """Return whether a bridge of this lab is there.
+
+        A bridge with a prefix shows itself by the prefix of its keys: its own token has none.
+        """
+        if not self._prefix:
+            return bool(self._tokens)
+        keys = self.keys()
+        return bool(keys.topics or keys.services)
+
+    def keys(self) -> LabKeys:
+        """Return the topics that come out and the services, below the prefix."""
+        topics: dict[str, str] = {}
+        services: dict[str, str] = {}
+        latched: set[str] = set()
+        for token in self._tokens:
+            # @/<zenoh id>/@ros2_lv/<kind>/<key>/<type>[/<qos>]
+            parts = token.split("/")
+            if len(parts) < 6:
+                continue
+            kind, key, type_name = parts[3], _name(parts[4]), _name(parts[5])
+            if not key.startswith(self._prefix):
+                continue
+            key = key[len(self._prefix) :]
+            if kind == "MP":
+                topics[key] = type_name
+                # <keyless>:<reliability>:<durability>:<history>,<depth>
+                if len(parts) > 6 and parts[6].split(":")[2:3] == ["1"]:
+                    latched.add(key)
+            elif kind == "SS":
+                services[key] = type_name
+        return LabKeys(MappingProxyType(topics), MappingProxyType(services), frozenset(latched))
+
+
+def _name(chunk: str) -> str:
+    return chunk.replace(SLASH, "/")
+
 
 # s to wait for a response. The bridge ends a call itself, after 60 s at most, and says why.
 CALL_TIMEOUT_S = 70.0

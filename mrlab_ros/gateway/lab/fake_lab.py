@@ -21,10 +21,10 @@ from mrlab_ros.gateway.lab.connection import (
     Sample,
     TimedOut,
     Unsubscribe,
+    matches,
 )
 from mrlab_ros.gateway.lab.definitions import Definitions, installed_definitions
 from mrlab_ros.gateway.lab.diagnostics import CALL_TIMED_OUT, NOBODY_ANSWERS
-from mrlab_ros.gateway.lab.key_expressions import matches
 
 # Gets the decoded request, returns the fields of the response; raises Refused or NoAnswer.
 Handler = Callable[[Any], Mapping[str, Any]]

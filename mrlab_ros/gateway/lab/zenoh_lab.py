@@ -30,11 +30,11 @@ from mrlab_ros.gateway.lab.connection import (
     Refused,
     Sample,
     TimedOut,
+    TokenTable,
     Unsubscribe,
 )
 from mrlab_ros.gateway.lab.definitions import Definitions, learning_definitions
 from mrlab_ros.gateway.lab.diagnostics import CALL_TIMED_OUT, LAB_UNCONNECTED, NOBODY_ANSWERS
-from mrlab_ros.gateway.lab.tokens import TokenTable
 
 SCHEMA = "schema"
 TOKENS = "@/*/@ros2_lv/**"

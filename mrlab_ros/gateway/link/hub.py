@@ -15,8 +15,7 @@ from typing import Protocol
 
 from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.bridge.rules import Congestion, Direction, Rules, TopicRule
-from mrlab_ros.gateway.lab.connection import LabConnection, Phase, Sample, Unsubscribe
-from mrlab_ros.gateway.lab.key_expressions import matches
+from mrlab_ros.gateway.lab.connection import LabConnection, Phase, Sample, Unsubscribe, matches
 from mrlab_ros.gateway.link import frames, presence
 
 SECOND = 1_000_000_000

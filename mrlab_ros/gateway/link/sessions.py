@@ -13,7 +13,7 @@ from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.bridge.rules import Role, Rules
 from mrlab_ros.gateway.errors import TooMany
 from mrlab_ros.gateway.lab.connection import LabConnection, Phase
-from mrlab_ros.gateway.link import hands, presence
+from mrlab_ros.gateway.link import presence
 from mrlab_ros.gateway.link.diagnostics import PAGES_FULL
 from mrlab_ros.gateway.link.hub import Hub
 from mrlab_ros.gateway.link.limits import LinkLimits
@@ -47,7 +47,7 @@ class Sessions:
         self.hub = Hub(lab, rules)
         self.visibility = Visibility(lab.definitions)
         self.displays = presence.Displays(lab.definitions)
-        self.hands = hands.Hands(lab.definitions)
+        self.hands = presence.Hands(lab.definitions)
         self._letting_go: set[asyncio.Task[None]] = set()
         self._may = may
         self._limits = limits
@@ -128,7 +128,7 @@ class Sessions:
             return
         for call in self.hands.let_go(client.session.token):
             try:
-                await self.lab.query(hands.SERVICE, call)
+                await self.lab.query(presence.SERVICE, call)
             except LabError as error:
                 log.warning("what %s held stays in the air: %s", client.session.person.name, error)
 

@@ -20,7 +20,8 @@ from mrlab_ros.core.runtime.freezes import LOOK_PERIOD_S, Freezes
 from mrlab_ros.gateway.diagnostics import GATEWAY_WITHOUT_LAB
 from mrlab_ros.gateway.errors import SOCKET_REFUSED, NotAllowed, TooMany, close
 from mrlab_ros.gateway.lab.connection import CALL_TIMEOUT_S, LabConnection, NoAnswer, TimedOut
-from mrlab_ros.gateway.link import diagnostics, frames, hands, presence
+from mrlab_ros.gateway.link import diagnostics, frames, presence
+from mrlab_ros.gateway.link.clock import LabClock
 from mrlab_ros.gateway.link.diagnostics import (
     BAD_NUMBER,
     BAD_OP,
@@ -36,7 +37,6 @@ from mrlab_ros.gateway.link.diagnostics import (
     SENDS_TOO_MUCH,
 )
 from mrlab_ros.gateway.link.frames import Call, Credit
-from mrlab_ros.gateway.link.lab_clock import LabClock
 from mrlab_ros.gateway.link.limits import LinkLimits
 from mrlab_ros.gateway.link.session import LinkSession, May, told
 from mrlab_ros.gateway.link.sessions import Client, Sessions
@@ -293,7 +293,7 @@ class _Socket:
             done = payload[SUCCESS : SUCCESS + 1] == b"\x01"
             if done and frame.key.endswith(PAUSE):
                 sessions.tell_of(session, frame.key)
-            elif done and frame.key == hands.SERVICE:
+            elif done and frame.key == presence.SERVICE:
                 sessions.hands.note(session.token, frame.payload)
         except TimedOut as error:
             session.fail(frame.request, "timeout", error.diagnostic)

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, Field
 
 from mrlab_ros.core.bridge.rules import Role
-from mrlab_ros.gateway.people.passwords import LONGEST
+from mrlab_ros.gateway.people.accounts import LONGEST
 
 Name = Annotated[str, Field(max_length=200)]
 # Longer than any allowed one, so that its length is judged in one place.

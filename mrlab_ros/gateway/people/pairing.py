@@ -12,7 +12,6 @@ from dataclasses import dataclass
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.gateway.errors import NotFound, TooMany
-from mrlab_ros.gateway.people.database import new_secret
 from mrlab_ros.gateway.people.diagnostics import (
     CODES_WRONG,
     DEVICES_FULL,
@@ -21,6 +20,7 @@ from mrlab_ros.gateway.people.diagnostics import (
     PAIRING_ENDED,
 )
 from mrlab_ros.gateway.people.person import Person
+from mrlab_ros.gateway.people.sign_ins import new_secret
 
 # RFC 8628 6.1: letters that make no words and are not mistaken for each other.
 LETTERS = "BCDFGHJKLMNPQRSTVWXZ"

@@ -12,13 +12,10 @@ from fastapi import Depends, Response
 from fastapi.requests import HTTPConnection
 
 from mrlab_ros.core.bridge.rules import Role
-from mrlab_ros.gateway.people.accounts import Accounts
-from mrlab_ros.gateway.people.database import FILE, Database
+from mrlab_ros.gateway.people.accounts import Accounts, Passwords
 from mrlab_ros.gateway.people.pairing import Pairings
-from mrlab_ros.gateway.people.passwords import Passwords
-from mrlab_ros.gateway.people.person import LOCAL, Person
-from mrlab_ros.gateway.people.rate_limits import Limit, RateLimit
-from mrlab_ros.gateway.people.sign_ins import FOLLOW_PERIOD_S, LIFETIME_S, SignIns
+from mrlab_ros.gateway.people.person import LOCAL, Limit, Person, RateLimit
+from mrlab_ros.gateway.people.sign_ins import FILE, FOLLOW_PERIOD_S, LIFETIME_S, Database, SignIns
 from mrlab_ros.gateway.settings import Settings, is_loopback
 
 SIGN_INS_BY_ADDRESS = Limit("sign_ins_by_address", 60, 2.0)

@@ -25,7 +25,7 @@ from mrlab_ros.gateway.people.person import CurrentPerson, Person
 from mrlab_ros.gateway.ports import Ports, ports
 from mrlab_ros.gateway.store import answers, downloads
 from mrlab_ros.gateway.store.shelf import Shelf, duration, shelf_of, trajectory
-from mrlab_ros.gateway.uploads import messages
+from mrlab_ros.gateway.uploads import motions
 from mrlab_ros.gateway.uploads.diagnostics import LABS_OWN, NOT_YOURS
 
 TheShelf = Annotated[Shelf, Depends(shelf_of)]
@@ -44,7 +44,7 @@ async def ask(there: Ports, service: str, kind: str, request: Mapping[str, Any])
         raise Unavailable(GATEWAY_WITHOUT_LAB())
     answer = await there.lab.call(f"converter/{service}", f"mrlab_msgs/srv/{kind}", request)
     if not answer.success:
-        raise BadInput(messages.said(answer))
+        raise BadInput(motions.said(answer))
     return answer
 
 

@@ -21,7 +21,7 @@ from mrlab_ros.core.bridge.access import Policy, Verb
 from mrlab_ros.core.show.document import findings
 from mrlab_ros.core.trajectory.catalogue import Record, Version
 from mrlab_ros.core.trajectory.document import warnings_of
-from mrlab_ros.gateway.assets.robots import Robots
+from mrlab_ros.gateway.assets.routes import Robots
 from mrlab_ros.gateway.people.person import LOCAL, Person
 from mrlab_ros.gateway.store import downloads
 

@@ -1,13 +1,17 @@
-"""/api/uploads, /api/conversions, /api/motions: from a file to a motion that can be published."""
+"""/api/uploads, /api/conversions, /api/motions: from a file to a motion that can be published.
+
+What the routes about uploads and conversions take and answer.
+"""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Depends, Header, Path, Request, Response
 from fastapi.concurrency import run_in_threadpool
+from pydantic import BaseModel, Field
 from starlette.requests import ClientDisconnect
 
 from mrlab_ros.adapters.store import keys
@@ -15,13 +19,85 @@ from mrlab_ros.core.base.errors import BadInput, Unavailable
 from mrlab_ros.gateway.diagnostics import GATEWAY_WITHOUT_LAB
 from mrlab_ros.gateway.errors import NotFound, NotTheFile
 from mrlab_ros.gateway.patience import in_time
-from mrlab_ros.gateway.people.person import CurrentPerson, Person
-from mrlab_ros.gateway.people.rate_limits import Limit, RateLimit
+from mrlab_ros.gateway.people.person import CurrentPerson, Limit, Person, RateLimit
 from mrlab_ros.gateway.ports import Ports, ports
+from mrlab_ros.gateway.store.answers import Finding, Identifier, Strict, Trajectory
 from mrlab_ros.gateway.store.shelf import Shelf, finding_fields, of_head, shelf_of
-from mrlab_ros.gateway.uploads import answers, messages, motions
+from mrlab_ros.gateway.uploads import motions
 from mrlab_ros.gateway.uploads.diagnostics import BROKE_OFF, CAME_AS_FORM, NO_FILE_NAME, NO_UPLOAD
 from mrlab_ros.gateway.uploads.receive import Receiver
+
+Words = Annotated[str, Field(max_length=10_000)]
+
+
+class Upload(BaseModel):
+    """A file that was received. upload: names it in conversions."""
+
+    upload: Identifier
+    file_name: str
+    size: int
+    sha256: str
+
+
+class Conversion(Strict):
+    """What a file becomes: the options of mrlab_msgs/ConvertTrajectory."""
+
+    upload: Identifier
+    robot_model: Words
+    end_effector: Words = ""
+    frame_rate: Annotated[float, Field(ge=0, le=1e9, allow_inf_nan=False)] = 0.0
+    variable: Words = ""
+    columns: Words = ""
+    transpose: bool = False
+    degrees: bool = False
+    unwrap: bool = False
+    resample: bool = False
+    join: Words = ""
+    gripper: Words = ""
+    invert: bool = False
+    units: Words = ""
+    id: Words = ""
+
+
+class Preview(BaseModel):
+    """Some rows of a matrix; values row by row, null where not finite."""
+
+    variable: str
+    rows: list[int]
+    columns: int
+    values: list[float | None]
+
+
+class Candidate(BaseModel):
+    """A matrix that may be the trajectory."""
+
+    variable: str
+    rows: int
+    columns: int
+    minimum: float | None
+    maximum: float | None
+    score: float
+    reasons: list[Finding]
+    preview: Preview
+
+
+class Converted(BaseModel):
+    """What became of a file. values: of the message's code, as the wire has them.
+
+    motion: URL of its MotionDocument; null: it holds no motion.
+    """
+
+    outcome: Literal["rejected", "accepted", "ambiguous"]
+    code: str
+    message: str
+    values: dict[str, str]
+    diagnostics: list[Finding]
+    candidates: list[Candidate]
+    preview: Preview | None
+    trajectory: Trajectory | None
+    draft: Identifier | None
+    motion: str | None
+
 
 TheShelf = Annotated[Shelf, Depends(shelf_of)]
 ThePorts = Annotated[Ports, Depends(ports)]
@@ -70,7 +146,7 @@ async def upload(
     desk: TheDesk,
     file_name: Annotated[str, Path(description="such as traj.mat")],
     content_length: Annotated[int | None, Header(ge=0, include_in_schema=False)] = None,
-) -> answers.Upload:
+) -> Upload:
     """Receive a file, the raw body of the request; one that breaks off leaves nothing."""
     desk.count(person, UPLOADS)
     if request.headers.get("content-type", "").startswith("multipart/"):
@@ -81,7 +157,7 @@ async def upload(
         )
     except ClientDisconnect:
         raise BadInput(BROKE_OFF(file=file_name)) from None
-    return answers.Upload(
+    return Upload(
         upload=received.number,
         file_name=received.file_name,
         size=received.size,
@@ -101,8 +177,8 @@ async def convert(
     shelf: TheShelf,
     there: ThePorts,
     desk: TheDesk,
-    asked: answers.Conversion,
-) -> answers.Converted:
+    asked: Conversion,
+) -> Converted:
     """Convert an upload of one's own into a draft, or say what is wrong with it."""
     desk.count(person, CONVERSIONS)
     if there.lab is None:
@@ -114,7 +190,7 @@ async def convert(
     request |= {"upload": key, "owner": user, "draft": keys.draft(user, draft)}
     answer = await there.lab.call("converter/convert", "mrlab_msgs/srv/ConvertTrajectory", request)
     if not answer.success and not len(answer.diagnostics):
-        raise BadInput(messages.said(answer))
+        raise BadInput(motions.said(answer))
     return await run_in_threadpool(_converted, shelf, user, key, draft, asked, answer)
 
 
@@ -137,16 +213,16 @@ def _uploaded(shelf: Shelf, user: str, number: str) -> str:
 
 
 def _converted(
-    shelf: Shelf, user: str, key: str, draft: str, asked: answers.Conversion, answer: Any
-) -> answers.Converted:
-    outcome = messages.OUTCOMES[answer.outcome]
-    diagnostics = messages.diagnostics_of(answer)
+    shelf: Shelf, user: str, key: str, draft: str, asked: Conversion, answer: Any
+) -> Converted:
+    outcome = motions.OUTCOMES[answer.outcome]
+    diagnostics = motions.diagnostics_of(answer)
     found: dict[str, Any] = {"trajectory": None, "draft": None}
     number: str | None = None
     if outcome == "accepted":
         info = answer.trajectory
         own = {"owner": info.owner, "version": int(info.version), "shared": bool(info.shared)}
-        found = {"trajectory": of_head(messages.head_of(info), **own), "draft": draft}
+        found = {"trajectory": of_head(motions.head_of(info), **own), "draft": draft}
         found["trajectory"]["warnings"] = [
             fields for fields in finding_fields(diagnostics) if fields["severity"] == "warning"
         ]
@@ -154,7 +230,7 @@ def _converted(
     else:
         ambiguous = outcome == "ambiguous" and len(answer.candidates)
         shown = answer.candidates[0].preview if ambiguous else answer.preview
-        preview = messages.preview_of(shown)
+        preview = motions.preview_of(shown)
         if preview is not None:
             number = motions.keep_preview(
                 shelf,
@@ -168,16 +244,16 @@ def _converted(
                 frame_rate=asked.frame_rate,
                 diagnostics=diagnostics,
             )
-    rows = messages.preview_of(answer.preview) is not None
-    return answers.Converted.model_validate(
+    rows = motions.preview_of(answer.preview) is not None
+    return Converted.model_validate(
         {
             "outcome": outcome,
             "code": answer.code,
             "message": answer.message,
-            "values": dict(messages.said(answer).values),
+            "values": dict(motions.said(answer).values),
             "diagnostics": finding_fields(diagnostics),
-            "candidates": [messages.candidate_fields(each) for each in answer.candidates],
-            "preview": messages.preview_fields(answer.preview) if rows else None,
+            "candidates": [motions.candidate_fields(each) for each in answer.candidates],
+            "preview": motions.preview_fields(answer.preview) if rows else None,
             "motion": None if number is None else f"/api/motions/{number}",
             **found,
         }

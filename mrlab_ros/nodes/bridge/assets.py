@@ -24,7 +24,7 @@ from mrlab_ros.core.bridge.assets import (
 )
 from mrlab_ros.core.bridge.diagnostics import ASSETS_BUSY
 from mrlab_ros.messages.definitions import schema
-from mrlab_ros.nodes.bridge.context import BridgeContext, Count
+from mrlab_ros.nodes.bridge.routes import BridgeContext, Count
 
 if TYPE_CHECKING:
     from mrlab_ros.adapters.assets.library import Assets

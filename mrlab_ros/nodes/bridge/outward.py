@@ -3,10 +3,15 @@
 The thread that receives from the graph also publishes what may be dropped. What must arrive is
 published by a second thread, so that a client that does not read delays no motion. A stream that
 no client subscribes to is not received at all.
+
+Limits the rates of topics: a message that comes too early waits until it is due.
+
+Sends to clients in a separate thread, so that a slow client delays no other work.
 """
 
 from __future__ import annotations
 
+import threading
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -23,15 +28,101 @@ from mrlab_ros.adapters.zenoh.port import Declared, Publisher
 from mrlab_ros.core.bridge import rules
 from mrlab_ros.core.bridge.latency import Ledger, attachment
 from mrlab_ros.core.bridge.rules import (
+    SECOND,
     Congestion,
     Direction,
+    RateCap,
     TopicRule,
 )
-from mrlab_ros.nodes.bridge.context import BridgeContext, Count, profile
-from mrlab_ros.nodes.bridge.rate_caps import RateCaps
-from mrlab_ros.nodes.bridge.routes import Route, TopicRoutes
-from mrlab_ros.nodes.bridge.sender import Sender
+from mrlab_ros.nodes.bridge.routes import BridgeContext, Count, Route, TopicRoutes, profile
 from mrlab_ros.ros.arrivals import Arrivals, OnMessage
+from mrlab_ros.ros.worker import Worker
+
+# Bytes in the queue; beyond it the oldest messages are dropped, so that the newest state arrives.
+ROOM = 64 * 1024 * 1024
+# Time that a stopped sender has to send its queue, s.
+STOP_TIMEOUT_S = 2.0
+
+
+class Sender(Worker):
+    """A worker with a queue of at most `room` bytes.
+
+    warn_once: logs a text, each text once.
+    """
+
+    def __init__(self, name: str, warn_once: Callable[[str], None], room: int = ROOM) -> None:
+        def on_drop() -> None:
+            warn_once(
+                f"a client reads its messages too slowly: more than {room / 1e6:g} MB were "
+                "queued, and the oldest messages were dropped; check the client's network"
+            )
+
+        def on_error(error: Exception) -> None:  # the client, or the topic, may have gone
+            warn_once(f"a message was lost: {type(error).__name__}: {error}")
+
+        super().__init__(name, capacity=room, on_drop=on_drop, on_error=on_error)
+
+    def stop(self) -> None:
+        """Send the queue, for STOP_TIMEOUT_S at most, and end."""
+        self.close(STOP_TIMEOUT_S)
+
+
+# A message's CDR and when it was published, ns since 1970.
+Message = tuple[bytes, int]
+
+
+class RateCaps:
+    """Lets messages of each limited topic through at most at its rate, the newest each time."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._waiting: dict[RateCap[Message], OnMessage] = {}
+        self._worker = Worker("bridge_caps", self._emit_due, self._until_due)
+
+    def stop(self) -> None:
+        """Drop what waits, and end."""
+        with self._lock:
+            self._waiting.clear()
+        self._worker.close()
+
+    def limit(self, max_rate: float, emit: OnMessage) -> OnMessage:
+        """Return a callback that calls `emit` at most at `max_rate`, Hz.
+
+        `emit` must neither wait nor raise.
+        """
+        cap: RateCap[Message] = RateCap(max_rate)
+
+        def limited(payload: bytes, published_ns: int) -> None:
+            # Emitted under the lock, so that a newer message never overtakes an older one.
+            with self._lock:
+                passed = cap.offer((payload, published_ns), time.monotonic_ns())
+                if passed is not None:
+                    emit(*passed)
+                    return
+                if cap in self._waiting:
+                    return
+                self._waiting[cap] = emit
+            # Wakes the worker, which then waits until the message is due.
+            self._worker.send(self._emit_due)
+
+        return limited
+
+    def _until_due(self) -> float | None:
+        """Return the time until the next message is due, s; None where none waits."""
+        with self._lock:
+            due = [cap.due_ns for cap in self._waiting if cap.due_ns is not None]
+        return max(min(due) - time.monotonic_ns(), 0) / SECOND if due else None
+
+    def _emit_due(self) -> None:
+        with self._lock:
+            now = time.monotonic_ns()
+            for cap, emit in list(self._waiting.items()):
+                message = cap.take(now)
+                if message is not None:
+                    emit(*message)
+                if cap.due_ns is None:
+                    del self._waiting[cap]
+
 
 # How long a stream is received on after its last zenoh subscriber has gone, s: a page that is
 # loaded again finds it running.

@@ -24,8 +24,8 @@ from mrlab_ros.core.bridge import diagnostics as say
 from mrlab_ros.core.bridge import rules
 from mrlab_ros.core.bridge.rules import ServiceRule
 from mrlab_ros.messages import qos
-from mrlab_ros.nodes.bridge.context import BridgeContext, Count
-from mrlab_ros.nodes.bridge.sender import Sender
+from mrlab_ros.nodes.bridge.outward import Sender
+from mrlab_ros.nodes.bridge.routes import BridgeContext, Count
 from mrlab_ros.ros import clock
 
 # Calls that one service has at a time; DDS keeps ten for a server and drops older ones.

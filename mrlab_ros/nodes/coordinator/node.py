@@ -36,12 +36,12 @@ from mrlab_ros.messages.systems import (
 )
 from mrlab_ros.messages.time import time_from_message
 from mrlab_ros.nodes import parameters
-from mrlab_ros.nodes.coordinator.checks import MemberChecks
-from mrlab_ros.nodes.coordinator.fleet import Hosts, MemberClient, RosFleet
+from mrlab_ros.nodes.coordinator.fleet import Hosts, MemberChecks, MemberClient, RosFleet
 from mrlab_ros.nodes.parameters import CoordinatorParameters
+from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.clock import LabClock, every
 from mrlab_ros.ros.parameters import ParameterNode
-from mrlab_ros.ros.services import NoAnswer, Turns
+from mrlab_ros.ros.services import Turns
 from mrlab_ros.ros.spinning import Caller
 from mrlab_ros.ros.worker import Worker
 

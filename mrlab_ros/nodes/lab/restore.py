@@ -40,7 +40,7 @@ from mrlab_ros.nodes.lab.diagnostics import (
     ROBOTS_STAY,
 )
 from mrlab_ros.nodes.lab.observer import Observer
-from mrlab_ros.ros.services import NoAnswer, call
+from mrlab_ros.ros.calls import NoAnswer, call
 
 # A change reaches the other nodes after this, s, or something is wrong.
 ARRIVAL_TIMEOUT_S = 10.0

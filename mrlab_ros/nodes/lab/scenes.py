@@ -30,7 +30,7 @@ from mrlab_ros.nodes.lab.diagnostics import (
 )
 from mrlab_ros.nodes.lab.observer import Observer
 from mrlab_ros.nodes.lab.restore import ARRIVAL_TIMEOUT_S, LOAD_TIMEOUT_S, LabRestore
-from mrlab_ros.ros.services import NoAnswer, call
+from mrlab_ros.ros.calls import NoAnswer, call
 
 # What was published before a request reaches the lab this much later, s.
 SETTLE_S = 0.1

@@ -29,7 +29,7 @@ from mrlab_ros.messages import qos
 from mrlab_ros.messages.systems import order_from_message, reply_to_message
 from mrlab_ros.messages.time import time_to_message
 from mrlab_ros.nodes import parameters
-from mrlab_ros.nodes.catalogue import CatalogueClient
+from mrlab_ros.nodes.converter.catalogue import CatalogueClient
 from mrlab_ros.nodes.parameters import PlaybackParameters
 from mrlab_ros.nodes.playback.node import PlaybackNode
 from mrlab_ros.ros import share

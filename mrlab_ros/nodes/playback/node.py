@@ -35,9 +35,10 @@ from mrlab_ros.messages.playback import (
     targets_to_message,
 )
 from mrlab_ros.nodes.playback.commanders import Commanders
+from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.deadlines import Command, Player, Scheduler
 from mrlab_ros.ros.raw_streams import raw_publish
-from mrlab_ros.ros.services import NoAnswer, answered, create_deferred_service, create_service
+from mrlab_ros.ros.services import answered, create_deferred_service, create_service
 from mrlab_ros.ros.worker import Worker
 
 # For what a robot had before a restart, the catalogue is asked this long, s.

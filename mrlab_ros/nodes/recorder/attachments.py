@@ -28,11 +28,11 @@ from mrlab_ros.core.bridge.assets import media_type
 from mrlab_ros.core.robots.frames import without_frames
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.messages import qos, trajectories
-from mrlab_ros.nodes.catalogue import CatalogueClient
+from mrlab_ros.nodes.converter.catalogue import CatalogueClient
 from mrlab_ros.nodes.recorder.diagnostics import NOT_ATTACHED, PARAMETERS_NOT_ATTACHED
 from mrlab_ros.ros import share
+from mrlab_ros.ros.calls import call
 from mrlab_ros.ros.raw_streams import Received
-from mrlab_ros.ros.services import call
 from mrlab_ros.ros.spinning import Caller
 from mrlab_ros.ros.worker import Worker
 

@@ -55,8 +55,7 @@ from mrlab_ros.nodes.recorder.diagnostics import (
     REPLAYS,
 )
 from mrlab_ros.nodes.recorder.recording import Recording
-from mrlab_ros.nodes.recorder.replaying import Replaying
-from mrlab_ros.nodes.recorder.trajectories import ReplayedTrajectories
+from mrlab_ros.nodes.recorder.replaying import ReplayedTrajectories, Replaying
 from mrlab_ros.ros.clock import every
 from mrlab_ros.ros.parameters import ParameterNode
 from mrlab_ros.ros.services import answered, create_service

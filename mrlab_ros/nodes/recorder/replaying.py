@@ -1,4 +1,7 @@
-"""A running replay: publishes a bag's messages unchanged, at their times."""
+"""A running replay: publishes a bag's messages unchanged, at their times.
+
+Answers for the converter while a bag is replayed: the bag's own trajectories.
+"""
 
 from __future__ import annotations
 
@@ -9,6 +12,7 @@ from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from typing import Any
 
+from mrlab_msgs import srv
 from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.publisher import Publisher
@@ -16,6 +20,7 @@ from rclpy.publisher import Publisher
 from mrlab_ros.adapters.bags.mcap_file import Message
 from mrlab_ros.adapters.bags.migration import Convert, migration
 from mrlab_ros.adapters.bags.reader import Bag
+from mrlab_ros.adapters.trajectories.formats import parse
 from mrlab_ros.core.base.clock import SECOND, checked_position
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
 from mrlab_ros.core.base.errors import BadInput, LabError, Misuse
@@ -24,9 +29,12 @@ from mrlab_ros.core.recording.diagnostics import LEFT_OUT, NOTHING_TO_REPLAY
 from mrlab_ros.core.recording.metadata import Topic
 from mrlab_ros.core.recording.recorder import ReplayTimeline, is_state
 from mrlab_ros.core.recording.topics import OF_THE_PRESENT, Topics
+from mrlab_ros.messages import trajectories
 from mrlab_ros.messages.definitions import definition
 from mrlab_ros.messages.qos import message_class, profile
-from mrlab_ros.nodes.recorder.diagnostics import OTHERS_PUBLISH, REPLAY_BROKE
+from mrlab_ros.nodes.recorder.attachments import trajectory_name
+from mrlab_ros.nodes.recorder.diagnostics import BAG_TRAJECTORY, OTHERS_PUBLISH, REPLAY_BROKE
+from mrlab_ros.ros.services import answered, create_service
 
 # Messages kept for a subscriber that is slow; of a latched topic, for one that comes late.
 DEPTH, LATCHED_DEPTH = 1000, 10
@@ -294,3 +302,35 @@ class Replaying:
         data = message.data if convert is None else convert(message.data)
         self._publishers[message.topic].publish(data)
         self.messages += 1
+
+
+class ReplayedTrajectories:
+    """Offers /converter/get on `node`, from the attachments of `bag`, until close()."""
+
+    def __init__(self, node: Node, bag: Bag) -> None:
+        self._node = node
+        self._bag = bag
+        self._service = create_service(node, srv.GetTrajectory, "/converter/get", self._get)
+
+    def close(self) -> None:
+        self._node.destroy_service(self._service)
+
+    def get_logger(self) -> Any:
+        return self._node.get_logger()
+
+    @answered
+    def _get(self, request: Any, response: Any) -> Diagnostic:
+        name = trajectory_name(request.id)
+        try:
+            found = self._bag.attachment(name)
+        except BadInput:
+            # the only version that was recorded has the id alone for a name
+            whole, at, _ = request.id.rpartition("@")
+            if not at:
+                raise
+            found = self._bag.attachment(trajectory_name(whole))
+        trajectory = parse(found.data, name)
+        response.trajectory = trajectories.trajectory_to_message(
+            trajectory, request.begin, request.count
+        )
+        return BAG_TRAJECTORY(trajectory=request.id, bag=self._bag.path.name)

@@ -12,8 +12,8 @@ from mrlab_ros.commands.open import running_web
 from mrlab_ros.core.base.errors import Misuse
 from mrlab_ros.processes.diagnostics import LABS_ELSEWHERE
 from mrlab_ros.processes.run_file import RunFile, domains
+from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.diagnostics import NO_LAB_ANSWERS
-from mrlab_ros.ros.services import NoAnswer
 
 
 class Lone:

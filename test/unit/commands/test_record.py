@@ -31,8 +31,8 @@ from mrlab_ros.core.recording.diagnostics import RECORDING_GAP
 from mrlab_ros.core.recording.recorder import RecorderState
 from mrlab_ros.core.runtime.watch import Sign
 from mrlab_ros.messages.status import signs_to_message
+from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.graph import Watch
-from mrlab_ros.ros.services import NoAnswer
 
 
 @pytest.mark.parametrize(("word", "meant"), [("stop", "record --stop"), ("start", "record")])

@@ -5,7 +5,7 @@ from __future__ import annotations
 from rich.console import Console
 from rich.text import Text
 
-from mrlab_ros.commands.status.scroll import DOWN, PAGE_DOWN, PAGE_UP, UP, Scroll
+from mrlab_ros.commands.status.view import DOWN, PAGE_DOWN, PAGE_UP, UP, Scroll
 
 HEIGHT = 6
 

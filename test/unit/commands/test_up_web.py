@@ -22,7 +22,7 @@ from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.access import Login
 from mrlab_ros.gateway.diagnostics import OPEN_TO_NETWORK
 from mrlab_ros.gateway.people.accounts import Accounts
-from mrlab_ros.gateway.people.database import FILE, Database
+from mrlab_ros.gateway.people.sign_ins import FILE, Database
 from mrlab_ros.processes.options import LabOptions
 
 

@@ -22,7 +22,7 @@ from mrlab_ros.gateway.diagnostics import (
     NO_HTTPS_FILE,
     OPEN_TO_NETWORK,
 )
-from mrlab_ros.gateway.hosts import Hosts
+from mrlab_ros.gateway.guard import Hosts
 from mrlab_ros.gateway.settings import Settings, parsed_address
 
 

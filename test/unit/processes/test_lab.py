@@ -415,7 +415,7 @@ def test_the_launch_file_says_when_the_lab_is_ready_and_then_goes_on(launched: L
     nodes = [node for process in lab_processes(options()) for node in process.nodes]
     expected = [n for n in nodes if n != "physics" or not physics_support.missing()]
     module, lab, *rest = ready.kwargs["cmd"][BEFORE - 1 :]
-    assert module == "mrlab_ros.processes.ready"
+    assert module == "mrlab_ros.processes.readiness"
     assert all(f'lab_id:="{lab}"' in host.kwargs["arguments"] for host in hosts(found))
     assert rest == ["2", ",".join(expected), "/lab/load_scene", "/recorder/start"]
     (handler,) = (h for h in handlers(found) if h.kwargs.get("target_action") is ready)

@@ -1,5 +1,5 @@
 /** The offset between two clocks: the exchange with the least round trip of a sliding window. The
- * same as `mrlab_ros/gateway/link/clock_offset.py`. */
+ * same as `mrlab_ros/gateway/link/clock.py`. */
 
 /** s: a round trip that is older says little about a clock that drifts. */
 const WINDOW_S = 30

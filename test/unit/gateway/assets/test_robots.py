@@ -15,7 +15,7 @@ from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.assets import Described
 from mrlab_ros.gateway.assets.cache import AssetCache
-from mrlab_ros.gateway.assets.robots import Robots
+from mrlab_ros.gateway.assets.routes import Robots
 from mrlab_ros.gateway.diagnostics import ROBOT_NOWHERE
 from mrlab_ros.gateway.lab.connection import Refused, Sample
 from mrlab_ros.gateway.lab.fake_lab import FakeLab

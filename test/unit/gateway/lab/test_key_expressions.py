@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from mrlab_ros.gateway.lab.key_expressions import matches
+from mrlab_ros.gateway.lab.connection import matches
 
 pytestmark = pytest.mark.fast
 

@@ -44,8 +44,8 @@ from mrlab_ros.messages import trajectories
 from mrlab_ros.messages.texts import tell
 from mrlab_ros.messages.trajectories import candidate_to_message, info_from_head
 from mrlab_ros.nodes import parameters
+from mrlab_ros.nodes.converter.catalogue import TrajectoryServices
 from mrlab_ros.nodes.parameters import ConverterParameters
-from mrlab_ros.nodes.trajectories import TrajectoryServices
 from mrlab_ros.ros import share
 from mrlab_ros.ros.clock import every
 from mrlab_ros.ros.diagnostics import FAULT

@@ -9,7 +9,7 @@ from mrlab_ros.core.bridge.rules import (
     service_token,
     topic_token,
 )
-from mrlab_ros.gateway.lab.tokens import TokenTable
+from mrlab_ros.gateway.lab.connection import TokenTable
 
 pytestmark = pytest.mark.fast
 

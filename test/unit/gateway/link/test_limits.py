@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from mrlab_ros.gateway.link.credit import Credit, ahead
+from mrlab_ros.gateway.link.limits import Credit, ahead
 
 pytestmark = pytest.mark.fast
 

@@ -6,7 +6,7 @@ from refusals import refused
 
 from mrlab_ros.gateway.diagnostics import TOO_MANY_REQUESTS
 from mrlab_ros.gateway.errors import TooMany
-from mrlab_ros.gateway.people.rate_limits import Limit, RateLimit
+from mrlab_ros.gateway.people.person import Limit, RateLimit
 
 LIMIT = Limit("tries", 3, 10.0)
 

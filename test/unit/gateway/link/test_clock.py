@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from mrlab_ros.gateway.link.clock_offset import ClockOffset, exchange
+from mrlab_ros.gateway.link.clock import ClockOffset, exchange
 
 pytestmark = pytest.mark.fast
 VECTORS = Path(__file__).parents[4] / "web" / "test" / "link" / "clock_offset.json"

@@ -1,0 +1,1 @@
+"""The converter's node and the catalogue of trajectories."""
