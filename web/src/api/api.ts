@@ -43,7 +43,7 @@ export interface Api {
 
   /** Return the known check of `trajectory`, such as quintic@3, on a robot of the lab. */
   check(robot: string, trajectory: string): Promise<Check>
-  /** Have it checked where everything stands now. */
+  /** Start a check in the present scene. */
   startCheck(robot: string, trajectory: string): Promise<Check>
   cancelCheck(robot: string, trajectory: string): Promise<void>
 

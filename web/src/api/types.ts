@@ -78,7 +78,7 @@ export interface Preview {
   readonly variable: string
   readonly rows: readonly number[]
   readonly columns: number
-  /** Row by row; null where not finite. */
+  /** Row by row; null: not finite. */
   readonly values: readonly (number | null)[]
 }
 

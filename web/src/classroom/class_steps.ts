@@ -55,7 +55,7 @@ export class ClassSteps {
     this.key.value = key
   }
 
-  /** Go to the one that is `by` places on; return its key, empty where there is none. */
+  /** Go to the submission `by` places on; return its key, empty if there is none. */
   step(by: number): string {
     const found = this.submissions.value[this.place.value + by]
     if (found === undefined) return ''
@@ -91,7 +91,8 @@ export class ClassSteps {
   }
 }
 
-/** Return how many places a key of the keyboard goes on; 0: none, or it is being typed with. */
+/** Return the number of places that a key of the keyboard steps; 0: none, or a text is being
+ * typed. */
 export function stepOf({
   key,
   ctrlKey,

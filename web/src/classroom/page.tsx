@@ -196,7 +196,7 @@ export function ClassPage() {
           <Marks
             submission={current}
             onSelect={(finding) => {
-              // the same one again goes there again
+              // A second click on the same number seeks again.
               selected.value = 0
               selected.value = finding
             }}

@@ -6,7 +6,7 @@ type Look = 'plain' | 'primary' | 'quiet' | 'danger'
 interface Dress {
   look?: Look
   icon?: IconName
-  /** Name for screen readers where there is an icon alone; also its tooltip. */
+  /** Name for screen readers of a button with only an icon; also its tooltip. */
   label?: string
   children?: ComponentChildren
 }

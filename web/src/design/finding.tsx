@@ -11,9 +11,9 @@ interface FindingItemProps {
   readonly where: string
   readonly message: string
   readonly remedy: string
-  /** Absent where it has no place to go to. */
+  /** Absent: it has no place. */
   readonly onShow?: (() => void) | undefined
-  /** It is the one that is shown. */
+  /** True for the finding that is shown. */
   readonly shown: boolean
   readonly children?: ComponentChildren
 }

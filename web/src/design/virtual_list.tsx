@@ -10,7 +10,7 @@ interface VirtualListProps<Item> {
   render: (item: Item) => ComponentChildren
 }
 
-// Rows above and below the window that are there already when it is scrolled.
+// Rows above and below the window that are drawn in advance.
 const MARGIN_ROWS = 8
 
 /** Return the first and the one after the last row to render, given where the list is, px. */

@@ -14,8 +14,8 @@ interface Carried {
   readonly end_effector: string
 }
 
-/** Return whether a robot can play a trajectory: one that was made without an end effector plays
- * with any. The same rule as `mrlab_ros/core/trajectory/trajectory.py`. */
+/** Return whether a robot can play a trajectory: a trajectory without an end effector plays with
+ * any. The same rule as `mrlab_ros/core/trajectory/trajectory.py`. */
 export function fits(info: Carried, robot: Carrier): boolean {
   if (info.robot_model !== robot.model) return false
   return info.end_effector === '' || info.end_effector === robot.end_effector

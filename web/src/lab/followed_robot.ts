@@ -27,10 +27,10 @@ export interface RobotView {
   readonly player: RemotePlayer
 }
 
-/** A drawn robot as far as it is posed here. */
+/** The part of a drawn robot that is posed here. */
 export type DrawnArm = Pick<SceneRobot, 'setJoint' | 'setPositions'>
 
-/** Returns the frames of a trajectory, such as quintic@3. Rejects where they cannot be had. */
+/** Returns the frames of a trajectory, such as quintic@3. Rejects if they cannot be fetched. */
 export type CourseOf = (trajectory: string) => Promise<Course>
 
 /** States in which an arm is on its course, where its clock says. */
@@ -46,8 +46,8 @@ const MOST_FRAMES = 100_000
 /** Return a ROS time, s. */
 export const seconds = (time: Time): number => time.sec + time.nanosec * 1e-9
 
-/** Return the clock of a robot or a system as a timeline takes it; where it stands in READY, the
- * next run begins: at the end where it goes backwards. */
+/** Return the clock of a robot or a system for a timeline. In READY it shows the begin of the next
+ * run: the end of the motion if the rate is negative. */
 export function clockOf({ clock }: Pick<PlaybackState, 'clock'>): PlaybackClock {
   return { stamp: seconds(clock.stamp), position: clock.position, rate: clock.rate }
 }
@@ -118,8 +118,8 @@ export class FollowedRobot {
     return moved
   }
 
-  /** Before a picture that is seen at `time`, s of lab time: pose it. Return 'first' where it is
-   * the first time, whether it moves on by itself otherwise. */
+  /** Pose it for a picture that is displayed at `time`, s of lab time. Return 'first' the first
+   * time, later whether it continues to move. */
   draw(drawn: DrawnArm | undefined, time: number): 'first' | boolean {
     const { arm } = this
     if (arm === null || !arm.sample(time)) return false
@@ -161,7 +161,7 @@ export class FollowedRobot {
       (course) => {
         if (this.wanted === wanted) this.setCourse(course)
       },
-      // they cannot be had: the joint states say where it is
+      // Not fetched: the joint states pose it.
       () => undefined,
     )
   }

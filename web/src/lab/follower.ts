@@ -174,8 +174,8 @@ export class LabFollower {
     this.show()
   }
 
-  /** Before each picture: pose the robots as they are when it is seen, `ahead`, s, from now; return
-   * whether one moves on. Without the link all stand where they were last known. */
+  /** Before each picture: pose the robots for its display, `ahead`, s, from now; return whether
+   * one continues to move. Without the link all keep their last pose. */
   pose(ahead = 0): boolean {
     const time = this.heldAt ?? this.link.labTime() + ahead
     let more = false
@@ -201,7 +201,7 @@ export class LabFollower {
     return this.kept.get(name)?.course ?? null
   }
 
-  /** Return the frames of a trajectory, such as quintic@3. Rejects where they cannot be had. */
+  /** Return the frames of a trajectory, such as quintic@3. Rejects if they cannot be fetched. */
   framesOf(trajectory: string): Promise<Course> {
     return this.courses.of(trajectory)
   }
@@ -253,7 +253,7 @@ export class LabFollower {
     return this.status.value.phase !== 'open'
   }
 
-  /** Without the link everything stands where it was last known. */
+  /** True without a link: everything keeps its last pose. */
   private hold(): void {
     const { lost } = this
     this.heldAt = lost ? (this.heldAt ?? this.link.labTime()) : null
@@ -290,7 +290,7 @@ export class LabFollower {
 
   private takeRecorder(state: RecorderState): void {
     this.recorder.value = state
-    // its state comes once a second; in between the clock goes on at its rate
+    // Its state is published once a second; in between the clock runs at its rate.
     const goes = state.state === 2
     this.replay.follow(
       {

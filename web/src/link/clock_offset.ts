@@ -40,7 +40,7 @@ export class ClockOffset {
   private held = Number.NaN
   private heldAt = 0
 
-  /** The least of the window, s; NaN where there is none. */
+  /** The least of the window, s; NaN: the window is empty. */
   get roundTrip(): number {
     return this.best()?.roundTrip ?? Number.NaN
   }

@@ -7,7 +7,7 @@ const ToClient = { VALUES: 1, FRAGMENT: 2 } as const
 const ToGateway = { CALL: 1, PUT: 2, CREDIT: 3, RECEIVED: 4 } as const
 export const RecordKind = { MESSAGE: 1, VALUE: 2, RESPONSE: 3, ERROR: 4 } as const
 
-/** Close codes of the gateway after which a page does not come back by itself. */
+/** Close codes of the gateway after which a page does not reconnect automatically. */
 export const CLOSED_FOR_GOOD: readonly number[] = [4001, 4003, 4029]
 
 const HEAD = 8
@@ -86,7 +86,7 @@ export function callFrame(
   return keyed(ToGateway.CALL, key, payload, request, Math.ceil(timeoutS * 1000))
 }
 
-/** Return the frame of a message for a topic that comes in. */
+/** Return the frame of a message for a topic that the lab receives. */
 export function putFrame(key: string, payload: Uint8Array): Uint8Array<ArrayBuffer> {
   return keyed(ToGateway.PUT, key, payload, 0, 0)
 }
@@ -108,7 +108,7 @@ export function following(number: number, by = 1): number {
   return (number + by) % RANGE
 }
 
-/** Return how far a number is ahead of another, negative where it is behind. */
+/** Return the distance from one number to another, negative if it is behind. */
 export function ahead(number: number, of: number): number {
   return ((number - of + RANGE + RANGE / 2) % RANGE) - RANGE / 2
 }

@@ -20,7 +20,8 @@ export interface Link {
     request: Request,
     timeoutS?: number,
   ): Promise<Response>
-  /** Publish a message on a topic that comes in, such as `latency/clients`; dropped while lost. */
+  /** Publish a message on a topic that the lab receives, such as `latency/clients`; dropped while
+   * lost. */
   publish<T>(key: string, type: MessageWriter<T>, message: T): void
   /** The present offer of the lab; empty while it is unreachable. */
   readonly offer: LabOffer

@@ -7,8 +7,8 @@ export class ReliableReceiver {
   /** Number of the last fragment that is here. */
   received = 0
 
-  /** Take a fragment; return the record that it completes, or null. One that came before, on an
-   * earlier socket, is left out. */
+  /** Take a fragment; return the record that it completes, or null. A fragment that an earlier
+   * socket delivered is ignored. */
   take(number: number, last: boolean, data: Uint8Array): LinkRecord | null {
     if (ahead(number, this.received) <= 0) return null
     if (number !== following(this.received)) {

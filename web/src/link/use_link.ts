@@ -1,10 +1,10 @@
-/** The link of a page that is shown, closed when the page goes. */
+/** The link of a page, closed when the page is left. */
 
 import { type Signal, useSignal } from '@preact/signals'
 import { useEffect } from 'preact/hooks'
 import type { Link } from './link'
 
-/** Open the lab's link, or in `--mode fake` that of a made-up lab; null until it is there. */
+/** Open the lab's link, or in `--mode fake` that of a made-up lab; null until it is open. */
 export function useLink(): Signal<Link | null> {
   const link = useSignal<Link | null>(null)
   useEffect(() => {

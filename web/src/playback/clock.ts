@@ -1,11 +1,11 @@
 /** The clock of a trajectory: position(t) = position + rate * (t - stamp). The same pair as
  * `mrlab_msgs/msg/PlaybackClock` and `mrlab_ros/core/base/clock.py`. */
 export interface PlaybackClock {
-  /** Lab time at which `position` holds, s; where it lies ahead, the clock starts then. */
+  /** Lab time at which `position` holds, s; if it is in the future, the clock starts then. */
   readonly stamp: number
   /** s from the first frame */
   readonly position: number
-  /** 1 is the declared speed, 0 stands, negative: backwards */
+  /** 1: the declared speed, 0: paused, negative: backwards */
   readonly rate: number
 }
 

@@ -1,13 +1,13 @@
 import { type PlaybackClock, positionAt } from './clock'
 import type { Course } from './course'
 
-/** Streamed states are shown this much later, s: one that is 100 ms late leaves no gap. */
+/** Delay with which streamed states are shown, s: a state that is 100 ms late leaves no gap. */
 const STREAM_DELAY = 0.12
-/** s: stamps that are farther from when they came are of another clock, as those of a bag that is
- * replayed; such states are taken as of when they came. */
+/** s: a stamp farther from its arrival is of another clock, for example of a replayed bag; such a
+ * state counts from its arrival. */
 const OTHER_CLOCK = 1
 const HISTORY = 64
-/** A joint this far from the course, rad or m, in so many states is not on it. */
+/** A joint this far from the course, rad or m, in this number of states has left it. */
 const OFF_COURSE = 0.01
 const OFF_STATES = 4
 /** A step larger than this is eased out over EASE, s. */
@@ -19,9 +19,9 @@ const PICTURE = 1 / 30
 /** The source of the shown pose. */
 export type PoseSource = 'none' | 'course' | 'states'
 
-/** The pose of an arm at any display instant: from its course and playback clock while it is on it,
- * else from the joint states, a little later than they came. A late, lost or early message moves
- * nothing: the states correct the course only where they contradict it, and every correction is
+/** The pose of an arm at any display instant: from its course and playback clock while it is on
+ * the course, else from the joint states, with a small delay. A late, lost or early message moves
+ * nothing: the states correct the course only if they contradict it, and every correction is
  * eased. */
 export class ClockedArm {
   source: PoseSource = 'none'
@@ -69,7 +69,7 @@ export class ClockedArm {
     this.changed = true
   }
 
-  /** Take over the clock; onCourse: whether the arm stands or moves on its course by the clock. */
+  /** Take over the clock; onCourse: the arm follows its course by the clock. */
   setClock(clock: PlaybackClock, onCourse: boolean): void {
     const { stamp, position, rate } = this.clock
     if (stamp === clock.stamp && position === clock.position && rate === clock.rate) {
@@ -189,7 +189,7 @@ export class ClockedArm {
       }
       // Without a pose there is nothing to ease from.
       const steps = most > STEP && !Number.isNaN(this.shownAt)
-      // from the picture before this one, where there was one just now
+      // Ease from the previous picture, if it is recent.
       this.steppedAt = steps ? Math.max(this.shownAt, time - PICTURE) : Number.NEGATIVE_INFINITY
     }
     const left = 1 - (time - this.steppedAt) / EASE

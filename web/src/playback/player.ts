@@ -5,7 +5,7 @@ export const RATES = [0.1, 0.25, 0.5, 1, 2, 4] as const
 /** The same backwards; a bag is replayed forwards alone. */
 export const BACKWARD_RATES = [-0.25, -0.5, -1, -2, -4] as const
 
-/** Something that goes along a timeline: a live robot, a bag or a motion. */
+/** A player with a timeline: of a live robot, a bag or a motion. */
 export interface Player {
   readonly kind: 'live' | 'bag' | 'motion'
   /** s */
@@ -53,7 +53,7 @@ class Listeners {
   }
 }
 
-/** Plays a motion that is here. now: s of any clock that goes on steadily. */
+/** Plays a local motion. now: s of any steady clock. */
 export class MotionPlayer implements Player {
   readonly kind = 'motion'
   private clock: PlaybackClock
@@ -116,7 +116,7 @@ export class RemotePlayer implements Player {
   duration = 0
   rate = 1
   private clock: PlaybackClock = { stamp: 0, position: 0, rate: 0 }
-  /** Lab time at which it was held; null: it goes on. */
+  /** Lab time at which it was held; null: it runs. */
   private heldAt: number | null = null
   private readonly listeners = new Listeners()
 
@@ -134,7 +134,7 @@ export class RemotePlayer implements Player {
     return within(positionAt(this.clock, this.heldAt ?? this.labTime()), this.duration)
   }
 
-  /** Stand still while nothing is heard of the clock; false: go on by it. */
+  /** Hold the clock while the link is lost; false: continue. */
   hold(on: boolean): void {
     if (on === (this.heldAt !== null)) return
     this.heldAt = on ? this.labTime() : null

@@ -16,7 +16,7 @@ export class Track {
     this.count = this.times.length
   }
 
-  /** Write the values at `time`, s, into `into`; an empty track leaves it as it is. */
+  /** Write the values at `time`, s, into `into`; an empty track leaves it unchanged. */
   sample(time: number, into: Float64Array): void {
     if (this.count === 0) return
     const index = this.indexAt(time)

@@ -105,7 +105,7 @@ export class CdrReader {
     return this.view.getBigInt64(this.aligned(8), this.little)
   }
 
-  /** Return the next text: `known` itself where it is the same, so that nothing is allocated. */
+  /** Return the next text: `known` itself if it is equal, so that nothing is allocated. */
   string(known: string): string {
     const size = this.uint32()
     const from = this.aligned(1, size)

@@ -16,7 +16,7 @@ interface PageProps {
   readonly children: ComponentChildren
 }
 
-/** Put a dot between the parts that are there. */
+/** Join the present parts with dots. */
 export function dotted(parts: readonly ComponentChildren[]): ComponentChildren[] {
   return parts.filter(Boolean).flatMap((part, i) => (i > 0 ? [' · ', part] : [part]))
 }

@@ -18,9 +18,9 @@ const LATE = 0.1 // s, by which a halt may be recorded before the collision that
 
 /** A session in 3D that plays. */
 export interface SessionView {
-  /** Go to a time, s, and stand there. */
+  /** Seek to a time, s, and pause. */
   seek(time: number): void
-  /** Return a data: URL of the scene at a time; empty where nothing draws. */
+  /** Return a data: URL of the scene at a time; empty without WebGL. */
   pictureAt(time: number): string
 }
 

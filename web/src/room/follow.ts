@@ -36,7 +36,7 @@ interface FollowedParts {
   readonly scene: LabScene
   readonly robots: RoomRobots
   readonly objects: ObjectHandles
-  /** The robots are there, or others. */
+  /** The set of robots has changed. */
   came(): void
   setSurfaces(surfaces: readonly ShownSurface[]): void
 }
@@ -123,7 +123,7 @@ export function listen({
       systems.show(follower.systems.value)
       repaint()
     }),
-    // pictures of the catalogue come later than the panel
+    // Pictures of the catalogue are loaded later than the panel.
     ...[...robots, ...endEffectors].map(({ picture }: Entry) => {
       picture?.addEventListener('load', repaint)
       return () => picture?.removeEventListener('load', repaint)

@@ -136,7 +136,7 @@ export class Ages {
   p95 = Number.NaN
   most = Number.NaN
 
-  /** age: s; one that is not known is left out. */
+  /** age: s; NaN is ignored. */
   add(age: number): void {
     if (Number.isNaN(age)) return
     this.ages[this.taken % MOST] = age

@@ -288,7 +288,7 @@ export class Room {
     this.scene.setSurfaces(this.visit.passthrough ? [] : this.surfaces)
   }
 
-  /** The robots are there, or others. */
+  /** The set of robots has changed. */
   private came(): void {
     this.creation.keep((name) => this.handles.has(name))
     const waits = this.alignment.due && !this.inside.value && this.handles.size > 0

@@ -31,7 +31,7 @@ export function useApi(): Api {
   return api
 }
 
-/** True where the person may see who else is here and let others in. */
+/** Return whether the person may see the other people and let others in. */
 export function mayAdmit(current: Session | null): boolean {
   return current?.user?.role === 'instructor'
 }

@@ -41,7 +41,7 @@ const UNITS: Readonly<Record<string, string>> = {
   'N*m': 'moment',
 }
 
-/** Return the parsed template; throws where it is none. */
+/** Return the parsed template; throws if it is invalid. */
 export function parse(template: string): Phrase {
   const stack: Part[][] = [[]]
   let end = 0
@@ -101,7 +101,7 @@ export function fill(
     .join('')
 }
 
-/** A value that came as text over the wire is JSON where its quantity is no text. */
+/** A value on the wire is a text; unless its quantity is one, the text is JSON. */
 function typed(value: unknown): unknown {
   if (typeof value !== 'string') return value
   try {

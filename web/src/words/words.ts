@@ -46,7 +46,7 @@ export function preferredLanguage(): string {
   return wanted.find((tag): tag is string => tag !== null && known.includes(tag)) ?? 'en'
 }
 
-/** Take a language; English where there is no such one. */
+/** Choose a language; English if the language is unknown. */
 export async function setLanguage(next: string, keep = true): Promise<void> {
   const load = files().get(next)
   const file = load === undefined ? ENGLISH : await load()
@@ -93,7 +93,7 @@ export function number(value: number, digits = 2, least = 0): string {
   })
 }
 
-/** Return a number with so many digits that count, without groups of thousands. */
+/** Return a number with `digits` significant digits, without groups of thousands. */
 export function significant(value: number, digits: number): string {
   return value.toLocaleString(locale.value, {
     maximumSignificantDigits: digits,

@@ -47,7 +47,7 @@ interface StripOptions {
   onSeek(time: number): void
 }
 
-// Left of the plot, for the numbers of the axis; the strips stand below each other.
+// Left of the plot, for the numbers of the axis; strips are stacked.
 const AXIS_WIDTH = 52
 const AXIS_HEIGHT = 30
 // A limit that is farther from the line than this share of its range would only flatten it.

@@ -7,7 +7,7 @@ import { session, useApi } from '../../shell/session'
 import { sentence } from '../../words/diagnostic'
 import { words } from '../../words/words'
 
-/** From the one that may least. */
+/** Roles, the one with the fewest rights first. */
 const ORDER: readonly Role[] = ['display', 'student', 'operator', 'instructor']
 
 /** Letters of a code. */

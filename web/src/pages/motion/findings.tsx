@@ -8,10 +8,10 @@ import { applied, fixLabel } from './fixes'
 
 interface FindingsProps {
   findings: readonly Diagnostic[]
-  /** Number of the one that is shown, from 1; 0: none. */
+  /** Number of the shown finding, from 1; 0: none. */
   selected: number
   onSelect: (number: number) => void
-  /** Absent where nothing can be mended here. */
+  /** Absent: nothing can be mended here. */
   onFix?: (fix: Fix) => void
   /** The choice between matrices is offered elsewhere on the page. */
   chosenElsewhere?: boolean
@@ -56,7 +56,7 @@ function Finding(props: FindingsProps & { finding: Diagnostic; number: number })
   const w = words.value
   const where = place(finding)
   const fixes = finding.fixes.filter((fix) => !chosenElsewhere || fix.option !== 'variable')
-  // The same line of MATLAB comes with several options at times.
+  // Several options may have the same line of MATLAB.
   const lines = [...new Set(fixes.map((fix) => fix.matlab).filter(Boolean))]
   return (
     <FindingItem

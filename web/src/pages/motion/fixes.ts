@@ -13,7 +13,7 @@ function isText(option: string): option is Text {
   return (TEXTS as readonly string[]).includes(option)
 }
 
-/** Return the options with a fix applied; null where no button can apply it. */
+/** Return the options with a fix applied; null: no button can apply it. */
 export function applied(options: ConvertOptions, { option, value }: Fix): ConvertOptions | null {
   if (isSwitch(option)) return { ...options, [option]: value === 'true' }
   if (option === 'frame_rate') {

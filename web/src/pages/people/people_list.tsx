@@ -84,7 +84,7 @@ type Shown =
   | { readonly kind: 'link'; readonly link: InvitationLink }
   | { readonly kind: 'remove'; readonly name: string }
 
-/** The people of the lab; new ones come by a link that is good once. */
+/** The people of the lab; a new person joins by a link that works once. */
 export function PeopleList() {
   const api = useApi()
   const [people, setPeople] = useState<readonly Person[] | null>(null)

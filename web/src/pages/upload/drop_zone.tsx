@@ -14,7 +14,7 @@ export function useFileDrop(onFile: (file: File) => void): boolean {
   const take = useRef(onFile)
   take.current = onFile
   useEffect(() => {
-    // dragenter and dragleave come for every element below the pointer.
+    // dragenter and dragleave fire for every element below the pointer.
     let depth = 0
     const holdsFile = (event: DragEvent) => event.dataTransfer?.types.includes('Files') ?? false
     const onEnter = (event: DragEvent) => {

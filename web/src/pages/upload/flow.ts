@@ -145,7 +145,7 @@ export class UploadFlow {
     this.published.value = await this.api.publish(draft, id, shared)
   }
 
-  /** Send the file, where that is still to be done, and convert it. */
+  /** Send the file, unless it was sent, and convert it. */
   async run(): Promise<void> {
     const file = this.file.value
     if (file === null) return

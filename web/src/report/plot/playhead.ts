@@ -7,7 +7,7 @@ export interface Playhead {
   readonly time: Signal<number>
   /** Number of a finding, from 1; 0: none. */
   readonly selected: Signal<number>
-  /** Go to a time, s, and stand there. */
+  /** Seek to a time, s, and pause. */
   seek(time: number): void
 }
 

@@ -53,7 +53,7 @@ interface ThumbnailProps {
   readonly lost?: readonly number[]
 }
 
-/** A way: a dot where it begins, a ring where it ends. */
+/** A path with a dot at its begin and a ring at its end. */
 export function Thumbnail({ way, reference, scale, lost = [] }: ThumbnailProps) {
   const place = (point: readonly number[]): Flat => {
     const [x, y] = flat(point)

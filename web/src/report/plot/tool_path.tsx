@@ -3,7 +3,7 @@ import { roundStep } from './axis'
 import { polylines } from './lines'
 import { MarkDisc } from './strip_plot'
 
-// Of a view, in its own units; below it and to its left stand the numbers of its axes.
+// Of a view, in its own units; the numbers of its axes are below it and to its left.
 const WIDTH = 320
 const LEFT = 40
 const RIGHT = 6
@@ -31,7 +31,7 @@ interface Spot {
 }
 
 interface ToolPathProps {
-  /** (N, 3) m in the world, NaN where it is not known. */
+  /** (N, 3) m in the world, NaN: unknown. */
   readonly path: Points
   readonly reference: Points | null
   readonly spots: readonly Spot[]

@@ -8,7 +8,7 @@ import type { Drawings } from '../scene/drawings'
 export const BOARD_WIDTH = 760
 export const BOARD_HEIGHT = 600
 export const EDGE = 26
-/** mm from the top, where a tab's own content begins, and where it ends. */
+/** mm from the top at which the content of a tab begins, and at which it ends. */
 export const TOP = 112
 export const BOTTOM = BOARD_HEIGHT - 62
 const NOTICE_S = 10
@@ -118,7 +118,7 @@ export class Board {
   }
 }
 
-/** A page of cards, with ‹ and › where there are more; `page` is where it is. */
+/** Draw a page of cards, with ‹ and › if there are more; `page` is the number of the page. */
 export function drawCards<T>(
   pen: Pen,
   top: number,

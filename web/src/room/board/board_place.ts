@@ -3,7 +3,7 @@ import { Stand } from '../panels/stand'
 import type { Preferences, Viewer } from '../ports'
 import type { Board } from './board'
 
-/** rad: a board that is this far to the side of where one looks, for so long, s, comes along. */
+/** rad and s: a board that is this far from the direction of the look, for so long, follows. */
 const ASIDE = (75 * Math.PI) / 180
 const ASIDE_S = 1.5
 const SIDE = (36 * Math.PI) / 180
@@ -13,7 +13,7 @@ const BELOW_EYES = 0.22
 
 const at = new Vector3()
 
-/** Keeps the board at the hand that does not work, a little to the side of where one looks. */
+/** Keeps the board at the side of the idle hand, beside the direction of the look. */
 export class BoardPlace {
   private readonly stand: Stand
   private yaw = 0

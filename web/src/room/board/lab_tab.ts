@@ -73,8 +73,8 @@ export function labTab(ports: TabPorts, follower: LabFollower, stats: Stats): Ta
     })
   }
 
-  /** Draw a part of a list, with buttons to the parts before and after it; returns where it
-   * begins. */
+  /** Draw a part of a list, with buttons to the parts before and after it; returns its first
+   * index. */
   function drawRows(
     pen: Pen,
     x: number,
@@ -83,7 +83,7 @@ export function labTab(ports: TabPorts, follower: LabFollower, stats: Stats): Ta
     id: string,
     draw: (entry: string, y: number, index: number) => void,
   ): number {
-    // the button of the latency stands below the bags
+    // The button of the latency is below the bags.
     const rows = id === 'bags' && entries.length > ROWS ? ROWS - 1 : ROWS
     const first = Math.min(from, Math.max(entries.length - 1, 0))
     entries.slice(first, first + rows).forEach((entry, i) => {

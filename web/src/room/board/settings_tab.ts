@@ -49,11 +49,11 @@ interface RoomStanding {
   /** Surfaces that the headset knows. */
   readonly scanned: number
   readonly hold: Hold
-  /** Features that the session came without. */
+  /** Features that the session lacks. */
   readonly missing: readonly string[]
 }
 
-/** Return the lines that say how the room stands. */
+/** Return the lines about the state of the room. */
 export function roomLines(room: RoomStanding, words: Words['room']): string[] {
   const lines = [words.surfaces(room.surfaces)]
   if (Number.isNaN(room.insideFor)) return lines

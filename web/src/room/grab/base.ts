@@ -66,14 +66,14 @@ export function newBaseGrab(): BaseGrab {
   }
 }
 
-/** Begin at the place where a base stands. */
+/** Begin at the place of a base. */
 export function begin(grab: BaseGrab, { x, y, z }: Vector3, heading: number): void {
   Object.assign(grab.place, { x, y, z })
   grab.heading = heading
   grab.moved = false
 }
 
-/** Let a pointer carry the base from where it is now. */
+/** Let a pointer carry the base from its present place. */
 export function hold(grab: BaseGrab, by: Hold, supports: readonly Support[]): void {
   const { place, land, start, offset } = grab
   start.set(place.x, place.y, place.z)

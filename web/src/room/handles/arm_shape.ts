@@ -8,7 +8,7 @@ const segment = new Line3()
 const near = new Vector3()
 const onRay = new Vector3()
 
-/** A link and the one that carries it. */
+/** A link and its parent link. */
 interface Bone {
   readonly link: Object3D
   readonly parent: Object3D

@@ -37,7 +37,7 @@ interface Move {
   readonly velocity: { readonly x: number; readonly y: number; readonly z: number }
 }
 
-/** An object that is picked up by a hand or a ray, carried, and thrown when it is let go. */
+/** An object that a hand or a ray picks up, carries, and throws on release. */
 export class ObjectHandle implements Target {
   private holder: Pointer | null = null
   private grab: Grab | null = null
@@ -71,7 +71,7 @@ export class ObjectHandle implements Target {
     return Math.max(this.centre(centre).distanceTo(place) - Math.min(x, y, z) / 2, 0)
   }
 
-  /** Take over where it is. */
+  /** Take over its state. */
   show(object: SceneObject): void {
     const { x, y, z } = this.object.pose.position
     const to = object.pose.position
@@ -119,7 +119,7 @@ export class ObjectHandle implements Target {
     }
   }
 
-  /** Before each picture: it goes with the hand. now: s. */
+  /** Before each picture: follow the hand. now: s. */
   update(now: number): void {
     this.now = now
     if (this.holder === null || this.grab === null) return
@@ -147,7 +147,7 @@ export class ObjectHandle implements Target {
     })
   }
 
-  /** Have a gripper take it out of the hand, where it is; refused, it falls. */
+  /** Attach it to a gripper at its present pose; if that is refused, it falls. */
   private giveTo(robot: string): void {
     const request = { robot, object: this.object.name }
     order(this.ports, 'physics/attach', attachType, request).then((answer) => {
@@ -171,7 +171,7 @@ export class ObjectHandle implements Target {
     return { position: { x, y, z }, orientation: this.object.pose.orientation }
   }
 
-  /** Let physics move it from where it is; thrown: with the velocity of the hand. */
+  /** Return it to physics at its present pose; thrown: with the velocity of the hand. */
   private release(thrown: boolean): void {
     const velocity = thrown ? velocityOf(this.trace, at) : STILL
     const { x, y, z } = velocity

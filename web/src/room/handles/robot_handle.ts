@@ -130,7 +130,7 @@ export class RobotHandle implements Target {
     this.ring.visible = this.hovering > 0 || this.holders.length > 0
   }
 
-  /** Take over where the lab says it stands. */
+  /** Take over its pose from the lab. */
   show(pose: Pose): void {
     this.standing = pose
   }

@@ -34,7 +34,7 @@ export function modelFile(profiles: readonly string[], handedness: string): stri
   return ''
 }
 
-/** The shape of a controller or a hand, where it is. */
+/** The model of a controller or a hand. */
 export class InputModel {
   readonly group = new Group()
   /** Of a hand: a bone a joint, in the order of XRHand; empty before it is read. */
@@ -57,12 +57,12 @@ export class InputModel {
         if (this.gone) release(scene)
         else this.take(scene)
       },
-      // the ray is there all the same
+      // Without a model the ray is still drawn.
       (error: Error) => console.warn(`${file}: ${error.message}`),
     )
   }
 
-  /** Put a controller where it is held; undefined: that is not known. */
+  /** Place a controller; undefined: its pose is unknown. */
   place(pose: XRPose | undefined): void {
     this.group.visible = pose !== undefined
     if (pose === undefined) return
@@ -70,7 +70,7 @@ export class InputModel {
     this.group.matrixWorldNeedsUpdate = true
   }
 
-  /** Bend a hand as it is. */
+  /** Pose the joints of a hand. */
   bend(frame: XRFrame & JointPoses, space: XRReferenceSpace): void {
     const { bones, joints, poses } = this
     const seen = bones.length > 0 && frame.fillPoses?.(joints, space, poses) === true

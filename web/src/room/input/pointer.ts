@@ -6,7 +6,7 @@ const LOST_S = 0.5
 /** m: a fingertip hovers from HOVER_IN on until it is farther than HOVER_OUT. */
 const HOVER_IN = 0.15
 const HOVER_OUT = 0.2
-/** m: it presses at PRESS and has let go at RELEASE. */
+/** m: distances at which a fingertip presses and releases. */
 const PRESS = 0.005
 const RELEASE = 0.009
 /** s between two presses of one finger. */
@@ -69,7 +69,7 @@ export abstract class Pointer {
     readonly hand: Hand,
   ) {}
 
-  /** Let go of everything: the pointer is gone. */
+  /** Release everything: the pointer is gone. */
   drop(): void {
     this.captured?.on({ kind: 'cancel', pointer: this })
     this.captured = null
@@ -77,7 +77,7 @@ export abstract class Pointer {
     this.tracked = false
   }
 
-  /** Forget a target that is gone. */
+  /** Forget a removed target. */
   forget(target: Target): void {
     if (this.captured === target) this.captured = null
     if (this.hovered === target) this.hovered = null
@@ -162,8 +162,8 @@ export class RayPointer extends Pointer {
   }
 }
 
-/** A fingertip on panels: it hovers before a face, presses through it, and lets go a little before
- * it pressed, so that a trembling finger does not press twice. */
+/** A fingertip on panels: it hovers before a face, presses through it, and releases a little in
+ * front of the pressing distance, so that a trembling finger does not press twice. */
 export class TouchPointer extends Pointer {
   private before = Number.NaN
   private pressedAt = Number.NEGATIVE_INFINITY
@@ -190,7 +190,7 @@ export class TouchPointer extends Pointer {
       } else target.on({ kind: 'move', pointer: this })
     } else {
       target.on({ kind: 'move', pointer: this })
-      // only from the front: a finger that comes through from behind presses nothing
+      // Only from the front: a finger that comes from behind presses nothing.
       const crosses = this.before > PRESS && distance <= PRESS
       if (crosses && now - this.pressedAt > COOLDOWN_S) {
         this.pressedAt = now

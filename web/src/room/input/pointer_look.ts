@@ -15,7 +15,7 @@ import type { RayPointer } from './pointer'
 const CURSOR = 0.008
 const FARTHEST = 10
 
-/** A short ray and a cursor where it ends: the cursor is the feedback. */
+/** A short ray, and a cursor at the hit as feedback. */
 export class PointerLook {
   readonly group = new Group()
   private readonly line: Line<BufferGeometry, LineBasicMaterial>

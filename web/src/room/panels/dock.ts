@@ -37,8 +37,8 @@ interface Extent {
 
 const extent: Extent = { left: 0, right: 0, bottom: 0, top: 0 }
 
-/** Put a panel flat into the picture of a screen, as near to `at`, in the scene, as it is whole in
- * there. Returns whether it moves. */
+/** Put a panel flat into the picture of a screen, as near to `at`, in the scene, as it fits whole.
+ * Returns whether it moves. */
 export function dock(
   panel: Object3D,
   at: Vector3,

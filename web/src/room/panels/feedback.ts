@@ -9,7 +9,7 @@ export function soundFeedback(
 ): { readonly feedback: Feedback; readonly halt: () => void; readonly dispose: () => void } {
   let audio: AudioContext | null = null
   const play = (pitch: number, volume: number, length: number) => {
-    // a browser lets nothing sound before the person did something
+    // A browser blocks sound before the first action of the person.
     if (navigator.userActivation?.hasBeenActive === false) return
     audio ??= new AudioContext()
     const tone = new OscillatorNode(audio, { frequency: pitch, type: 'sine' })

@@ -79,7 +79,7 @@ export class Panel implements Target {
     this.due = true
   }
 
-  /** Paint it where that is due. */
+  /** Paint it if it is due. */
   update(): void {
     if (!this.due || !this.group.visible) return
     const context = this.canvas.getContext('2d')

@@ -49,9 +49,9 @@ export interface Zone {
   /** Name of the zone, for tests, and to keep its hover across a repaint. */
   readonly id: string
   readonly enabled: boolean
-  /** share: where across it was pressed or is dragged, 0 to 1; final: it was let go. */
+  /** share: position of the press or drag across it, 0 to 1; final: it was released. */
   press(share: number, final: boolean): void
-  /** Follows a drag; otherwise it acts once, when it is let go above it. */
+  /** Follows a drag; otherwise it acts once, on a release above it. */
   readonly drags: boolean
 }
 
@@ -89,7 +89,7 @@ export class Pen {
     context.stroke()
   }
 
-  /** Write one line, cut with … where it is longer than `most`; return its width, mm. */
+  /** Write one line, cut with … if it is longer than `most`; return its width, mm. */
   text(
     x: number,
     y: number,
@@ -233,7 +233,7 @@ export class Pen {
     })
   }
 
-  /** A pill with a word; filled where it is a warning. */
+  /** A pill with a word; filled for a warning. */
   chip(right: number, y: number, words: string, colour: string, filled: boolean): void {
     const { context } = this
     context.font = `600 ${TEXT.small}px ${FONT}`

@@ -3,7 +3,7 @@ import type { Preferences } from '../ports'
 import { dock, type Edge } from './dock'
 
 const LARGEST = 2
-/** rad and m: a panel that is this far from where it should be follows, after so long, s. */
+/** rad, m and s: a panel that is this far from its wanted place, for so long, follows. */
 const SLACK_TURN = MathUtils.degToRad(30)
 const SLACK_WAY = 0.6
 const WAIT = 0.5
@@ -19,8 +19,8 @@ const wanted = new Vector3()
 const turned = new Quaternion()
 const tilt = new Quaternion()
 
-/** Keeps a panel where a person reads it: it stands still, and follows once it has been in the
- * wrong place for a while; never under a pointer. */
+/** Keeps a panel readable: it stands still, and follows once it has been in a wrong place for a
+ * while; never under a pointer. */
 export class Stand {
   private readonly place = new Vector3()
   private readonly turn = new Quaternion()
@@ -28,15 +28,15 @@ export class Stand {
   private movedAt = Number.NEGATIVE_INFINITY
   private here = false
 
-  /** edge: where it goes on a screen that is taller than wide. */
+  /** edge: of a screen that is taller than wide, at which it stands. */
   constructor(
     private readonly panel: Object3D,
     private readonly edge: Edge = 'bottom',
   ) {}
 
-  /** at: where it should be, in the floor space, m. now, step: s. held: a pointer is over it. It
-   * grows with more than `readAt`; with `still` it does not glide. On a screen it lies flat in the
-   * picture. Returns whether it moves. */
+  /** at: its wanted place in the floor space, m. now, step: s. held: a pointer is over it. Beyond
+   * `readAt` it grows; with `still` it does not glide. On a screen it lies flat in the picture.
+   * Returns whether it moves. */
   update(
     at: Vector3,
     head: Vector3,

@@ -9,7 +9,7 @@ const THICK = 8
 const KNOB = 30
 /** s between two seeks of one drag. */
 const SEEK_PERIOD = 0.05
-/** s between two paintings of the time that goes on. */
+/** s between two paintings of the running time. */
 const READ_PERIOD = 0.1
 /** mm, of the row below the track that says the time; its middle is so far below the track. */
 const ROW = 26
@@ -63,7 +63,7 @@ export class Timeline {
     this.readout = new Readout(group, track.width, ROW, middle, row)
   }
 
-  /** Return where it stands, s: where it is dragged to, else where the lab is. */
+  /** Return its position, s: of a drag, else of the lab. */
   position(player: RemotePlayer): number {
     return this.scrub ?? player.position()
   }

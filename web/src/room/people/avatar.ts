@@ -53,7 +53,7 @@ export class AvatarShapes {
   }
 }
 
-/** Something of an avatar that moves towards where it was said to be. */
+/** A part of an avatar that moves towards its received pose. */
 class Moved {
   readonly group = new Group()
   private readonly to = new Vector3()

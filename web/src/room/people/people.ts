@@ -13,7 +13,7 @@ import { Avatar, AvatarShapes, type Part, partOf } from './avatar'
 
 /** s between two of our own messages: less than 20 a second. */
 const PERIOD = 0.055
-/** s without news after which an avatar is gone. */
+/** s without a message after which an avatar is removed. */
 const GONE = 4
 const LEVEL = new Quaternion()
 
@@ -71,7 +71,7 @@ export class People {
     return this.people.size > 0
   }
 
-  /** Tell the others where we are; call it in each frame with a headset. */
+  /** Publish our pose; call it in each frame with a headset. */
   tell({ head, look }: Viewer, hands: Hands): void {
     if (this.now - this.toldAt < PERIOD) return
     this.toldAt = this.now
@@ -86,7 +86,7 @@ export class People {
     this.send(false)
   }
 
-  /** Tell the others that we leave; nothing where they never saw us. */
+  /** Publish that we leave; nothing if we never published our presence. */
   leave(): void {
     if (this.toldAt === Number.NEGATIVE_INFINITY) return
     this.toldAt = Number.NEGATIVE_INFINITY

@@ -5,7 +5,7 @@ import type { SceneAnchor } from './anchor'
 import type { RoomScan } from './scan'
 import type { Place } from './supports'
 
-/** m before the eyes: where the scene's middle comes to stand. */
+/** Distance of the scene's middle from the eyes, m. */
 const AWAY = 1.5
 const at = new Vector3()
 

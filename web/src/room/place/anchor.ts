@@ -41,7 +41,7 @@ export class SceneAnchor {
     return this.anchor !== null && Number.isNaN(this.waitsUntil)
   }
 
-  /** Bring back the anchor of an earlier session, where there is one. */
+  /** Restore the anchor of an earlier session, if there is one. */
   async restore(session: XRSession): Promise<void> {
     this.session = session
     // A place that was chosen without a headset is no place of this room.
@@ -82,7 +82,7 @@ export class SceneAnchor {
     this.wanted = true
   }
 
-  /** Follow the anchor; make one where it is wanted. */
+  /** Follow the anchor; create the wanted one. */
   update(frame: XRFrame, space: XRReferenceSpace): void {
     if (this.wanted) {
       this.wanted = false
@@ -90,7 +90,7 @@ export class SceneAnchor {
     }
     if (this.anchor === null) return
     const pose = frame.getPose(this.anchor.anchorSpace, space)
-    // not tracked now: it stays where it was seen last
+    // Not tracked: it stays at its last place.
     if (pose === undefined) return
     matrix.fromArray(pose.transform.matrix)
     matrix.decompose(this.group.position, this.group.quaternion, scale)

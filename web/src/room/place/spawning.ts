@@ -24,7 +24,7 @@ export class Spawning {
   most = 0
   private readonly undo: Unsubscribe
 
-  /** listed: the types of objects are there. */
+  /** listed: called once the types of objects are known. */
   constructor(
     private readonly ports: Speech & Lab & Frames,
     private readonly listed: () => void,

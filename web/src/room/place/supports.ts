@@ -4,7 +4,7 @@ import type { Pose } from '../../protocol/geometry_msgs'
 const LEVEL = 0.985
 const FLOOR = 'floor'
 
-/** Something level to stand on, in the lab's frame, m. */
+/** A level surface that robots stand on, in the lab's frame, m. */
 export interface Support {
   readonly name: string
   readonly height: number
@@ -78,8 +78,8 @@ export function isOn({ outline }: Support, x: number, y: number): boolean {
   return inside
 }
 
-/** Find where a ray that goes downwards lands first, not farther than `most`, m across the floor;
- * false: nowhere. Coordinates of the lab's frame; allocates nothing. */
+/** Find the first landing of a ray that points downwards, at most `most`, m across the floor,
+ * away; false: there is none. Coordinates of the lab's frame; allocates nothing. */
 export function landing(
   supports: readonly Support[],
   origin: { readonly x: number; readonly y: number; readonly z: number },

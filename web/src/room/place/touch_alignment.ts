@@ -92,7 +92,7 @@ export class TouchAlignment {
     return true
   }
 
-  /** Put the scene where it stood before the last alignment. */
+  /** Undo the last alignment. */
   undo(): void {
     if (this.before === null) return
     this.group.updateMatrixWorld(true)
@@ -129,9 +129,9 @@ interface Footing {
   readonly yaw: number
 }
 
-/** Return where the lab stands by two points that were touched in the floor space: its origin is
- * below the first, its x points to the second. null: they are too near to each other. Heights do
- * not count: each headset knows its floor. */
+/** Return the lab's footing from two points touched in the floor space: its origin is below the
+ * first, its x points to the second. null: they are too near to each other. Heights are ignored:
+ * each headset knows its floor. */
 export function footingOf(first: Vector3, second: Vector3): Footing | null {
   const x = second.x - first.x
   const z = second.z - first.z

@@ -100,8 +100,8 @@ export class PanelCheck {
     }))
   }
 
-  /** Draw a button that says the verdict and opens its findings; without one, it has the motion
-   * checked. right: mm, where it ends. */
+  /** Draw a button with the verdict that opens its findings; without a verdict it starts a check.
+   * right: its right edge, mm. */
   drawVerdict(pen: Pen, right: number, open: () => void): void {
     const { words, commands } = this.ports
     const check = this.check.check.value

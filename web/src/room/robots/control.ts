@@ -89,7 +89,7 @@ export class ControlPanel {
     return this.robot.robot.joint_names
   }
 
-  /** Take over how the robot stands. */
+  /** Take over the state of the robot. */
   show(robot: RobotView): void {
     const before = this.robot
     this.robot = robot
@@ -284,8 +284,8 @@ export class ControlPanel {
   }
 }
 
-/** Return whether a panel says the same of two: the lab says how a robot stands once a second, and
- * a panel that is painted costs a frame. */
+/** Return whether a panel looks the same for two states: the lab publishes the state once a
+ * second, and a painted panel costs a frame. */
 function looksAlike(one: RobotView, other: RobotView): boolean {
   const a = one.playback
   const b = other.playback

@@ -28,7 +28,7 @@ interface Entry {
   readonly control: ControlPanel
   readonly stand: Stand
   telemetry: { readonly panel: TelemetryPanel; readonly undo: Unsubscribe } | null
-  /** m: how far the arm reaches, as far as it was seen. */
+  /** m: the largest reach of the arm so far. */
   reach: number
 }
 

@@ -60,8 +60,8 @@ export function drawShow(
   pen.button('back', edge, pen.height - HIT - 20, 190, w.back, actions.back)
 }
 
-/** Return the motions that a robot can be compared with: those that fit it, and an earlier version
- * of the one that it has loaded. */
+/** Return the motions that a robot can be compared with: those that fit it, and their earlier
+ * versions. */
 export function comparable(ports: Speech & Catalogue, { robot, playback }: RobotView): Choice[] {
   const w = ports.words.room
   const found: Choice[] = [{ id: '', words: w.noGhost, note: '' }]

@@ -40,7 +40,7 @@ export class TelemetryPanel {
     this.newest = message
   }
 
-  /** Before each picture; angleOf: of the robot as it is drawn, rad. now: s. */
+  /** Before each picture; angleOf: of the drawn robot, rad. now: s. */
   update(now: number, angleOf: (joint: string) => number): void {
     if (now - this.takenAt > PERIOD) {
       this.takenAt = now
@@ -132,7 +132,7 @@ export class TelemetryPanel {
   }
 }
 
-/** Return a value with one decimal, and no sign where that is 0. */
+/** Return a value with one decimal; 0 has no sign. */
 function tenths(value: number): string {
   return fixed(Math.round(value * 10) / 10 || 0, 1)
 }

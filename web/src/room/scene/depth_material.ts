@@ -1,9 +1,9 @@
 import type { IUniform, Material } from 'three'
 
-/** Uniforms of the room's depth: roomDepth: sampler2DArray, a layer an eye; roomDepthView: width
- * and height of an eye's part of the picture, px, 0: no depth now; z: where the projection of the
- * depth begins, m, or -(m of the value 1) of a depth without one; w: where it ends, 0: nowhere;
- * roomDepthLayer: of each eye; roomDepthFromView: mat4[2], from a place in an eye's part of the
+/** Uniforms of the room's depth. roomDepth: sampler2DArray, a layer for each eye. roomDepthView:
+ * width and height of an eye's part of the picture, px, 0: no depth now; z: near plane of the
+ * projection, m, or -(m of the value 1) of a depth without one; w: far plane, 0: infinite.
+ * roomDepthLayer: of each eye. roomDepthFromView: mat4[2], from a place in an eye's part of the
  * picture to one of its depth. */
 type DepthUniforms = Readonly<Record<string, IUniform>>
 
@@ -18,7 +18,7 @@ float realDepth(ivec3 at) {
   float near = roomDepthView.z;
   float far = roomDepthView.w;
   if (near < 0.0) return raw > 0.0 ? -near * raw : 1e4;
-  // where nothing was measured
+  // No measurement.
   if (raw <= 0.0 || raw >= 1.0) return 1e4;
   return far > 0.0 ? near * far / (far - raw * (far - near)) : near / (1.0 - raw);
 }
@@ -43,7 +43,8 @@ float seenInRoom() {
   ivec2 low = clamp(ivec2(floor(texel)), ivec2(0), size - 1);
   ivec2 high = min(low + 1, size - 1);
   int layer = int(roomDepthLayer[eye]);
-  // the compared values are blended, not the depths: an edge stays where it is, and is soft
+  // The results of the comparison are blended, not the depths: an edge keeps its place and is
+  // soft.
   float own = 1.0 / gl_FragCoord.w;
   return mix(
     mix(seenBefore(ivec3(low, layer), own), seenBefore(ivec3(high.x, low.y, layer), own), share.x),
@@ -56,7 +57,7 @@ const APPLIED = /* glsl */ `
 float seen = seenInRoom();
 if (seen < 0.01) discard;
 #ifdef OPAQUE
-  // it is not blended: its own alpha lets the real room through
+  // An opaque material is not blended: its alpha lets the real room through.
   gl_FragColor *= seen;
 #else
   gl_FragColor.a *= seen;

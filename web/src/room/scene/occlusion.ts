@@ -14,7 +14,7 @@ import {
 import { originOf } from '../../scene/robot/cross_fade'
 import { hidden } from './depth_material'
 
-/** s between two looks for materials that came with new robots and objects. */
+/** s between two searches for materials of new robots and objects. */
 const PERIOD = 0.5
 const KINDS = [MeshStandardMaterial, MeshPhongMaterial, MeshLambertMaterial]
 

@@ -30,7 +30,7 @@ export class Reference {
     this.shown = new Float64Array(jointNames.length)
   }
 
-  /** Stand where the motion is at a time, s, and compare with the robot as it is drawn. */
+  /** Take the pose of the motion at a time, s, and compare it with the drawn robot. */
   update(time: number, robot: SceneRobot): void {
     this.course.sample(time, this.positions)
     this.ghost.setPositions(this.positions)

@@ -155,7 +155,7 @@ export class RoomStage implements SceneHost {
   /** Do nothing: a person in the room walks. */
   frame(_points: readonly Vector3[]): void {}
 
-  /** Show the floor that is there, with shadows on it, or a grid. */
+  /** Show the real floor with shadows on it, or a grid. */
   setPassthrough(on: boolean): void {
     this.setGrid(!on)
   }

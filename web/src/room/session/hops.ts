@@ -3,7 +3,7 @@ import { sentence } from '../../words/diagnostic'
 import type { Words } from '../../words/en'
 import type { Ability } from './features'
 
-/** s: a lab that is there says which robots it has within this. */
+/** s within which a running lab publishes its robots. */
 export const SILENCE_S = 6
 
 /** The state of each hop between the lab's robots and a person's eyes. */

@@ -8,7 +8,7 @@ const PREFIX = 'mrlab.room.'
 export class Switch {
   private readonly on = signal(false)
 
-  /** usually: how it stands before anybody chose. */
+  /** usually: its default. */
   constructor(
     private readonly key: string,
     usually = false,
@@ -53,7 +53,7 @@ export function deviceId(): string {
   return made
 }
 
-/** Return so many random bytes in hexadecimal; works without HTTPS too. */
+/** Return `bytes` random bytes in hexadecimal; works without HTTPS too. */
 export function randomId(bytes: number): string {
   const values = crypto.getRandomValues(new Uint8Array(bytes))
   return [...values].map((value) => value.toString(16).padStart(2, '0')).join('')

@@ -10,7 +10,7 @@ export class Creation {
     return this.active
   }
 
-  /** The robots in order of touch; empty where it is not on. */
+  /** The robots in order of touch; empty while it is off. */
   get picked(): readonly string[] {
     return this.names
   }
@@ -27,7 +27,7 @@ export class Creation {
     this.changed()
   }
 
-  /** Forget robots that are gone. */
+  /** Forget removed robots. */
   keep(here: (name: string) => boolean): void {
     const left = this.names.filter(here)
     if (left.length === this.names.length) return
@@ -35,7 +35,7 @@ export class Creation {
     this.changed()
   }
 
-  /** A robot was touched: it comes last, or goes out again. */
+  /** Append a touched robot, or remove it again. */
   touch(name: string): void {
     if (!this.active) return
     const index = this.names.indexOf(name)

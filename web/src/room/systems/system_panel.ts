@@ -68,7 +68,7 @@ export class SystemPanel {
     return this.shown.system.members
   }
 
-  /** Take over how the system stands. */
+  /** Take over the state of the system. */
   show(view: SystemView): void {
     this.shown = view
     this.panel.repaint()
@@ -177,7 +177,7 @@ export class SystemPanel {
     if (height < LABELLED) return
     const words = waits === '' ? label : `${label} · ${waits}`
     const middle = y + height - BAR - 11
-    // the words begin with the segment, or end with it where they would leave the panel
+    // The label begins with the segment, or ends with it if it would leave the panel.
     if (from < 0.6) pen.text(x, middle, words, TEXT.small, undefined, 'ink', 600)
     else pen.text(x + width, middle, words, TEXT.small, x + width - EDGE, 'ink', 600, 'right')
   }

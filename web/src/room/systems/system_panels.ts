@@ -6,7 +6,7 @@ import { Stand } from '../panels/stand'
 import type { Frames, Preferences } from '../ports'
 import { SystemPanel, type SystemPorts } from './system_panel'
 
-/** m: the panel stands beside the members, on the person's side, below their eyes. */
+/** m: the place of the panel, beside the members, on the person's side, below their eyes. */
 const BESIDE = 0.72
 const TOWARDS = 0.35
 const BELOW_EYES = 0.28

@@ -15,7 +15,7 @@ import { TourPanel } from './tour_panel'
 /** mm that the figures of time take below the board. */
 const STATS = 172
 
-/** The parts of a room that the guide watches, or stands at. */
+/** The parts of a room that the guide observes, or is placed at. */
 interface Watched {
   readonly stage: RoomStage
   readonly settings: Settings

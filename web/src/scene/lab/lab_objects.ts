@@ -36,7 +36,7 @@ export class LabObjects {
   private readonly unit = new Vector3(1, 1, 1)
   private readonly quaternion = new Quaternion()
 
-  /** toolOf: the tool0 of a robot; undefined where it is not there. */
+  /** toolOf: the tool0 of a robot; undefined: there is none. */
   constructor(
     private readonly stage: SceneHost,
     private readonly meshes: MeshSource,
@@ -54,7 +54,7 @@ export class LabObjects {
       const entry = this.known.get(object.name) ?? this.add(object)
       entry.seen = true
       changed = this.dress(entry, object) || changed
-      // one that is held goes with the hand
+      // A held object follows the hand.
       if (entry.heldBy === '' || entry.heldBy !== object.held_by) {
         changed = place(entry.root, object.pose) || changed
       }
@@ -191,7 +191,7 @@ export class LabObjects {
     if (!this.instances.has(uri)) {
       const parts = partsOf(loaded)
       if (parts === null) {
-        // several materials on one mesh: it is drawn by itself
+        // A mesh with several materials is drawn alone.
         entry.root.add(loaded)
         return
       }

@@ -92,8 +92,7 @@ export class LabScene {
     return this.robots.get(name)?.robot
   }
 
-  /** Return another of a robot, as a ghost, that stands where it does; the caller disposes of
-   * it. */
+  /** Return a ghost of a robot at its place; the caller disposes of it. */
   ghost(name: string): SceneRobot | undefined {
     const entry = this.robots.get(name)
     if (entry === undefined) return undefined
@@ -186,7 +185,7 @@ export class LabScene {
     this.stage.invalidate()
   }
 
-  /** Resolves when every mesh of the robots that are there now is read, or its placeholder. */
+  /** Resolves when every mesh of the present robots, or its placeholder, is loaded. */
   get ready(): Promise<unknown> {
     return Promise.all([...this.robots.values()].map(({ robot }) => robot.ready))
   }
@@ -208,7 +207,7 @@ export class LabScene {
     this.stage.frame(points, again)
   }
 
-  /** Add points to `into` between which the robots stand now, in the world's frame. */
+  /** Add points to `into` that enclose the robots, in the world's frame. */
   reach(into: Vector3[]): void {
     this.stage.world.updateMatrixWorld(true)
     for (const { base, robot } of this.robots.values()) {

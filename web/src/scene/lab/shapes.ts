@@ -75,7 +75,7 @@ function geometryOf(type: number): BufferGeometry {
   switch (type) {
     case SPHERE:
       return new SphereGeometry(1, 32, 20)
-    // three's stand along y, ROS's along z
+    // The axis is y in three, z in ROS.
     case CYLINDER:
       return new CylinderGeometry(1, 1, 1, 36).rotateX(Math.PI / 2)
     case CONE:

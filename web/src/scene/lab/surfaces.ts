@@ -16,7 +16,7 @@ import { type Pose, place } from '../stage/pose'
 import type { SceneTheme } from '../stage/theme'
 
 const CREASE = 25 // deg, from which an edge of a mesh is drawn
-// A wall that covers the robots would hide them, and the grid stands for the floor.
+// A wall before the robots would hide them, and the grid represents the floor.
 const OUTLINES = new Set(['floor', 'ceiling'])
 const FAINT = new Set(['wall', 'door', 'window', 'global_mesh'])
 

@@ -98,7 +98,7 @@ export class Controls {
     this.show(player.position())
   }
 
-  /** Mark places on the timeline; a press on one goes there, where that is allowed. A list beside
+  /** Mark places on the timeline; a press on one seeks to it, if that is allowed. A list beside
    * the timeline has the same places for keyboards. */
   setMarks(marks: readonly TimeMark[]): void {
     const { duration } = this.player

@@ -16,13 +16,13 @@ interface PreviewOptions {
   /** The source of meshes; by default the gateway's /assets/. */
   readonly meshes?: MeshSource
   readonly words?: SceneWords
-  /** A second motion of a robot with the same joints, which goes along as a ghost. */
+  /** A second motion of a robot with the same joints, shown as a ghost. */
   readonly compared?: MotionDocument | null
-  /** Ghosts of the first and last pose at first; true where not given. */
+  /** Ghosts of the first and last pose at first; true by default. */
   readonly ghosts?: boolean
-  /** The tool's path at first; true where not given. */
+  /** The tool's path at first; true by default. */
   readonly path?: boolean
-  /** Play, timeline, speed and switches below the picture; true where not given. */
+  /** Play, timeline, speed and switches below the picture; true by default. */
   readonly controls?: boolean
   /** A picture for browsers without WebGL. */
   readonly poster?: string
@@ -43,7 +43,7 @@ export interface MotionPreview {
   onTime(listener: (time: number) => void): () => void
   /** Receive the number of a finding, from 1, whose mark is clicked. */
   onSelect(listener: (number: number) => void): () => void
-  /** Resolves when every mesh is there, or its placeholder. */
+  /** Resolves when every mesh, or its placeholder, is loaded. */
   readonly ready: Promise<void>
   dispose(): void
 }
@@ -241,7 +241,7 @@ export function createMotionPreview(
   }
 }
 
-/** Let the clock go on where nothing is drawn. */
+/** Advance the clock without a picture. */
 function withoutStage(player: MotionPlayer, step: () => boolean): () => void {
   let request = 0
   const frame = () => {

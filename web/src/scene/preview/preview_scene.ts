@@ -143,7 +143,7 @@ export class PreviewScene {
     const at = new Vector3()
     for (const { label, finding } of this.markers) {
       this.stage.toScreen(label.sprite.position, at)
-      // it sits above its point, the higher the more labels are there
+      // It is above its point, above earlier labels of the same place.
       const up = at.y + (label.sprite.center.y - 0.5) * MARK_PIXELS
       const near = Math.hypot(at.x - x, up - y) < 22
       if (near) return this.motion.findings.indexOf(finding) + 1

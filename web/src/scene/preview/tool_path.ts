@@ -17,8 +17,8 @@ export interface Track {
   readonly box: Box3
 }
 
-/** Follow the tool through a course by moving the robot through it; the robot then stands at the
- * first frame. */
+/** Follow the tool by moving the robot through a course; afterwards the robot is at the first
+ * frame. */
 export function trackOf(robot: SceneRobot, course: Course): Track {
   const count = Math.min(course.frameCount, MOST_POINTS)
   const frames = new Uint32Array(count)

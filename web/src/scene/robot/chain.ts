@@ -62,8 +62,8 @@ export class Chain {
     return before === null ? into : into.applyMatrix4(before)
   }
 
-  /** Write the place farthest along a direction that the tool reaches within its limits. Each
-   * joint in turn goes to where it is farthest, its others held, from several starts. scratch: as
+  /** Write the farthest place along a direction that the tool reaches within its limits. Each
+   * joint in turn moves to its optimum while the others are held, from several starts. scratch: as
    * long as the positions. */
   farthest(direction: Vector3, scratch: Float64Array, into: Vector3): Vector3 {
     let most = Number.NEGATIVE_INFINITY
@@ -82,8 +82,7 @@ export class Chain {
     return into
   }
 
-  /** Move each joint to its best, from the last to the first: those before it stay where they
-   * are. */
+  /** Move each joint to its optimum, from the last to the first, while those before it are held. */
   private sweep(direction: Vector3, positions: Float64Array): void {
     this.tool(positions, at)
     for (let i = this.joints.length - 1; i >= 0; i--) {
@@ -118,8 +117,7 @@ export class Chain {
 const at = new Vector3()
 const tried = new Vector3()
 
-/** Return the turn nearest to the best one that keeps a joint within its limits; what it gains is
- * a cos + b sin. */
+/** Return the angle within a joint's limits that is nearest to the optimum of a cos + b sin. */
 function within(
   best: number,
   now: number,

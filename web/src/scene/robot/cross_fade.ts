@@ -58,7 +58,7 @@ if (dissolveAt < dissolve.x || dissolveAt >= dissolve.y) discard;
 `
 const origins = new WeakMap<Material, Material>()
 
-/** Return the material that a dissolving one stands for; of others themselves. */
+/** Return the material that a dissolving one replaces; any other one itself. */
 export function originOf(material: Material): Material {
   return origins.get(material) ?? material
 }

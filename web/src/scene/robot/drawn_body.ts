@@ -83,7 +83,7 @@ export class DrawnBody {
     return this.bodies[0]?.top() ?? Number.NEGATIVE_INFINITY
   }
 
-  /** Let a shadow cover the links where they are now. */
+  /** Widen a shadow to the present places of the links. */
   castInto(shadow: ShadowFit): void {
     this.bodies[0]?.castInto(shadow)
   }
@@ -127,7 +127,7 @@ export class DrawnBody {
     return body
   }
 
-  /** Return how far from its base a body reaches as it stands, m. */
+  /** Return the reach of a body from its base in its present pose, m. */
   private reach(body: RobotBody): number {
     const corners: Vector3[] = []
     pushCorners(body, this.root, corners)

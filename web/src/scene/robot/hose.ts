@@ -45,7 +45,7 @@ export class Hose {
     readonly radius: number,
   ) {}
 
-  /** Return a hose between links; null where one of them is not there. */
+  /** Return a hose between links; null: one of them is missing. */
   static between(stated: StatedHose, links: Readonly<Record<string, Object3D>>): Hose | null {
     const on = ({ link: name, point, direction }: StatedEnd): HoseEnd | null => {
       const link = links[name]

@@ -23,7 +23,7 @@ export interface StatedEnd {
   readonly direction: Vector3
 }
 
-/** Return the packed levels that a description names; they stand for the folder meshes/ beside
+/** Return the packed levels that a description names; they replace the folder meshes/ beside
  * theirs. */
 export function levelsOf(description: Document): Level[] {
   return [...description.querySelectorAll('robot > level_of_detail')].map((element) => {
@@ -33,7 +33,7 @@ export function levelsOf(description: Document): Level[] {
   })
 }
 
-/** Return the hoses of a description; one that is not complete is left out. */
+/** Return the hoses of a description; an incomplete one is ignored. */
 export function hosesOf(description: Document): StatedHose[] {
   const found: StatedHose[] = []
   for (const element of description.querySelectorAll('robot > hose')) {
@@ -64,8 +64,8 @@ function numbers(element: Element, name: string): number[] {
 const eye = new Vector3()
 const here = new Vector3()
 
-/** A body near at hand and one from afar, that dissolve into each other where the camera comes or
- * goes. */
+/** A near and a far level of a body, which dissolve into each other as the camera approaches or
+ * leaves. */
 export class FadingLevels extends LOD {
   private fade: CrossFade | null = null
   private near: RobotBody | null = null

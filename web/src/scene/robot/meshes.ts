@@ -28,7 +28,8 @@ async function fetchMesh(uri: string): Promise<ArrayBuffer> {
   return answer.arrayBuffer()
 }
 
-/** Reads each file once; GLB at once, STL, Collada and OBJ by loaders that come when needed. */
+/** Reads each file once: GLB directly, STL, Collada and OBJ by loaders that are fetched when
+ * needed. */
 export class MeshLibrary implements MeshSource {
   private readonly known = new Map<string, Promise<Object3D>>()
   private readonly gltf = new GLTFLoader()

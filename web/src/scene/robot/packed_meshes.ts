@@ -46,8 +46,8 @@ export async function readPacked(bytes: ArrayBuffer): Promise<Object3D> {
   return scene
 }
 
-/** Let the palette of a file stand for its textures, which are the same; a picture is decoded only
- * where something is drawn on links. */
+/** Replace the textures of a file by its palette, which has the same colours; a picture is decoded
+ * only for drawings on links. */
 function paletteInsteadOfTextures(loader: GLTFLoader): void {
   loader.register((parser) => ({
     name: 'palette',
@@ -60,7 +60,7 @@ function paletteInsteadOfTextures(loader: GLTFLoader): void {
       const picture = stated?.pbrMetallicRoughness?.baseColorTexture?.index
       if (painted.drawings === undefined || picture === undefined) return Promise.resolve(material)
       return parser.getDependency('texture', picture).then((atlas: Texture | null) => {
-        // one that cannot be decoded: the links are bare
+        // A picture that cannot be decoded: the links have no drawings.
         if (atlas === null) return material
         atlas.colorSpace = SRGBColorSpace
         atlas.anisotropy = ANISOTROPY

@@ -44,9 +44,9 @@ interface Wanted {
 /** A robot of a URDF that moves: no joint is clamped, so a refused pose looks refused. */
 export class SceneRobot {
   readonly root: URDFRobot
-  /** The files of meshes that could not be read; a placeholder stands where they belong. */
+  /** The files of meshes that could not be read; each has a placeholder. */
   readonly troubles: string[] = []
-  /** Resolves when every mesh, or its placeholder, is there. */
+  /** Resolves when every mesh, or its placeholder, is loaded. */
   readonly ready: Promise<void>
   /** The number of meshes, and the number of those loaded. */
   meshCount = 0
@@ -71,7 +71,7 @@ export class SceneRobot {
   private settled = false
   private readonly above = new Matrix4()
 
-  /** jointNames: in the order in which positions come. changed: a picture is due. */
+  /** jointNames: in the order of positions. changed: called when a picture is due. */
   constructor(
     urdf: string,
     jointNames: readonly string[],
@@ -135,7 +135,7 @@ export class SceneRobot {
     }
   }
 
-  /** Return where a joint is as it was last moved, rad or m. */
+  /** Return the position of a joint, rad or m. */
   angle(joint: string): number | undefined {
     return this.movables.get(joint)?.value
   }
@@ -180,7 +180,7 @@ export class SceneRobot {
     return new Chain(joints, between)
   }
 
-  /** Return how high above its base its body or a joint is, m, as it was last drawn. */
+  /** Return the height of its body or joints above its base, m, as it was last drawn. */
   height(): number {
     const base = this.root.matrixWorld.elements[13] as number
     let highest = Math.max(0, this.body.top() - base)
@@ -191,7 +191,7 @@ export class SceneRobot {
     return highest
   }
 
-  /** Let a shadow cover it where it is now. */
+  /** Widen a shadow to its present place. */
   castInto(shadow: ShadowFit): void {
     this.body.castInto(shadow)
   }
@@ -201,14 +201,14 @@ export class SceneRobot {
     return this.body.widthOf((link) => stands(link, this.root))
   }
 
-  /** Return the link that a joint moves; empty where there is no such joint. */
+  /** Return the link that a joint moves; empty: there is no such joint. */
   linkOf(joint: string): string {
     const found = this.root.joints[joint]
     const link = found?.children.find((child) => 'isURDFLink' in child)
     return link?.name ?? ''
   }
 
-  /** Show the robot as it is, grey, or as a ghost; `failing` names a link that is painted. */
+  /** Show the robot unpainted, grey, or as a ghost; `failing` names a link that is painted. */
   setLook(look: Look, failing = ''): void {
     if (look === this.look && failing === this.failing) return
     this.look = look

@@ -28,7 +28,7 @@ const MOST_LINKS = 255
 
 const point = new Vector3()
 
-/** The links as bones; those of a robot that stands are sent to the processor of vertices once. */
+/** The links as bones; of a robot at rest they are uploaded once. */
 class Links extends Skeleton {
   moved = true
 
@@ -112,7 +112,7 @@ export class RobotBody extends SkinnedMesh<BufferGeometry, Material | Material[]
     ;(this.skeleton as Links).moved = true
   }
 
-  /** Let a shadow cover its links where they are now. */
+  /** Widen a shadow to the present places of its links. */
   castInto(shadow: ShadowFit): void {
     const { balls, skeleton } = this
     for (let i = 0; i < balls.length; i++) {

@@ -95,7 +95,7 @@ export class Floor {
   }
 }
 
-/** A soft dark patch where something stands on the floor: it joins the two. */
+/** A soft dark patch below a robot, which joins it to the floor. */
 export class ContactPatch extends Mesh<PlaneGeometry, ShaderMaterial> {
   constructor() {
     const material = new ShaderMaterial({

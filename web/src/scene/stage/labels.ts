@@ -27,7 +27,7 @@ export class Label {
     this.sprite.center.set(0.5, -0.25)
   }
 
-  /** Paint it; a ring marks the one that is chosen. */
+  /** Paint it; a ring marks the chosen one. */
   paint(background: string, ink: string, chosen = false): void {
     const pixels = 28 * SCALE
     const context = this.canvas.getContext('2d')

@@ -183,7 +183,7 @@ export class Stage {
     this.invalidate()
   }
 
-  /** Return the picture as it is now, a data: URL. */
+  /** Return the present picture, a data: URL. */
   picture(): string {
     for (const listener of this.listeners) listener(performance.now() / 1000)
     this.shadow.apply()
