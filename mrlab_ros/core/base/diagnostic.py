@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from enum import IntEnum
 from math import isfinite
@@ -216,14 +216,29 @@ class Code:
                 Fix(*(part.format(**quoted) for part in fix))
                 for fix in (*self.fixes, *(("", "", "", words) for words in self.commands))
             )
+        advice = [*self._inner_remedies(values), remedy.fill(values)]
         return Diagnostic(
             self.code,
             self.severity if severity is None else severity,
             text.fill(values),
-            remedy.fill(values),
+            " ".join(dict.fromkeys(filter(None, advice))),
             {name: value for name, value in values.items() if value is not None},
             fixes,
         )
+
+    def _inner_remedies(self, values: Mapping[str, Value]) -> Iterator[str]:
+        """Yield the remedies of the diagnostics within its sentences."""
+        for part in (part for each in self.phrases for part in each.placeholders()):
+            value = values.get(part.name)
+            if part.quantity == "reasons":
+                yield from map(_remedy, value or ())
+            elif part.quantity == "problem":
+                yield _remedy(value)
+
+
+def _remedy(value: Value) -> str:
+    found = getattr(value, "diagnostic", value)
+    return found.remedy if isinstance(found, Diagnostic) else ""
 
 
 class _Said(str):

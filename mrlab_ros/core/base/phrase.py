@@ -22,8 +22,9 @@ unit the value is stored and how it is shown, the same in terminal, page, room a
     {side:choice above=over|below=under}                    the text of one of the known words;
                                another, and one without a text, is said as it is
     {state:state}              a state of the lab by its name, such as PLAYING
-    {why:problem}              another diagnostic, or what a library said
-    {all:problems}             several of them, a line each
+    {why:problem}              another diagnostic, or what a library said; its remedy follows
+                               the sentence
+    {all:problems}             several of them, a line each, with their remedies
     {all:reasons}              several of them in one sentence, parted by semicolons
 
 `[text {name} text]` is left out where one of its values is missing: None, "" or an empty list.
@@ -197,6 +198,12 @@ def _worded(names: Sequence[object], words: Sequence[str]) -> list[object]:
     return [known.get(str(name), name) for name in names]
 
 
+def _clause(value: Any) -> str:
+    """Return what a diagnostic, an error with one, or a library says, for within a sentence."""
+    found = getattr(value, "diagnostic", value)
+    return visible_lines(getattr(found, "message", None) or str(found)).rstrip(".")
+
+
 def _position(value: Sequence[float], words: Sequence[str]) -> str:
     return " ".join(
         f"{axis} {_digits(v, 3, '')}" for axis, v in zip("xyz", value, strict=False)
@@ -230,9 +237,9 @@ QUANTITIES: dict[str, Callable[[Any, Sequence[str]], str]] = {
     "list": lambda v, w: joined(_worded(v, w)),
     "either": lambda v, w: joined(_worded(v, w), "or"),
     "choice": _choice,
-    "problem": lambda v, w: visible_lines(str(v)).rstrip("."),
+    "problem": lambda v, w: _clause(v),
     "problems": lambda v, w: "".join(f"\n  {visible_lines(str(each))}" for each in v),
-    "reasons": lambda v, w: "; ".join(visible_lines(str(each)).rstrip(".") for each in v),
+    "reasons": lambda v, w: "; ".join(map(_clause, v)),
     "state": lambda v, w: visible(str(v)),
     "measure": lambda v, w: _significant(v, 4, ""),
 }

@@ -45,7 +45,7 @@ TOO_MANY_ROWS = Code(
 )
 NO_TRAJECTORY = Code(
     "no_trajectory",
-    "No variable of '{file}' looks like the joint positions of {robot}, an N x {joints:integer} "
+    "No variable of '{file}' looks like the joint positions of {model}, an N x {joints:integer} "
     "matrix of radians with N >= 2." + CONTENTS + "[{looks:problems}]",
     "Save the joint positions, one row a sample. If one of the variables is what you want, name "
     "it.",
@@ -118,7 +118,7 @@ INSIDE_CONTAINER = Code(
 )
 WRONG_SHAPE = Code(
     "wrong_shape",
-    "'{variable}' is {size}; {robot} needs {joints:integer} columns, one a joint, or "
+    "'{variable}' is {size}; {model} needs {joints:integer} columns, one a joint, or "
     "{more:integer} with the gripper last.[ Columns 1 to {dates:integer} are dates.]"
     "[ Column {time_column:integer} looks like time, beside {beside:integer} others.]"
     "[ A robot of {meant:integer} joints may be meant.][ Columns {columns} may be the joints.]"
@@ -179,7 +179,7 @@ NON_FINITE = Code(
 )
 TRANSPOSED = Code(
     "transposed",
-    "'{variable}' is {size}: its samples are columns, {robot} needs one row a sample."
+    "'{variable}' is {size}: its samples are columns, {model} needs one row a sample."
     "[ Row {time_row:integer} is time.]",
     "Transpose it.",
     meaning="The samples are columns instead of rows.",
@@ -189,7 +189,7 @@ TIME_COLUMN = Code(
     "time_column",
     "Column {column:integer} of '{variable}' is time ({first:number} to {last:number}), not a "
     "joint: {why:problem}.[ Columns {columns} are the joints.]"
-    "[ {left:count column is|columns are} left, and {robot} has {joints:integer} joints.]",
+    "[ {left:count column is|columns are} left, and {model} has {joints:integer} joints.]",
     "Take the joints alone, or save them alone and the time as t.",
     meaning="A column counts time and is no joint.",
 )
@@ -206,7 +206,7 @@ CLOCK = Code(
 SEVEN_AXES = Code(
     "seven_axes",
     "Column {column:integer} of '{variable}' moves like a joint ({first:number} to {last:number}, "
-    "{levels:count value|values}), not like a gripper that is open or closed; {robot} has "
+    "{levels:count value|values}), not like a gripper that is open or closed; {model} has "
     "{joints:integer} joints.[ If it is a gripper that moves slowly, " + GRIPPER_RANGE + ", name "
     "it.]",
     "Choose the robot that the file was made for, take the joints alone, or say that it is the "
@@ -232,7 +232,7 @@ COUNTS = Code(
 UNIT_NAMED = Code("unit_named", "its name says degrees", severity=INFO)
 UNIT_REACHES = Code(
     "unit_reaches",
-    "it reaches {largest:number}[ and is within the limits of {robot} only if it is in "
+    "it reaches {largest:number}[ and is within the limits of {model} only if it is in "
     "{fits:choice degrees=degrees|hundredths=hundredths of a degree, or counts|"
     "thousandths=millidegrees, or counts}]"
     "[, as degrees do and radians of {beyond} do not]"
@@ -297,7 +297,7 @@ NO_SUCH_COLUMN = Code("no_such_column", "'{variable}' has the columns 1 to {widt
 TOO_FEW_COLUMNS = Code(
     "too_few_columns",
     "'{variable}' has {width:integer} columns, and without column {column:integer} only "
-    "{left:integer} are left for the {joints:integer} joints of {robot}",
+    "{left:integer} are left for the {joints:integer} joints of {model}",
 )
 UNITS_CONTRADICT = Code(
     "units_contradict", "degrees were asked for as well; name one unit, such as {found}"
@@ -305,7 +305,7 @@ UNITS_CONTRADICT = Code(
 COUNTS_OF_WHAT = Code("counts_of_what", "counts needs the counts of one turn, such as counts:4096")
 UNKNOWN_UNIT = Code("unknown_unit", "the units are {known:list}")
 ALL_JOINTS_TURN = Code(
-    "all_joints_turn", "all joints of {robot} turn: they take rad, deg or counts:N"
+    "all_joints_turn", "all joints of {model} turn: they take rad, deg or counts:N"
 )
 COUNTS_DOWN = Code("counts_down", "'{term}' does not count upwards from one number to another")
 NO_MATRIX = Code("no_matrix", "'{variable}' is no matrix of numbers")
@@ -621,15 +621,15 @@ TIME_BACKWARD = Code(
 # messages and tables that name their joints
 JOINT_NAMES = Code(
     "joint_names",
-    "The joints of '{variable}' are not those of {robot}.[ It lacks {missing:list}.]"
-    "[ {robot} has no {unknown:list}.][ It has {repeated:list} more than once.]",
+    "The joints of '{variable}' are not those of {model}.[ It lacks {missing:list}.]"
+    "[ {model} has no {unknown:list}.][ It has {repeated:list} more than once.]",
     "Choose the robot that it was made for, or name the columns as the robot does: {joints:list}. "
     "Columns of a table can be taken by their numbers as well.",
     meaning="The joints that the file names are not those of the robot.",
 )
 JOINTS_MATCHED = Code(
     "joints_matched",
-    "The columns of '{variable}' were matched to {robot} by the names of its joints: columns "
+    "The columns of '{variable}' were matched to {model} by the names of its joints: columns "
     "{order:list} in this order.[ Left out: {left_out:list}.]",
     severity=INFO,
     meaning="The columns were put into the robot's order, by the names of its joints.",
@@ -675,7 +675,7 @@ JOINT_LIMIT = Code(
 )
 VELOCITY_LIMIT = Code(
     "velocity_limit",
-    "{joint} moves at {value:measure} in row {first_row:integer} ({time:time}); {robot} reaches "
+    "{joint} moves at {value:measure} in row {first_row:integer} ({time:time}); {model} reaches "
     "{limit:measure}; it is too fast in {count:count step|steps}.",
     "Use more samples for the motion, or check that {rate:number} rows a second is right: at "
     "{slower:number} the robot can follow.",
@@ -743,18 +743,18 @@ GRIPPER_BESIDE = Code(
 )
 KINEMATICS_AGREE = Code(
     "kinematics_agree",
-    "The robot '{variable}'[ ({title})] in the file agrees with {robot} within {distance:length}.",
+    "The robot '{variable}'[ ({title})] in the file agrees with {model} within {distance:length}.",
     severity=INFO,
     meaning="The robot that the file holds is the chosen one, up to its base and its tool.",
 )
 KINEMATICS_DIFFER = Code(
     "kinematics_differ",
-    "The robot '{variable}'[ ({title})] in the file is not {robot}:"
+    "The robot '{variable}'[ ({title})] in the file is not {model}:"
     "[ for the same joint positions its flange is up to {distance:length} and {angle:angle} "
-    "away.][ it has {count:count joint|joints}, and {robot} has {joints:integer}.] The motion may "
+    "away.][ it has {count:count joint|joints}, and {model} has {joints:integer}.] The motion may "
     "have been made for another robot, or with other zero positions of the joints.",
     "Choose the robot that the file was made for; or compare the zero positions and the "
-    "directions of the joints with those of {robot}.",
+    "directions of the joints with those of {model}.",
     severity=WARNING,
     meaning="The robot that the file holds is not the chosen one.",
 )

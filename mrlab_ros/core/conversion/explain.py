@@ -171,7 +171,7 @@ def no_trajectory(survey: Survey, file: str) -> Diagnostic:
     return NO_TRAJECTORY(
         file=file,
         variable=others[0].path if others else "",
-        robot=robot.id,
+        model=robot.id,
         joints=joints,
         looks=[described(a, _looks(a)) for a in others],
         **contents(survey.workspace),
@@ -268,7 +268,7 @@ def near_miss(variable: Variable, survey: Survey) -> Diagnostic | None:
         clocks = clocks_of(flipped, survey)
         if long_enough if shape[0] in widths else clocks:
             row = clocks[0].index + 1 if clocks else None
-            return TRANSPOSED(robot=robot.id, time_row=row, **sized)
+            return TRANSPOSED(model=robot.id, time_row=row, **sized)
     plausible = 3 <= shape[1] <= 64 and shape[0] >= FEW_ROWS
     if shape[0] > shape[1] and (named or plausible):
         return wide(variable, survey)
@@ -304,7 +304,7 @@ def time_finding(
         )
         rest: dict[str, Any] = {"columns": text}
     else:
-        rest = {"left": len(left), "robot": robot.id, "joints": joints}
+        rest = {"left": len(left), "model": robot.id, "joints": joints}
         fixes = (
             Fix(matlab=f"t = {name}(:, {clock.index + 1}); {name}(:, {clock.index + 1}) = [];"),
         )
@@ -358,7 +358,7 @@ def _transforms(variable: Variable) -> Diagnostic:
 def wrong_shape(variable: Variable, robot: RobotModel, **hints: Any) -> Diagnostic:
     """Return the finding of a matrix that does not fit the robot."""
     joints = len(robot.joints)
-    words = {"size": variable.size, "robot": robot.id, "joints": joints, "more": joints + 1}
+    words = {"size": variable.size, "model": robot.id, "joints": joints, "more": joints + 1}
     return WRONG_SHAPE(variable=variable.path, **{**words, **hints})
 
 

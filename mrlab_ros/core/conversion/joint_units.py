@@ -81,7 +81,6 @@ def in_radians(
                     unit="deg",
                     limit=float(np.abs(units.limits_of(robot)).max()),
                     why=UNIT_REACHES(largest=largest),
-                    robot=robot.id,
                 )
             )
     if options.unwrap:
@@ -150,7 +149,7 @@ def _in_metres(arm: Array, robot: RobotModel, options: Options) -> Array:
     moving = [s for s in robot.chain.segments if s.axis is not None] if robot.chain else []
     sliding = [i for i, segment in enumerate(moving) if segment.prismatic]
     if not sliding:
-        why = ALL_JOINTS_TURN(robot=robot.id)
+        why = ALL_JOINTS_TURN(model=robot.id)
         raise BadInput(BAD_OPTION(option="units", found=options.units, why=why))
     arm[:, sliding] *= 1e-3
     return arm

@@ -60,15 +60,15 @@ def findings(workspace: Workspace, robot: RobotModel) -> list[Diagnostic]:
     compared = [(match(one.chain, robot), one) for one in found]
     for agreement, one in compared:
         if agreement is not None and agreement.agrees:
-            return [KINEMATICS_AGREE(robot=robot.id, distance=agreement.distance, **_who(one))]
+            return [KINEMATICS_AGREE(model=robot.id, distance=agreement.distance, **_who(one))]
     fitting = [(m, one) for m, one in compared if m is not None]
     if fitting:
         best, one = min(fitting, key=lambda pair: pair[0].distance)
         away: dict[str, Any] = {"distance": best.distance, "angle": best.angle}
-        return [KINEMATICS_DIFFER(robot=robot.id, **away, **_who(one))]
+        return [KINEMATICS_DIFFER(model=robot.id, **away, **_who(one))]
     one = found[0]
     joints: dict[str, Any] = {"count": one.chain.joint_count, "joints": len(robot.joints)}
-    return [KINEMATICS_DIFFER(robot=robot.id, **joints, **_who(one))]
+    return [KINEMATICS_DIFFER(model=robot.id, **joints, **_who(one))]
 
 
 def _who(one: FileRobot) -> dict[str, Any]:

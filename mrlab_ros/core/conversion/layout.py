@@ -185,7 +185,7 @@ def _seven_axes(column: NDArray[Any], robot: RobotModel, path: str) -> Diagnosti
         first=float(column[0]),
         last=float(column[-1]),
         levels=len(np.unique(column)),
-        robot=robot.id,
+        model=robot.id,
         joints=joints,
         meaning=found.meaning if found else "",
         fixes=(

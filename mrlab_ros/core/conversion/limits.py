@@ -157,7 +157,7 @@ def _steps(
             unit="rad/s",
             rate=frame_rate,
             slower=_slower(joint.max_velocity / largest),
-            robot=robot,
+            model=robot,
             count=too_fast,
             **place,
         )

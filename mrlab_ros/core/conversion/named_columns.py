@@ -33,7 +33,7 @@ def misnamed(variable: Variable, robot: RobotModel) -> Diagnostic | None:
     by_number = Fix("columns", f"1:{len(joints)}")
     return JOINT_NAMES(
         variable=variable.path,
-        robot=robot.id,
+        model=robot.id,
         missing=shortened(missing),
         unknown=shortened(unknown),
         repeated=shortened(repeated),
@@ -61,7 +61,7 @@ def order(variable: Variable, robot: RobotModel) -> tuple[list[int], list[Diagno
     left_out = [name for name in names if name not in wanted]
     done = JOINTS_MATCHED(
         variable=variable.path,
-        robot=robot.id,
+        model=robot.id,
         order=[i + 1 for i in indices],
         left_out=shortened(left_out),
     )

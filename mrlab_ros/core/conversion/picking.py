@@ -157,7 +157,7 @@ def _gripper_index(
             column=column + 1,
             left=left,
             joints=joints,
-            robot=robot.id,
+            model=robot.id,
         )
     else:
         return column

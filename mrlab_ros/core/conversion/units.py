@@ -65,14 +65,14 @@ def evidence(
     if in_radians or largest <= least:
         return UnitEvidence("rad" if in_radians else "")
     if inside(np.radians(low), np.radians(high), limits):
-        why = UNIT_REACHES(largest=largest, robot=robot.id, fits="degrees")
+        why = UNIT_REACHES(largest=largest, model=robot.id, fits="degrees")
         return UnitEvidence("deg", why=why)
     if largest <= LOOSELY * np.degrees(farthest):
         return UnitEvidence("deg", why=UNIT_REACHES(largest=largest, beyond=robot.id))
     for per_turn, name in ((CENTIDEGREES, "hundredths"), (MILLIDEGREES, "thousandths")):
         scale = 2 * np.pi / per_turn
         if inside(low * scale, high * scale, limits):
-            why = UNIT_REACHES(largest=largest, robot=robot.id, fits=name)
+            why = UNIT_REACHES(largest=largest, model=robot.id, fits=name)
             return UnitEvidence("counts", per_turn, why)
     if largest >= LEAST_COUNTS and _is_whole(arm):
         for per_turn in COUNTS:

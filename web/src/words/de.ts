@@ -853,7 +853,7 @@ export const diagnostics: Templates = {
     'Lass erst einen los oder entferne einen.',
   ],
   all_hidden: ['Jeder Test ist verborgen; Studierende sehen keinen davon.'],
-  all_joints_turn: ['alle Gelenke von {robot} drehen sich: möglich sind rad, deg oder counts:N'],
+  all_joints_turn: ['alle Gelenke von {model} drehen sich: möglich sind rad, deg oder counts:N'],
   all_stand: ['alle Mitglieder stehen; Abspielen beginnt von vorn'],
   allow_list_not_read: [
     'Die Bridge kann ihre Liste der Erlaubten, {path}, nicht lesen: {why:problem}.',
@@ -1679,7 +1679,7 @@ export const diagnostics: Templates = {
     'Plane die Bewegung innerhalb des Bereichs, oder wähle den Roboter, für den sie gemacht wurde.',
   ],
   joint_names: [
-    "Die Gelenke von '{variable}' sind nicht die von {robot}.[ Es fehlt: {missing:list}.][ {robot} hat kein {unknown:list}.][ Mehrmals vorhanden: {repeated:list}.]",
+    "Die Gelenke von '{variable}' sind nicht die von {model}.[ Es fehlt: {missing:list}.][ {model} hat kein {unknown:list}.][ Mehrmals vorhanden: {repeated:list}.]",
     'Wähle den Roboter, für den die Bewegung gemacht wurde, oder nenne die Spalten wie der Roboter seine Gelenke: {joints:list}. Spalten einer Tabelle lassen sich auch über ihre Nummern nehmen.',
   ],
   joint_no_velocity: [
@@ -1703,7 +1703,7 @@ export const diagnostics: Templates = {
   joint_state_without: ['Einem Gelenkzustand fehlt {missing:list}; er hat {found:list}.'],
   joint_type: ["{place:problem} ist vom Typ '{type}'; erwartet: {known:either}."],
   joints_matched: [
-    "Die Spalten von '{variable}' wurden {robot} nach den Namen der Gelenke zugeordnet: Spalten {order:list}, in dieser Reihenfolge.[ Weggelassen: {left_out:list}.]",
+    "Die Spalten von '{variable}' wurden {model} nach den Namen der Gelenke zugeordnet: Spalten {order:list}, in dieser Reihenfolge.[ Weggelassen: {left_out:list}.]",
   ],
   joints_move: ['die Gelenke bewegen {robot} ({model})'],
   joints_of_topic: ['{topic}: {joints:list}'],
@@ -1737,11 +1737,11 @@ export const diagnostics: Templates = {
     'Nimm {better}, oder lass die Schlüssel weg.',
   ],
   kinematics_agree: [
-    "Der Roboter '{variable}'[ ({title})] in der Datei stimmt mit {robot} auf {distance:length} überein.",
+    "Der Roboter '{variable}'[ ({title})] in der Datei stimmt mit {model} auf {distance:length} überein.",
   ],
   kinematics_differ: [
-    "Der Roboter '{variable}'[ ({title})] in der Datei ist nicht {robot}:[ Bei gleichen Gelenkwinkeln liegt sein Flansch bis zu {distance:length} und {angle:angle} daneben.][ Er hat {count:count Gelenk|Gelenke} und {robot} {joints:integer}.] Die Bewegung kann für einen anderen Roboter gemacht sein, oder mit anderen Nullstellungen der Gelenke.",
-    'Wähle den Roboter, für den die Datei gemacht wurde; oder vergleiche die Nullstellungen und die Drehrichtungen der Gelenke mit denen von {robot}.',
+    "Der Roboter '{variable}'[ ({title})] in der Datei ist nicht {model}:[ Bei gleichen Gelenkwinkeln liegt sein Flansch bis zu {distance:length} und {angle:angle} daneben.][ Er hat {count:count Gelenk|Gelenke} und {model} {joints:integer}.] Die Bewegung kann für einen anderen Roboter gemacht sein, oder mit anderen Nullstellungen der Gelenke.",
+    'Wähle den Roboter, für den die Datei gemacht wurde; oder vergleiche die Nullstellungen und die Drehrichtungen der Gelenke mit denen von {model}.',
   ],
   lab_unconnected: [
     'Das Gateway hat keine Verbindung zum Labor.',
@@ -2340,7 +2340,7 @@ export const diagnostics: Templates = {
     'Sie stehen in docs/protocol.md, mit * für einen Teil eines Schlüssels.',
   ],
   no_trajectory: [
-    "Keine Variable in '{file}' sieht aus wie die Gelenkwinkel von {robot}, eine N x {joints:integer} Matrix in Radiant mit N >= 2. Die Datei enthält {count:count Variable|Variablen}[: {held:list}][ und {more:integer} weitere].[ Darin: {inside:list}.][{looks:problems}]",
+    "Keine Variable in '{file}' sieht aus wie die Gelenkwinkel von {model}, eine N x {joints:integer} Matrix in Radiant mit N >= 2. Die Datei enthält {count:count Variable|Variablen}[: {held:list}][ und {more:integer} weitere].[ Darin: {inside:list}.][{looks:problems}]",
     'Sichere die Gelenkwinkel, eine Zeile je Messpunkt. Ist eine der Variablen das Gewünschte, nenne sie beim Namen.',
   ],
   no_trajectory_loaded: [
@@ -3170,7 +3170,7 @@ export const diagnostics: Templates = {
     '{objects:count Gegenstand|Gegenstände} und {surfaces:count Fläche|Flächen} setzen',
   ],
   seven_axes: [
-    "Spalte {column:integer} von '{variable}' bewegt sich wie ein Gelenk ({first:number} bis {last:number}, {levels:count Wert|Werte}) und nicht wie ein Greifer, der offen oder zu ist; {robot} hat {joints:integer} Gelenke.[ Ist es ein Greifer, der sich langsam bewegt ({meaning:choice states=0 offen, 1 zu|position=eine Position von 0 (offen) bis 255 (zu) wie bei Robotiq|width_m=eine Öffnungsweite in m, größer heißt offen|percent=Prozent|width_mm=eine Öffnungsweite in mm, größer heißt offen}), dann nenne ihn.]",
+    "Spalte {column:integer} von '{variable}' bewegt sich wie ein Gelenk ({first:number} bis {last:number}, {levels:count Wert|Werte}) und nicht wie ein Greifer, der offen oder zu ist; {model} hat {joints:integer} Gelenke.[ Ist es ein Greifer, der sich langsam bewegt ({meaning:choice states=0 offen, 1 zu|position=eine Position von 0 (offen) bis 255 (zu) wie bei Robotiq|width_m=eine Öffnungsweite in m, größer heißt offen|percent=Prozent|width_mm=eine Öffnungsweite in mm, größer heißt offen}), dann nenne ihn.]",
     'Wähle den Roboter, für den die Datei gemacht wurde, nimm nur die Gelenke, oder sag, dass es der Greifer ist.',
   ],
   several_assets: [
@@ -3342,7 +3342,7 @@ export const diagnostics: Templates = {
     'Prüfe, ob zwei Aufnahmen zusammengefügt wurden; sortiere die Zeilen in MATLAB, oder nimm eine davon, etwa q(1:{last:integer}, :).',
   ],
   time_column: [
-    "Spalte {column:integer} von '{variable}' ist Zeit ({first:number} bis {last:number}) und kein Gelenk: {why:problem}.[ Die Spalten {columns} sind die Gelenke.][ Übrig: {left:count Spalte|Spalten}; {robot} hat {joints:integer} Gelenke.]",
+    "Spalte {column:integer} von '{variable}' ist Zeit ({first:number} bis {last:number}) und kein Gelenk: {why:problem}.[ Die Spalten {columns} sind die Gelenke.][ Übrig: {left:count Spalte|Spalten}; {model} hat {joints:integer} Gelenke.]",
     'Nimm nur die Gelenke, oder sichere sie allein und die Zeit als t.',
   ],
   time_counts_rows: [
@@ -3401,7 +3401,7 @@ export const diagnostics: Templates = {
     "[die Zahlen von '{variable}' haben][der Text '{text}' hat][{element:choice any=ein Element hat}] {left:integer} Bytes, nötig sind {needed:integer}",
   ],
   too_few_columns: [
-    "'{variable}' hat {width:integer} Spalten, und ohne Spalte {column:integer} bleiben für die {joints:integer} Gelenke von {robot} nur {left:integer}",
+    "'{variable}' hat {width:integer} Spalten, und ohne Spalte {column:integer} bleiben für die {joints:integer} Gelenke von {model} nur {left:integer}",
   ],
   too_large: [
     "'{file}' ist zu groß: {part:choice file=Sie hat|bag=Das Bag hat|numbers=Ihre Matrizen haben|variable=Eine ihrer Variablen hat|inflated=Entpackt hat sie|reading=Sie zu lesen braucht|converting=Sie umzuwandeln braucht} mehr als {limit:bytes}[, nämlich {size:bytes}].",
@@ -3484,7 +3484,7 @@ export const diagnostics: Templates = {
   ],
   transpose_applied: ["Wie gewünscht wurde '{variable}' transponiert."],
   transposed: [
-    "'{variable}' ist {size}: die Messpunkte sind Spalten, {robot} braucht eine Zeile je Messpunkt.[ Zeile {time_row:integer} ist Zeit.]",
+    "'{variable}' ist {size}: die Messpunkte sind Spalten, {model} braucht eine Zeile je Messpunkt.[ Zeile {time_row:integer} ist Zeit.]",
     'Transponiere sie.',
   ],
   true_or_false: ['true oder false'],
@@ -3516,7 +3516,7 @@ export const diagnostics: Templates = {
   ],
   unit_named: ['ihr Name sagt Grad'],
   unit_reaches: [
-    'sie reicht bis {largest:number}[ und bleibt nur in den Grenzen von {robot}, wenn das {fits:choice degrees=Grad sind|hundredths=Hundertstelgrad oder Zählschritte sind|thousandths=Tausendstelgrad oder Zählschritte sind}][, wie es Grad tun und Radiant bei {beyond} nicht][{counted:choice counts=, in ganzen Zahlen wie die Zählschritte eines Encoders}]',
+    'sie reicht bis {largest:number}[ und bleibt nur in den Grenzen von {model}, wenn das {fits:choice degrees=Grad sind|hundredths=Hundertstelgrad oder Zählschritte sind|thousandths=Tausendstelgrad oder Zählschritte sind}][, wie es Grad tun und Radiant bei {beyond} nicht][{counted:choice counts=, in ganzen Zahlen wie die Zählschritte eines Encoders}]',
   ],
   units_applied: [
     "Wie gewünscht wurde '{variable}' als {taken:choice deg=Grad|rad=Radiant|mm=mm|counts=Zählschritte}[, {counts:number} je Umdrehung,] gelesen.",
@@ -3584,7 +3584,7 @@ export const diagnostics: Templates = {
   values_elsewhere: ["'{variable}' nimmt ihre Werte von anderswo; dem wird nicht gefolgt"],
   velocities_of: ['das sind die Geschwindigkeiten ihrer Spalten {columns}'],
   velocity_limit: [
-    '{joint} bewegt sich in Zeile {first_row:integer} ({time:time}) mit {value:measure}; {robot} erreicht {limit:measure}; zu schnell ist das Gelenk in {count:count Schritt|Schritten}.',
+    '{joint} bewegt sich in Zeile {first_row:integer} ({time:time}) mit {value:measure}; {model} erreicht {limit:measure}; zu schnell ist das Gelenk in {count:count Schritt|Schritten}.',
     'Nimm mehr Messpunkte für die Bewegung, oder prüfe, ob {rate:number} Zeilen pro Sekunde stimmen: Mit {slower:number} kann der Roboter folgen.',
   ],
   version_gone: [
@@ -3674,7 +3674,7 @@ export const diagnostics: Templates = {
   ],
   wrong_password: ['Name und Passwort passen nicht zusammen.', 'Versuche es noch einmal.'],
   wrong_shape: [
-    "'{variable}' ist {size}; {robot} braucht {joints:integer} Spalten, eine für jedes Gelenk, oder {more:integer} mit dem Greifer zuletzt.[ In den Spalten 1 bis {dates:integer} steht ein Datum.][ Spalte {time_column:integer} sieht wie Zeit aus, neben {beside:integer} anderen.][ Vielleicht ist ein Roboter mit {meant:integer} Gelenken gemeint.][ Vielleicht sind die Spalten {columns} die Gelenke.][ Sie hat {dimensions:integer} Dimensionen.]",
+    "'{variable}' ist {size}; {model} braucht {joints:integer} Spalten, eine für jedes Gelenk, oder {more:integer} mit dem Greifer zuletzt.[ In den Spalten 1 bis {dates:integer} steht ein Datum.][ Spalte {time_column:integer} sieht wie Zeit aus, neben {beside:integer} anderen.][ Vielleicht ist ein Roboter mit {meant:integer} Gelenken gemeint.][ Vielleicht sind die Spalten {columns} die Gelenke.][ Sie hat {dimensions:integer} Dimensionen.]",
     'Sichere eine Zeile je Messpunkt und eine Spalte je Gelenk[, oder nimm die Spalten {columns}].',
   ],
   wrong_type: [

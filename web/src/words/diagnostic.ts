@@ -1,5 +1,5 @@
 /** A diagnostic as JSON and messages carry it; see core/base/diagnostic.py. */
-import { fill, type Phrase, parse, placeholders, type Values } from './phrase'
+import { fill, type Phrase, parse, placeholders, typed, type Values } from './phrase'
 import { templates, words } from './words'
 
 export interface Fix {
@@ -66,7 +66,17 @@ export function say(told: Told): { readonly message: string; readonly remedy: st
   // A diagnostic of another version of the lab may have other values.
   if (missing) return { message, remedy }
   const filled = (phrase: Phrase) => fill(phrase, values, words.value.joining, nested)
-  return { message: filled(text), remedy: filled(advice) }
+  const remedies = [...innerRemedies(text, values), ...innerRemedies(advice, values)]
+  const all = new Set([...remedies, filled(advice)].filter(Boolean))
+  return { message: filled(text), remedy: [...all].join(' ') }
+}
+
+/** Return the remedies of the diagnostics within a sentence, which follow it. */
+function innerRemedies(phrase: Phrase, values: Values): readonly string[] {
+  return placeholders(phrase).flatMap(({ name, quantity }) => {
+    if (quantity !== 'problem' && quantity !== 'reasons') return []
+    return [typed(values[name])].flat().map((each) => (isTold(each) ? say(each).remedy : ''))
+  })
 }
 
 /** Return the same as one text. */
@@ -99,8 +109,9 @@ function parsed(template: string): Phrase {
 }
 
 /** Return the text of a value that is another diagnostic, or a text of a library. */
-function nested(value: unknown): string {
-  return isTold(value) ? spoken(value) : String(value)
+function nested(value: unknown, whole = false): string {
+  if (!isTold(value)) return String(value)
+  return whole ? spoken(value) : say(value).message
 }
 
 function isTold(value: unknown): value is Told {

@@ -84,13 +84,11 @@ function isMissing(value: unknown): boolean {
   )
 }
 
+/** Words another diagnostic; whole: with its remedy. */
+type Worded = (value: unknown, whole?: boolean) => string
+
 /** Return the text of a phrase with these values. problem: words another diagnostic. */
-export function fill(
-  phrase: Phrase,
-  values: Values,
-  joining: Joining,
-  problem: (value: unknown) => string,
-): string {
+export function fill(phrase: Phrase, values: Values, joining: Joining, problem: Worded): string {
   return phrase
     .map((part) => {
       if (typeof part === 'string') return part
@@ -102,7 +100,7 @@ export function fill(
 }
 
 /** A value on the wire is a text; unless its quantity is one, the text is JSON. */
-function typed(value: unknown): unknown {
+export function typed(value: unknown): unknown {
   if (typeof value !== 'string') return value
   try {
     return JSON.parse(value)
@@ -169,7 +167,7 @@ function shown(
   { name, quantity, words }: Placeholder,
   values: Values,
   joining: Joining,
-  problem: (value: unknown) => string,
+  problem: Worded,
 ): string {
   if (quantity === 'text') return String(values[name] ?? '')
   const value = typed(values[name])
@@ -235,7 +233,7 @@ function shown(
     case 'problem':
       return problem(value).replace(/\.$/, '')
     case 'problems':
-      return (value as readonly unknown[]).map((each) => `\n  ${problem(each)}`).join('')
+      return (value as readonly unknown[]).map((each) => `\n  ${problem(each, true)}`).join('')
     case 'reasons':
       return (value as readonly unknown[])
         .map((each) => problem(each).replace(/\.$/, ''))

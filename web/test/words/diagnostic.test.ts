@@ -107,13 +107,19 @@ describe('in German', () => {
   })
 
   test.each([
-    ['another diagnostic', full, /Deine Dateien belegen 1,5 MB.*entfernt\)/],
-    ['one over the wire', JSON.stringify(full), /Deine Dateien belegen 1,5 MB.*entfernt\)/],
+    ['another diagnostic', full, /\(Deine Dateien belegen 1,5 MB[^.]*dazu\)/],
+    ['one over the wire', JSON.stringify(full), /\(Deine Dateien belegen 1,5 MB[^.]*dazu\)/],
     ['what a library said', 'disk quota exceeded', /\(disk quota exceeded\)/],
   ])('a value may be %s', async (_, why, expected) => {
     await setLanguage('de', false)
     const told = { code: 'store_failed', message: 'x', values: { store: 's3://b', why } }
     expect(say(told).message).toMatch(expected)
+  })
+
+  test('the remedy of an inner diagnostic follows the sentence', async () => {
+    await setLanguage('de', false)
+    const told = { code: 'store_failed', message: 'x', values: { store: 's3://b', why: full } }
+    expect(say(told).remedy).toMatch(/^Hochgeladenes wird nach einigen Tagen entfernt\. Versuche/)
   })
 
   test('a code without German, and values of another version, stay English', async () => {

@@ -76,3 +76,14 @@ def test_values_are_texts_on_the_wire():
 
 def test_an_error_of_a_library_has_no_code():
     assert BadInput("no good").diagnostic == Diagnostic("", Severity.ERROR, "no good")
+
+
+def test_the_remedy_of_an_inner_diagnostic_follows_the_sentence():
+    wrong = Code("wrong", "It is wrong.", "Mend it.")
+    outer = Code("outer", "Left out: {why:problem}, so it is smaller.", "Look at it.")
+    assert (
+        str(outer(why=wrong())) == "Left out: It is wrong, so it is smaller. Mend it. Look at it."
+    )
+    several = Code("several", "Not so: {all:reasons}.")
+    both = several(all=[BadInput(wrong()), wrong(), "no rights"])
+    assert str(both) == "Not so: It is wrong; It is wrong; no rights. Mend it."
