@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +16,9 @@ import numpy as np
 import scipy.io
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.core.base.diagnostic import Fix
 from mrlab_ros.core.base.geometry import pose_from_transform
+from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.robots.model import RobotModel
 
 ROOT = Path(__file__).parents[1]
@@ -1061,3 +1063,10 @@ def held_out() -> list[File]:
     files = [f for maker in HELD_OUT for f in maker()]
     assert len({f.name for f in files}) == len(files)
     return files
+
+
+def applied(options: Options, fix: Fix) -> Options:
+    """Return the options with a fix, as a button sets it from its text."""
+    now = getattr(options, fix.option)
+    value = fix.value == "true" if isinstance(now, bool) else type(now)(fix.value or 0)
+    return replace(options, **{fix.option: fix.value if isinstance(now, str) else value})

@@ -72,10 +72,10 @@ def test_it_lists_the_robots_in_the_scene(scene, client):
     assert err == ""
 
 
-# Small batches make the bridge send fragments; the second is as a microcontroller has it.
+# Small batches make the bridge send fragments, and small pieces several answers a file.
 @pytest.mark.parametrize(
     ("name", "sizes"),
-    [("ur5e_1", ()), ("kr3_1", ()), ("kr3_1", ("--batch", "1024", "--piece", "600"))],
+    [("ur5e_1", ()), ("kr3_1", ("--batch", "1024", "--piece", "16000"))],
 )
 def test_it_follows_the_tool_with_what_the_keys_deliver(
     graph, scene, session, client, name, sizes

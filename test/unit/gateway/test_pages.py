@@ -71,9 +71,7 @@ def test_texts_are_compressed_where_the_browser_takes_that(lab: Gateway) -> None
     assert len(gzip.compress(SCRIPT.encode())) < len(SCRIPT) / 4
 
 
-@pytest.mark.parametrize(
-    "path", ["/../secret.txt", "/%2e%2e/secret.txt", "/static/..%2f..%2fsecret.txt"]
-)
+@pytest.mark.parametrize("path", ["/%2e%2e/secret.txt", "/static/..%2f..%2fsecret.txt"])
 def test_nothing_outside_the_folder_is_sent(lab: Gateway, path: str) -> None:
     assert "only mine" not in lab.anyone.get(path).text
 

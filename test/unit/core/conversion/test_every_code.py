@@ -203,11 +203,7 @@ def test_each_fix_leads_to_an_accepted_file_or_the_next_problem(code):
         assert fix.option or fix.matlab or fix.command
         if not fix.option:
             continue
-        options = Options(**example.options)
-        now = getattr(options, fix.option)
-        value = fix.value == "true" if isinstance(now, bool) else type(now)(fix.value or 0)
-        value = fix.value if isinstance(now, str) else value
-        mended = convert(example, replace(options, **{fix.option: value}))
+        mended = convert(example, corpus.applied(Options(**example.options), fix))
         if mended.outcome is not Outcome.ACCEPTED:
             assert mended.diagnostics[0].code != code, (fix, mended.message)
             assert mended.diagnostics[0].fixes

@@ -1,18 +1,13 @@
 """Every refusal carries what mends it: applied, the file is accepted or has another problem."""
 
-from collections.abc import Iterator
-from dataclasses import replace
-
 import converter_corpus as corpus
-import converter_corpus_third as third
 import numpy as np
 import pytest
 from fakes import make_model
 from refusals import said_in
 
 from mrlab_ros.adapters.trajectories.files import load_coefficients
-from mrlab_ros.adapters.workspaces.reader import WorkspaceReader
-from mrlab_ros.core.base.diagnostic import Fix, Severity
+from mrlab_ros.core.base.diagnostic import Severity
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.conversion import convert as conversion_convert
 from mrlab_ros.core.conversion.convert import Outcome
@@ -21,7 +16,6 @@ from mrlab_ros.core.conversion.workspace import Variable, Workspace
 
 COEFFICIENTS = load_coefficients(corpus.ROOT / "config" / "torque_proxy.yaml")
 ARM = make_model(6)  # 6 joints, -3 to 3 rad, 2 rad/s
-MOST_STEPS = 6
 
 
 def var(path, values):
@@ -43,58 +37,6 @@ def convert(*variables, robot=ARM, **options):
 
 def codes(result):
     return [d.code for d in result.diagnostics]
-
-
-def applied(options: Options, fix: Fix) -> Options:
-    """Return the options with a fix, as a button sets it from its text."""
-    now = getattr(options, fix.option)
-    value = fix.value == "true" if isinstance(now, bool) else type(now)(fix.value or 0)
-    return replace(options, **{fix.option: fix.value if isinstance(now, str) else value})
-
-
-@pytest.fixture(scope="module")
-def reader() -> Iterator[WorkspaceReader]:
-    with WorkspaceReader() as reader:
-        yield reader
-
-
-@pytest.mark.slow
-def test_each_fix_leads_to_an_accepted_file_or_the_next_problem(reader):
-    """A chain of first fixes ends accepted, or at what MATLAB alone mends, not in a circle."""
-    stuck, mended = {}, 0
-    for file in [*corpus.build(), *corpus.held_out(), *third.build()]:
-        name = file.name + file.suffix
-        workspace = None
-        options, seen = Options(), set()
-        for _ in range(MOST_STEPS):
-            if workspace is None:
-                try:
-                    workspace = reader.read_bytes(file.data, name)
-                except BadInput as refused:
-                    if not refused.diagnostic.fixes:
-                        stuck[file.name] = f"{refused.diagnostic.code} carries no fix"
-                    break
-            result = conversion_convert.convert(
-                name, lambda w=workspace: w, options, corpus.model(file.robot), COEFFICIENTS
-            )
-            if result.outcome is Outcome.ACCEPTED:
-                mended += options != Options()
-                break
-            worst = result.diagnostics[0]
-            fix = next((f for f in worst.fixes if f.option), None)
-            if fix is None:
-                if not any(f.matlab for f in worst.fixes):
-                    stuck[file.name] = f"{worst.code} carries no fix"
-                break
-            if (worst.code, fix) in seen:
-                stuck[file.name] = f"{fix} does not mend {worst.code}"
-                break
-            seen.add((worst.code, fix))
-            options = applied(options, fix)
-        else:
-            stuck[file.name] = "more than six problems"
-    assert not stuck
-    assert mended > 120
 
 
 Q = motion()
@@ -131,7 +73,7 @@ def test_the_first_fix_is_data(variables, options, fix):
         assert worst.code == "unknown_variable"
         return
     assert (worst.fixes[0].option, worst.fixes[0].value) == fix
-    mended = convert(*variables, **vars(applied(Options(**options), worst.fixes[0])))
+    mended = convert(*variables, **vars(corpus.applied(Options(**options), worst.fixes[0])))
     assert mended.outcome is Outcome.ACCEPTED, mended.message
     np.testing.assert_allclose(mended.trajectory.positions, Q, atol=2e-4)
 

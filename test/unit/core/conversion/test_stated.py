@@ -152,15 +152,9 @@ def test_joints_with_something_around_them_are_matched_by_name(form):
 
 @pytest.mark.parametrize("form", ["velocity.{}", "{}_vel", "effort_{}"])
 def test_other_quantities_of_joints_are_not_positions(form):
-    order = (3, 1, 2, 4, 5, 6)
-    result = table(*(form.format(f"joint_{n}") for n in order))
-    assert "joints_matched" not in codes(result)
-    assert result.outcome is not Outcome.ACCEPTED or result.trajectory.warnings
-
-
-def test_velocities_of_joints_in_order_are_refused():
-    result = table(*(f"velocity.joint_{n + 1}" for n in range(6)))
-    assert result.outcome is not Outcome.ACCEPTED
+    for order in ((3, 1, 2, 4, 5, 6), (1, 2, 3, 4, 5, 6)):
+        result = table(*(form.format(f"joint_{n}") for n in order))
+        assert codes(result) == {"no_trajectory"}
 
 
 def test_degrees_in_headings_out_of_order_are_converted():

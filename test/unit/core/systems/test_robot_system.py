@@ -675,7 +675,7 @@ step = st.tuples(
 )
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=50, deadline=None)
 @given(st.sampled_from(list(Mode)), st.sampled_from(list(Policy)), st.lists(step, max_size=25))
 @example(
     Mode.PARALLEL,
