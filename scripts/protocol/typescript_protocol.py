@@ -132,9 +132,36 @@ def _lower(name: str) -> str:
 def files(root: Path) -> dict[str, str]:
     """Return path -> content of every generated file: what `web/` imports, and what that uses."""
     known = types(root)
-    needs = _closed(_imported(root, known), known)
+    imported = _imported(root, known)
+    same = _same(known)
+    needs = _closed({Need(need.what, same.get(need.of, need.of)) for need in imported}, known)
+    responses = {name: short(same[f"{name}_Response"]) for name in _services(imported, known)}
     packages = sorted({known[need.of].package for need in needs})
-    return {f"{FOLDER}/{package}.ts": _file(package, known, needs) for package in packages}
+    return {
+        f"{FOLDER}/{package}.ts": _file(package, known, needs, responses) for package in packages
+    }
+
+
+def _same(known: dict[str, Type]) -> dict[str, str]:
+    """Return response -> the response whose interface and codec it shares: the fields are equal.
+
+    Of equal responses the one stands for all whose request has the fewest fields.
+    """
+    groups: dict[tuple[str, tuple[Field, ...]], list[str]] = {}
+    for name, each in known.items():
+        if name.endswith("_Response"):
+            groups.setdefault((each.package, each.fields), []).append(name)
+
+    def size(name: str) -> tuple[int, str]:
+        return len(known[name.replace("_Response", "_Request")].fields), name
+
+    return {name: min(group, key=size) for group in groups.values() for name in group}
+
+
+def _services(needs: set[Need], known: dict[str, Type]) -> list[str]:
+    """Return the services that are called, such as mrlab_msgs/msg/Seek."""
+    requests = {need.of for need in needs if need.what == "writer" and known[need.of].is_half}
+    return sorted(name.removesuffix("_Request") for name in requests)
 
 
 def codecs(root: Path) -> list[str]:
@@ -223,17 +250,18 @@ def _closed(needs: set[Need], known: dict[str, Type]) -> set[Need]:
     return found
 
 
-def _file(package: str, known: dict[str, Type], needs: set[Need]) -> str:
+def _file(
+    package: str, known: dict[str, Type], needs: set[Need], responses: dict[str, str]
+) -> str:
+    """Return the file of a package. responses: service -> the interface of its response."""
     own = sorted({need.of for need in needs if known[need.of].package == package})
     blocks = [_type(known[name], {need.what for need in needs if need.of == name}) for name in own]
-    services = sorted(
-        known[name].ros_name.removesuffix("_Request")
-        for name in own
-        if name.endswith("_Request") and Need("writer", name) in needs
-    )
-    body = "\n".join(
-        line for block in [*blocks, *map(_service, services)] for line in ("", *block)
-    )
+    blocks += [
+        list(_service(known[f"{name}_Request"], response))
+        for name, response in responses.items()
+        if known[f"{name}_Request"].package == package
+    ]
+    body = "\n".join(line for block in blocks for line in ("", *block))
     return NOTE + "\n" + "".join(_imports(package, known, needs, body)) + body + "\n"
 
 
@@ -336,14 +364,14 @@ def _writer(each: Type) -> Iterator[str]:
     yield ")"
 
 
-def _service(name: str) -> Iterator[str]:
-    kind = name.split("/")[-1]
-    generic = f"ServiceType<{kind}Request, {kind}Response>"
+def _service(request: Type, response: str) -> Iterator[str]:
+    kind = request.short.removesuffix("Request")
+    generic = f"ServiceType<{request.short}, {response}>"
     yield f"export const {_lower(kind)}Type: {generic} = /* @__PURE__ */ serviceType("
-    yield f"  '{name}',"
-    yield f"  write{kind}Request,"
-    yield f"  create{kind}Response,"
-    yield f"  read{kind}Response,"
+    yield f"  '{request.ros_name.removesuffix('_Request')}',"
+    yield f"  write{request.short},"
+    yield f"  create{response},"
+    yield f"  read{response},"
     yield ")"
 
 

@@ -19,34 +19,6 @@ export function writeAttachRequest(to: CdrWriter, message: AttachRequest): void 
   to.string(message.object)
 }
 
-/** mrlab_msgs/srv/Attach_Response */
-export interface AttachResponse {
-  /** false: nothing was changed */
-  success: boolean
-  /** why not, or what was done */
-  message: string
-  /** what it is, for programs; docs/diagnostics.md lists the codes */
-  code: string
-  /** values of that text by name; a text as it is, all else as JSON */
-  values: KeyValue[]
-}
-
-export function createAttachResponse(): AttachResponse {
-  return {
-    success: false,
-    message: '',
-    code: '',
-    values: [],
-  }
-}
-
-export function readAttachResponse(from: CdrReader, into: AttachResponse): void {
-  into.success = from.bool()
-  into.message = from.string(into.message)
-  into.code = from.string(into.code)
-  into.values = from.messages(into.values, createKeyValue, readKeyValue)
-}
-
 /** mrlab_msgs/msg/Candidate: A matrix in a workspace file that could be the trajectory. */
 export interface Candidate {
   /** its path, written as in MATLAB, such as out.q.signals.values */
@@ -396,34 +368,6 @@ export interface DetachRequest {
 
 export function writeDetachRequest(to: CdrWriter, message: DetachRequest): void {
   to.string(message.robot)
-}
-
-/** mrlab_msgs/srv/Detach_Response */
-export interface DetachResponse {
-  /** false: nothing was changed */
-  success: boolean
-  /** why not, or what was done */
-  message: string
-  /** what it is, for programs; docs/diagnostics.md lists the codes */
-  code: string
-  /** values of that text by name; a text as it is, all else as JSON */
-  values: KeyValue[]
-}
-
-export function createDetachResponse(): DetachResponse {
-  return {
-    success: false,
-    message: '',
-    code: '',
-    values: [],
-  }
-}
-
-export function readDetachResponse(from: CdrReader, into: DetachResponse): void {
-  into.success = from.bool()
-  into.message = from.string(into.message)
-  into.code = from.string(into.code)
-  into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
 /** mrlab_msgs/msg/Diagnostic: One finding about a workspace file, a trajectory or a robot, for a person to act on. docs/diagnostics.md lists every code. */
@@ -830,34 +774,6 @@ export function writeLoadTrajectoryRequest(to: CdrWriter, message: LoadTrajector
   to.string(message.id)
 }
 
-/** mrlab_msgs/srv/LoadTrajectory_Response */
-export interface LoadTrajectoryResponse {
-  /** false: nothing was changed */
-  success: boolean
-  /** why not, or what was done */
-  message: string
-  /** what it is, for programs; docs/diagnostics.md lists the codes */
-  code: string
-  /** values of that text by name; a text as it is, all else as JSON */
-  values: KeyValue[]
-}
-
-export function createLoadTrajectoryResponse(): LoadTrajectoryResponse {
-  return {
-    success: false,
-    message: '',
-    code: '',
-    values: [],
-  }
-}
-
-export function readLoadTrajectoryResponse(from: CdrReader, into: LoadTrajectoryResponse): void {
-  into.success = from.bool()
-  into.message = from.string(into.message)
-  into.code = from.string(into.code)
-  into.values = from.messages(into.values, createKeyValue, readKeyValue)
-}
-
 /** mrlab_msgs/srv/MoveObject_Request: Move an object by hand. */
 export interface MoveObjectRequest {
   name: string
@@ -874,34 +790,6 @@ export function writeMoveObjectRequest(to: CdrWriter, message: MoveObjectRequest
   writePose(to, message.pose)
   writeTwist(to, message.twist)
   to.bool(message.held)
-}
-
-/** mrlab_msgs/srv/MoveObject_Response */
-export interface MoveObjectResponse {
-  /** false: nothing was changed */
-  success: boolean
-  /** why not, or what was done */
-  message: string
-  /** what it is, for programs; docs/diagnostics.md lists the codes */
-  code: string
-  /** values of that text by name; a text as it is, all else as JSON */
-  values: KeyValue[]
-}
-
-export function createMoveObjectResponse(): MoveObjectResponse {
-  return {
-    success: false,
-    message: '',
-    code: '',
-    values: [],
-  }
-}
-
-export function readMoveObjectResponse(from: CdrReader, into: MoveObjectResponse): void {
-  into.success = from.bool()
-  into.message = from.string(into.message)
-  into.code = from.string(into.code)
-  into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
 /** mrlab_msgs/msg/ObjectRemoved: An object that the lab itself took out of the scene. Removals by request are not announced. */
@@ -994,34 +882,6 @@ export interface PlaceRobotRequest {
 export function writePlaceRobotRequest(to: CdrWriter, message: PlaceRobotRequest): void {
   to.string(message.robot)
   writePose(to, message.pose)
-}
-
-/** mrlab_msgs/srv/PlaceRobot_Response */
-export interface PlaceRobotResponse {
-  /** false: nothing was changed */
-  success: boolean
-  /** why not, or what was done */
-  message: string
-  /** what it is, for programs; docs/diagnostics.md lists the codes */
-  code: string
-  /** values of that text by name; a text as it is, all else as JSON */
-  values: KeyValue[]
-}
-
-export function createPlaceRobotResponse(): PlaceRobotResponse {
-  return {
-    success: false,
-    message: '',
-    code: '',
-    values: [],
-  }
-}
-
-export function readPlaceRobotResponse(from: CdrReader, into: PlaceRobotResponse): void {
-  into.success = from.bool()
-  into.message = from.string(into.message)
-  into.code = from.string(into.code)
-  into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
 /** mrlab_msgs/msg/PlaybackClock: The clock of a trajectory: position(t) = position + rate * (t - stamp). A client that holds the trajectory computes the pose at any instant from it. */
@@ -1345,34 +1205,6 @@ export function writeRemoveRequest(to: CdrWriter, message: RemoveRequest): void 
   to.string(message.name)
 }
 
-/** mrlab_msgs/srv/Remove_Response */
-export interface RemoveResponse {
-  /** false: nothing was changed */
-  success: boolean
-  /** why not, or what was done */
-  message: string
-  /** what it is, for programs; docs/diagnostics.md lists the codes */
-  code: string
-  /** values of that text by name; a text as it is, all else as JSON */
-  values: KeyValue[]
-}
-
-export function createRemoveResponse(): RemoveResponse {
-  return {
-    success: false,
-    message: '',
-    code: '',
-    values: [],
-  }
-}
-
-export function readRemoveResponse(from: CdrReader, into: RemoveResponse): void {
-  into.success = from.bool()
-  into.message = from.string(into.message)
-  into.code = from.string(into.code)
-  into.values = from.messages(into.values, createKeyValue, readKeyValue)
-}
-
 /** mrlab_msgs/srv/Replay_Request: Replay a bag into the graph. */
 export interface ReplayRequest {
   /** folder of the bag */
@@ -1389,34 +1221,6 @@ export function writeReplayRequest(to: CdrWriter, message: ReplayRequest): void 
   to.float64(message.rate)
   to.float64(message.start)
   to.bool(message.loop)
-}
-
-/** mrlab_msgs/srv/Replay_Response */
-export interface ReplayResponse {
-  /** false: nothing was changed */
-  success: boolean
-  /** why not, or what was done */
-  message: string
-  /** what it is, for programs; docs/diagnostics.md lists the codes */
-  code: string
-  /** values of that text by name; a text as it is, all else as JSON */
-  values: KeyValue[]
-}
-
-export function createReplayResponse(): ReplayResponse {
-  return {
-    success: false,
-    message: '',
-    code: '',
-    values: [],
-  }
-}
-
-export function readReplayResponse(from: CdrReader, into: ReplayResponse): void {
-  into.success = from.bool()
-  into.message = from.string(into.message)
-  into.code = from.string(into.code)
-  into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
 /** mrlab_msgs/msg/Robot: One robot in the scene. */
@@ -1606,34 +1410,6 @@ export function writeSceneFileRequest(to: CdrWriter, message: SceneFileRequest):
   to.string(message.name)
 }
 
-/** mrlab_msgs/srv/SceneFile_Response */
-export interface SceneFileResponse {
-  /** false: nothing was changed, unless message names what was */
-  success: boolean
-  /** what was done and what is left out, or why not */
-  message: string
-  /** what it is, for programs; docs/diagnostics.md lists the codes */
-  code: string
-  /** values of that text by name; a text as it is, all else as JSON */
-  values: KeyValue[]
-}
-
-export function createSceneFileResponse(): SceneFileResponse {
-  return {
-    success: false,
-    message: '',
-    code: '',
-    values: [],
-  }
-}
-
-export function readSceneFileResponse(from: CdrReader, into: SceneFileResponse): void {
-  into.success = from.bool()
-  into.message = from.string(into.message)
-  into.code = from.string(into.code)
-  into.values = from.messages(into.values, createKeyValue, readKeyValue)
-}
-
 /** mrlab_msgs/msg/SceneObject: One movable or fixed thing in the scene. */
 export interface SceneObject {
   /** unique in the scene, such as cube_1 */
@@ -1724,34 +1500,6 @@ export function writeSeekRequest(to: CdrWriter, message: SeekRequest): void {
   to.float64(message.position)
 }
 
-/** mrlab_msgs/srv/Seek_Response */
-export interface SeekResponse {
-  /** false: nothing was changed */
-  success: boolean
-  /** why not, or what was done */
-  message: string
-  /** what it is, for programs; docs/diagnostics.md lists the codes */
-  code: string
-  /** values of that text by name; a text as it is, all else as JSON */
-  values: KeyValue[]
-}
-
-export function createSeekResponse(): SeekResponse {
-  return {
-    success: false,
-    message: '',
-    code: '',
-    values: [],
-  }
-}
-
-export function readSeekResponse(from: CdrReader, into: SeekResponse): void {
-  into.success = from.bool()
-  into.message = from.string(into.message)
-  into.code = from.string(into.code)
-  into.values = from.messages(into.values, createKeyValue, readKeyValue)
-}
-
 /** mrlab_msgs/srv/SetEndEffector_Request: Exchange a robot's end effector. */
 export interface SetEndEffectorRequest {
   robot: string
@@ -1764,34 +1512,6 @@ export function writeSetEndEffectorRequest(to: CdrWriter, message: SetEndEffecto
   to.string(message.end_effector)
 }
 
-/** mrlab_msgs/srv/SetEndEffector_Response */
-export interface SetEndEffectorResponse {
-  /** false: nothing was changed */
-  success: boolean
-  /** why not, or what was done */
-  message: string
-  /** what it is, for programs; docs/diagnostics.md lists the codes */
-  code: string
-  /** values of that text by name; a text as it is, all else as JSON */
-  values: KeyValue[]
-}
-
-export function createSetEndEffectorResponse(): SetEndEffectorResponse {
-  return {
-    success: false,
-    message: '',
-    code: '',
-    values: [],
-  }
-}
-
-export function readSetEndEffectorResponse(from: CdrReader, into: SetEndEffectorResponse): void {
-  into.success = from.bool()
-  into.message = from.string(into.message)
-  into.code = from.string(into.code)
-  into.values = from.messages(into.values, createKeyValue, readKeyValue)
-}
-
 /** mrlab_msgs/srv/SetLoop_Request: Play or replay again and again, or once. */
 export interface SetLoopRequest {
   /** true: starts over after the last frame */
@@ -1800,34 +1520,6 @@ export interface SetLoopRequest {
 
 export function writeSetLoopRequest(to: CdrWriter, message: SetLoopRequest): void {
   to.bool(message.loop)
-}
-
-/** mrlab_msgs/srv/SetLoop_Response */
-export interface SetLoopResponse {
-  /** false: nothing was changed */
-  success: boolean
-  /** why not, or what was done */
-  message: string
-  /** what it is, for programs; docs/diagnostics.md lists the codes */
-  code: string
-  /** values of that text by name; a text as it is, all else as JSON */
-  values: KeyValue[]
-}
-
-export function createSetLoopResponse(): SetLoopResponse {
-  return {
-    success: false,
-    message: '',
-    code: '',
-    values: [],
-  }
-}
-
-export function readSetLoopResponse(from: CdrReader, into: SetLoopResponse): void {
-  into.success = from.bool()
-  into.message = from.string(into.message)
-  into.code = from.string(into.code)
-  into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
 /** mrlab_msgs/srv/SetMode_Request: Set how a robot system plays. */
@@ -1840,34 +1532,6 @@ export function writeSetModeRequest(to: CdrWriter, message: SetModeRequest): voi
   to.uint8(message.mode)
 }
 
-/** mrlab_msgs/srv/SetMode_Response */
-export interface SetModeResponse {
-  /** false: nothing was changed */
-  success: boolean
-  /** why not, or what was done */
-  message: string
-  /** what it is, for programs; docs/diagnostics.md lists the codes */
-  code: string
-  /** values of that text by name; a text as it is, all else as JSON */
-  values: KeyValue[]
-}
-
-export function createSetModeResponse(): SetModeResponse {
-  return {
-    success: false,
-    message: '',
-    code: '',
-    values: [],
-  }
-}
-
-export function readSetModeResponse(from: CdrReader, into: SetModeResponse): void {
-  into.success = from.bool()
-  into.message = from.string(into.message)
-  into.code = from.string(into.code)
-  into.values = from.messages(into.values, createKeyValue, readKeyValue)
-}
-
 /** mrlab_msgs/srv/SetRate_Request: Set the speed of playback. */
 export interface SetRateRequest {
   /** 0.1 to 4, or -0.1 to -4: backwards; 1 is the declared speed */
@@ -1876,34 +1540,6 @@ export interface SetRateRequest {
 
 export function writeSetRateRequest(to: CdrWriter, message: SetRateRequest): void {
   to.float64(message.rate)
-}
-
-/** mrlab_msgs/srv/SetRate_Response */
-export interface SetRateResponse {
-  /** false: nothing was changed */
-  success: boolean
-  /** why not, or what was done */
-  message: string
-  /** what it is, for programs; docs/diagnostics.md lists the codes */
-  code: string
-  /** values of that text by name; a text as it is, all else as JSON */
-  values: KeyValue[]
-}
-
-export function createSetRateResponse(): SetRateResponse {
-  return {
-    success: false,
-    message: '',
-    code: '',
-    values: [],
-  }
-}
-
-export function readSetRateResponse(from: CdrReader, into: SetRateResponse): void {
-  into.success = from.bool()
-  into.message = from.string(into.message)
-  into.code = from.string(into.code)
-  into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
 /** mrlab_msgs/srv/SetSurfaces_Request: Replace the surfaces of the room, or those of one source. */
@@ -1916,34 +1552,6 @@ export interface SetSurfacesRequest {
 export function writeSetSurfacesRequest(to: CdrWriter, message: SetSurfacesRequest): void {
   to.string(message.source)
   to.messages(message.surfaces, writeSurface)
-}
-
-/** mrlab_msgs/srv/SetSurfaces_Response */
-export interface SetSurfacesResponse {
-  /** false: nothing was changed */
-  success: boolean
-  /** why not, or what was done */
-  message: string
-  /** what it is, for programs; docs/diagnostics.md lists the codes */
-  code: string
-  /** values of that text by name; a text as it is, all else as JSON */
-  values: KeyValue[]
-}
-
-export function createSetSurfacesResponse(): SetSurfacesResponse {
-  return {
-    success: false,
-    message: '',
-    code: '',
-    values: [],
-  }
-}
-
-export function readSetSurfacesResponse(from: CdrReader, into: SetSurfacesResponse): void {
-  into.success = from.bool()
-  into.message = from.string(into.message)
-  into.code = from.string(into.code)
-  into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
 /** mrlab_msgs/srv/SpawnObject_Request: Put an object into the scene. */
@@ -2471,11 +2079,11 @@ export function readTriggerResponse(from: CdrReader, into: TriggerResponse): voi
   into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
-export const attachType: ServiceType<AttachRequest, AttachResponse> = /* @__PURE__ */ serviceType(
+export const attachType: ServiceType<AttachRequest, TriggerResponse> = /* @__PURE__ */ serviceType(
   'mrlab_msgs/srv/Attach',
   writeAttachRequest,
-  createAttachResponse,
-  readAttachResponse,
+  createTriggerResponse,
+  readTriggerResponse,
 )
 
 export const convertTrajectoryType: ServiceType<ConvertTrajectoryRequest, ConvertTrajectoryResponse> = /* @__PURE__ */ serviceType(
@@ -2492,11 +2100,11 @@ export const createSystemType: ServiceType<CreateSystemRequest, CreateSystemResp
   readCreateSystemResponse,
 )
 
-export const detachType: ServiceType<DetachRequest, DetachResponse> = /* @__PURE__ */ serviceType(
+export const detachType: ServiceType<DetachRequest, TriggerResponse> = /* @__PURE__ */ serviceType(
   'mrlab_msgs/srv/Detach',
   writeDetachRequest,
-  createDetachResponse,
-  readDetachResponse,
+  createTriggerResponse,
+  readTriggerResponse,
 )
 
 export const listBagsType: ServiceType<ListBagsRequest, ListBagsResponse> = /* @__PURE__ */ serviceType(
@@ -2520,88 +2128,88 @@ export const listScenesType: ServiceType<ListScenesRequest, ListScenesResponse> 
   readListScenesResponse,
 )
 
-export const loadTrajectoryType: ServiceType<LoadTrajectoryRequest, LoadTrajectoryResponse> = /* @__PURE__ */ serviceType(
+export const loadTrajectoryType: ServiceType<LoadTrajectoryRequest, TriggerResponse> = /* @__PURE__ */ serviceType(
   'mrlab_msgs/srv/LoadTrajectory',
   writeLoadTrajectoryRequest,
-  createLoadTrajectoryResponse,
-  readLoadTrajectoryResponse,
+  createTriggerResponse,
+  readTriggerResponse,
 )
 
-export const moveObjectType: ServiceType<MoveObjectRequest, MoveObjectResponse> = /* @__PURE__ */ serviceType(
+export const moveObjectType: ServiceType<MoveObjectRequest, TriggerResponse> = /* @__PURE__ */ serviceType(
   'mrlab_msgs/srv/MoveObject',
   writeMoveObjectRequest,
-  createMoveObjectResponse,
-  readMoveObjectResponse,
+  createTriggerResponse,
+  readTriggerResponse,
 )
 
-export const placeRobotType: ServiceType<PlaceRobotRequest, PlaceRobotResponse> = /* @__PURE__ */ serviceType(
+export const placeRobotType: ServiceType<PlaceRobotRequest, TriggerResponse> = /* @__PURE__ */ serviceType(
   'mrlab_msgs/srv/PlaceRobot',
   writePlaceRobotRequest,
-  createPlaceRobotResponse,
-  readPlaceRobotResponse,
+  createTriggerResponse,
+  readTriggerResponse,
 )
 
-export const removeType: ServiceType<RemoveRequest, RemoveResponse> = /* @__PURE__ */ serviceType(
+export const removeType: ServiceType<RemoveRequest, TriggerResponse> = /* @__PURE__ */ serviceType(
   'mrlab_msgs/srv/Remove',
   writeRemoveRequest,
-  createRemoveResponse,
-  readRemoveResponse,
+  createTriggerResponse,
+  readTriggerResponse,
 )
 
-export const replayType: ServiceType<ReplayRequest, ReplayResponse> = /* @__PURE__ */ serviceType(
+export const replayType: ServiceType<ReplayRequest, TriggerResponse> = /* @__PURE__ */ serviceType(
   'mrlab_msgs/srv/Replay',
   writeReplayRequest,
-  createReplayResponse,
-  readReplayResponse,
+  createTriggerResponse,
+  readTriggerResponse,
 )
 
-export const sceneFileType: ServiceType<SceneFileRequest, SceneFileResponse> = /* @__PURE__ */ serviceType(
+export const sceneFileType: ServiceType<SceneFileRequest, TriggerResponse> = /* @__PURE__ */ serviceType(
   'mrlab_msgs/srv/SceneFile',
   writeSceneFileRequest,
-  createSceneFileResponse,
-  readSceneFileResponse,
+  createTriggerResponse,
+  readTriggerResponse,
 )
 
-export const seekType: ServiceType<SeekRequest, SeekResponse> = /* @__PURE__ */ serviceType(
+export const seekType: ServiceType<SeekRequest, TriggerResponse> = /* @__PURE__ */ serviceType(
   'mrlab_msgs/srv/Seek',
   writeSeekRequest,
-  createSeekResponse,
-  readSeekResponse,
+  createTriggerResponse,
+  readTriggerResponse,
 )
 
-export const setEndEffectorType: ServiceType<SetEndEffectorRequest, SetEndEffectorResponse> = /* @__PURE__ */ serviceType(
+export const setEndEffectorType: ServiceType<SetEndEffectorRequest, TriggerResponse> = /* @__PURE__ */ serviceType(
   'mrlab_msgs/srv/SetEndEffector',
   writeSetEndEffectorRequest,
-  createSetEndEffectorResponse,
-  readSetEndEffectorResponse,
+  createTriggerResponse,
+  readTriggerResponse,
 )
 
-export const setLoopType: ServiceType<SetLoopRequest, SetLoopResponse> = /* @__PURE__ */ serviceType(
+export const setLoopType: ServiceType<SetLoopRequest, TriggerResponse> = /* @__PURE__ */ serviceType(
   'mrlab_msgs/srv/SetLoop',
   writeSetLoopRequest,
-  createSetLoopResponse,
-  readSetLoopResponse,
+  createTriggerResponse,
+  readTriggerResponse,
 )
 
-export const setModeType: ServiceType<SetModeRequest, SetModeResponse> = /* @__PURE__ */ serviceType(
+export const setModeType: ServiceType<SetModeRequest, TriggerResponse> = /* @__PURE__ */ serviceType(
   'mrlab_msgs/srv/SetMode',
   writeSetModeRequest,
-  createSetModeResponse,
-  readSetModeResponse,
+  createTriggerResponse,
+  readTriggerResponse,
 )
 
-export const setRateType: ServiceType<SetRateRequest, SetRateResponse> = /* @__PURE__ */ serviceType(
+export const setRateType: ServiceType<SetRateRequest, TriggerResponse> = /* @__PURE__ */ serviceType(
   'mrlab_msgs/srv/SetRate',
   writeSetRateRequest,
-  createSetRateResponse,
-  readSetRateResponse,
+  createTriggerResponse,
+  readTriggerResponse,
 )
 
-export const setSurfacesType: ServiceType<SetSurfacesRequest, SetSurfacesResponse> = /* @__PURE__ */ serviceType(
+export const setSurfacesType: ServiceType<SetSurfacesRequest, TriggerResponse> = /* @__PURE__ */ serviceType(
   'mrlab_msgs/srv/SetSurfaces',
   writeSetSurfacesRequest,
-  createSetSurfacesResponse,
-  readSetSurfacesResponse,
+  createTriggerResponse,
+  readTriggerResponse,
 )
 
 export const spawnObjectType: ServiceType<SpawnObjectRequest, SpawnObjectResponse> = /* @__PURE__ */ serviceType(
