@@ -5,6 +5,12 @@ export const RATES = [0.1, 0.25, 0.5, 1, 2, 4] as const
 /** The same backwards; a bag is replayed forwards alone. */
 export const BACKWARD_RATES = [-0.25, -0.5, -1, -2, -4] as const
 
+/** Return the next faster or slower of the chosen speeds; step: 1 or -1. */
+export function rateAfter(rate: number, step: number): number {
+  const index = RATES.findIndex((each) => each >= rate - 1e-9)
+  return RATES[Math.min(Math.max(index + step, 0), RATES.length - 1)] ?? rate
+}
+
 /** A player with a timeline: of a live robot, a bag or a motion. */
 export interface Player {
   readonly kind: 'live' | 'bag' | 'motion'

@@ -1,7 +1,7 @@
 import { fits } from '../../lab/catalogue'
 import { order } from '../../lab/commands'
 import type { RobotView } from '../../lab/followed_robot'
-import { RATES } from '../../playback/player'
+import { rateAfter } from '../../playback/player'
 import {
   attachType,
   detachType,
@@ -11,6 +11,7 @@ import {
   triggerType,
 } from '../../protocol/mrlab_msgs'
 import { fixed } from '../../words/words'
+import { Notice } from '../panels/notice'
 import { type Choice, PagedList } from '../panels/paged_list'
 import type { Surroundings } from '../panels/panel'
 import { Panel } from '../panels/panel'
@@ -28,7 +29,6 @@ const EDGE = 26
 const TRACK: Track = { x: EDGE, y: 200, width: WIDTH - 2 * EDGE, height: HIT }
 /** s between two paintings of how far a robot is from its ghost. */
 const COMPARE_PERIOD = 0.5
-const NOTICE_S = 8
 
 /** Everything that a robot's panel needs of the room. */
 type ControlPorts = Speech & Lab & Catalogue & Surroundings & Checks
@@ -42,10 +42,9 @@ export class ControlPanel {
   /** Places on the timeline, s, at which it collided. */
   readonly collisions: number[] = []
   private view: View = 'control'
-  private notice = ''
-  private noticedAt = 0
+  private readonly notice = new Notice(() => this.panel.repaint())
+  private readonly lab: Lab
   private paintedAt = 0
-  private now = 0
   private robot: RobotView
   private readonly list = new PagedList()
   private readonly timeline: Timeline
@@ -70,10 +69,11 @@ export class ControlPanel {
   ) {
     this.robot = robot
     this.panel = new Panel(WIDTH, HEIGHT, (pen) => this.draw(pen), ports)
+    this.lab = { link: ports.link, say: this.notice.say }
     const rowAt = (position: number) => this.rowAt(position)
     const stir = () => ports.stir()
     this.timeline = new Timeline(this.panel.group, WIDTH, HEIGHT, TRACK, rowAt, stir)
-    this.check = new PanelCheck(ports, this.name, () => this.panel.repaint(), this.say)
+    this.check = new PanelCheck(ports, this.name, () => this.panel.repaint(), this.notice.say)
     this.check.follow(robot)
   }
 
@@ -107,11 +107,7 @@ export class ControlPanel {
 
   /** Before each picture. now: s. */
   update(now: number): void {
-    this.now = now
-    if (this.notice !== '' && now - this.noticedAt > NOTICE_S) {
-      this.notice = ''
-      this.panel.repaint()
-    }
+    this.notice.update(now)
     const { player } = this.robot
     const shown = this.view === 'control' && this.loaded
     this.timeline.update(shown ? player : null, now)
@@ -137,19 +133,12 @@ export class ControlPanel {
     return (this.robot.playback?.frame_count ?? 0) > 0
   }
 
-  private readonly say = (text: string): void => {
-    this.notice = text
-    this.noticedAt = this.now
-    this.panel.repaint()
-  }
-
   private trigger(verb: string): void {
-    order({ link: this.ports.link, say: this.say }, `${this.name}/${verb}`, triggerType, {})
+    order(this.lab, `${this.name}/${verb}`, triggerType, {})
   }
 
   private remove(): void {
-    const teller = { link: this.ports.link, say: this.say }
-    order(teller, 'lab/remove_robot', removeType, { name: this.name })
+    order(this.lab, 'lab/remove_robot', removeType, { name: this.name })
   }
 
   private draw(pen: Pen): void {
@@ -170,7 +159,12 @@ export class ControlPanel {
   private drawControl(pen: Pen): void {
     const { ports, robot, notice, loaded, telemetry } = this
     const checked = loaded && robot.state !== 'COLLISION_HALT'
-    const shown = { notice, loaded, telemetry, beside: checked ? CHECK_WIDTH + 16 : 0 }
+    const shown = {
+      notice: notice.text,
+      loaded,
+      telemetry,
+      beside: checked ? CHECK_WIDTH + 16 : 0,
+    }
     if (checked) this.check.drawVerdict(pen, WIDTH - EDGE, () => this.open('check'))
     drawStatus(pen, EDGE, ports, robot, shown)
     if (loaded) this.timeline.draw(pen, robot.player, this.marks())
@@ -179,17 +173,15 @@ export class ControlPanel {
 
   /** Detach the object that the gripper holds, or attach the one nearest to its fingers. */
   private useHand(): void {
-    const { link } = this.ports
     const { holding } = this.robot
     const robot = this.name
-    const teller = { link, say: this.say }
     if (holding !== '') {
-      order(teller, 'physics/detach', detachType, { robot })
+      order(this.lab, 'physics/detach', detachType, { robot })
       return
     }
     const object = this.objectAt(robot)
-    if (object === '') this.say(this.ports.words.room.nothingNear)
-    else order(teller, 'physics/attach', attachType, { robot, object })
+    if (object === '') this.notice.say(this.ports.words.room.nothingNear)
+    else order(this.lab, 'physics/attach', attachType, { robot, object })
   }
 
   private drawShow(pen: Pen): void {
@@ -240,9 +232,7 @@ export class ControlPanel {
 
   private changeRate(step: number): void {
     const { player } = this.robot
-    const index = RATES.findIndex((rate) => rate >= player.rate - 1e-9)
-    const next = RATES[Math.min(Math.max(index + step, 0), RATES.length - 1)]
-    if (next !== undefined) player.setRate(next)
+    player.setRate(rateAfter(player.rate, step))
   }
 
   private drawMotions(pen: Pen): void {
@@ -254,8 +244,7 @@ export class ControlPanel {
       pen,
       fit.map(({ id, duration }) => ({ id, words: id, note: `${fixed(duration, 1)} s` })),
       (id) => {
-        const { link } = this.ports
-        order({ link, say: this.say }, `${this.name}/load`, loadTrajectoryType, { id })
+        order(this.lab, `${this.name}/load`, loadTrajectoryType, { id })
       },
     )
   }
@@ -266,8 +255,7 @@ export class ControlPanel {
     const all = this.ports.endEffectors.map(({ id, name }) => ({ id, words: name, note: id }))
     this.drawList(pen, [none, ...all], (id) => {
       const request = { robot: this.name, end_effector: id }
-      const { link } = this.ports
-      order({ link, say: this.say }, 'lab/set_end_effector', setEndEffectorType, request)
+      order(this.lab, 'lab/set_end_effector', setEndEffectorType, request)
     })
   }
 

@@ -1,9 +1,10 @@
 import { STATE_NAMES, type StateName } from '../../design/tokens'
 import { order } from '../../lab/commands'
 import type { SystemView } from '../../lab/follower'
-import { RATES } from '../../playback/player'
+import { rateAfter } from '../../playback/player'
 import { RobotSystem, removeType, setModeType, triggerType } from '../../protocol/mrlab_msgs'
 import { spoken } from '../../words/diagnostic'
+import { Notice } from '../panels/notice'
 import { PagedList } from '../panels/paged_list'
 import type { Surroundings } from '../panels/panel'
 import { Panel } from '../panels/panel'
@@ -22,7 +23,6 @@ const BAR = 10
 const LABELLED = 30
 const TRACK: Track = { x: EDGE, y: 248, width: WIDE, height: HIT }
 const ROW = 340
-const NOTICE_S = 8
 const MOVING: ReadonlySet<number> = new Set([RobotSystem.STAGING, RobotSystem.PLAYING])
 
 /** Everything that a system's panel needs of the room. */
@@ -42,9 +42,8 @@ export class SystemPanel {
   private view: View = 'control'
   /** The member to be taken out; empty: the system is to be dissolved. */
   private leaving = ''
-  private notice = ''
-  private noticedAt = 0
-  private now = 0
+  private readonly notice = new Notice(() => this.panel.repaint())
+  private readonly lab: Lab
   private shown: SystemView
   private readonly list = new PagedList()
   private readonly timeline: Timeline
@@ -55,6 +54,7 @@ export class SystemPanel {
   ) {
     this.shown = shown
     this.panel = new Panel(WIDTH, HEIGHT, (pen) => this.draw(pen), ports)
+    this.lab = { link: ports.link, say: this.notice.say }
     const { group } = this.panel
     const stir = () => ports.stir()
     this.timeline = new Timeline(group, WIDTH, HEIGHT, TRACK, () => '', stir)
@@ -76,11 +76,7 @@ export class SystemPanel {
 
   /** Before each picture. now: s. */
   update(now: number): void {
-    this.now = now
-    if (this.notice !== '' && now - this.noticedAt > NOTICE_S) {
-      this.notice = ''
-      this.panel.repaint()
-    }
+    this.notice.update(now)
     const { player } = this.shown
     const control = this.view === 'control'
     this.timeline.update(control ? player : null, now)
@@ -92,14 +88,8 @@ export class SystemPanel {
     this.timeline.dispose()
   }
 
-  private readonly say = (text: string): void => {
-    this.notice = text
-    this.noticedAt = this.now
-    this.panel.repaint()
-  }
-
   private trigger(verb: string): void {
-    order({ link: this.ports.link, say: this.say }, `${this.name}/${verb}`, triggerType, {})
+    order(this.lab, `${this.name}/${verb}`, triggerType, {})
   }
 
   private open(view: View): void {
@@ -124,8 +114,8 @@ export class SystemPanel {
     const w = this.ports.words.room
     const { parallel, sequential } = this.ports.words.lab
     const sequence = system.mode === RobotSystem.SEQUENTIAL
-    const about = this.notice || spoken(system) || w.members(system.members.length)
-    const ink = this.notice ? PANEL_THEME.states.PAUSED : 'second'
+    const about = this.notice.text || spoken(system) || w.members(system.members.length)
+    const ink = this.notice.text ? PANEL_THEME.states.PAUSED : 'second'
     pen.lines(EDGE, 80, about, TEXT.small, undefined, ink, 2)
     for (const segment of segmentsOf(system.members, system.duration))
       this.drawSegment(pen, segment)
@@ -149,8 +139,7 @@ export class SystemPanel {
     const half = (WIDE - GAP) / 2
     const second = ROW + HIT + GAP
     const set = (mode: number) => () => {
-      const { link } = this.ports
-      order({ link, say: this.say }, `${this.name}/set_mode`, setModeType, { mode })
+      order(this.lab, `${this.name}/set_mode`, setModeType, { mode })
     }
     pen.button('parallel', EDGE, second, half, parallel, set(RobotSystem.PARALLEL), {
       chosen: !sequence,
@@ -210,9 +199,8 @@ export class SystemPanel {
       half,
       w.dissolve,
       () => {
-        const { link } = this.ports
         const request = { name: this.name }
-        order({ link, say: this.say }, 'coordinator/dissolve_system', removeType, request)
+        order(this.lab, 'coordinator/dissolve_system', removeType, request)
         this.open('control')
       },
       { primary: true },
@@ -222,8 +210,6 @@ export class SystemPanel {
 
   private changeRate(step: number): void {
     const { player } = this.shown
-    const index = RATES.findIndex((rate) => rate >= player.rate - 1e-9)
-    const next = RATES[Math.min(Math.max(index + step, 0), RATES.length - 1)]
-    if (next !== undefined) player.setRate(next)
+    player.setRate(rateAfter(player.rate, step))
   }
 }
