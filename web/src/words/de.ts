@@ -4,9 +4,9 @@ import type { Templates } from './words'
 export const words: Words = {
   names: {
     local: 'lokal',
-    centric_gripper: 'Dreifingergreifer',
-    parallel_gripper: 'Parallelgreifer',
-    vacuum_cup: 'Vakuumsauger',
+    centric_gripper: 'Dreifinger\u00adgreifer',
+    parallel_gripper: 'Parallel\u00adgreifer',
+    vacuum_cup: 'Vakuum\u00adsauger',
     cube: 'Würfel',
     cube_small: 'kleiner Würfel',
     cube_large: 'großer Würfel',
