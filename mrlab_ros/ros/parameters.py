@@ -10,7 +10,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Iterable
-from typing import Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypedDict, TypeVar
 
 from rcl_interfaces.msg import (
     FloatingPointRange,
@@ -28,6 +28,9 @@ from mrlab_ros.core.base.names import PARAMETERS_OF_RCLPY
 from mrlab_ros.core.base.records import Field, Range
 from mrlab_ros.ros.diagnostics import PARAMETER_FIXED, PARAMETERS_REFUSED
 
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
 P = TypeVar("P")
 
 # The ends of a range that has none, as the descriptor's types allow them.
@@ -39,27 +42,38 @@ class WrongParameters(BadInput):
     """A node was started with parameters that it cannot take."""
 
 
-class ParameterNode(Node, Generic[P]):
-    """A node whose parameters are the fields of the dataclass `kind`.
+class NodeArguments(TypedDict, total=False):
+    """Arguments of rclpy's Node that tests and hosts give."""
 
+    context: Context | None
+    parameter_overrides: list[Parameter]
+
+
+class ParameterNode(Node, Generic[P]):
+    """A node whose parameters are the fields of a dataclass.
+
+    A subclass declares its name, the dataclass `kind`, and `others`: the dataclasses of the lab's
+    other nodes, whose parameters reach this node too where they are given for all nodes (/**).
     `parameters` holds the present values. Raises WrongParameters that names all mistakes in the
-    values that the node was started with. others: the dataclasses of the lab's other nodes; their
-    parameters reach this node too where they are given for all nodes (/**). Parameters that rclpy
-    declares itself are not checked here.
+    values that the node was started with. Parameters that rclpy declares itself are not checked.
     """
 
-    def __init__(
-        self,
-        name: str,
-        kind: type[P],
-        others: Iterable[type[Any]] = (),
-        *,
-        context: Context | None = None,
-        parameter_overrides: list[Parameter] | None = None,
+    _name: str
+    _kind: type[Any]
+    _others: tuple[type[Any], ...]
+
+    def __init_subclass__(
+        cls, *, name: str, kind: type[P], others: Iterable[type[Any]] = ()
     ) -> None:
-        super().__init__(name, context=context, parameter_overrides=parameter_overrides or [])
+        super().__init_subclass__()
+        cls._name, cls._kind, cls._others = name, kind, tuple(others)
+
+    def __init__(self, **ros: Unpack[NodeArguments]) -> None:
+        name, kind = self._name, self._kind
+        ros.setdefault("parameter_overrides", [])
+        super().__init__(name, **ros)
         self._records = records.fields_of(kind)
-        foreign = {f.name for other in others for f in records.fields_of(other).values()}
+        foreign = {f.name for other in self._others for f in records.fields_of(other).values()}
         own = {f.name for f in self._records.values()}
         given = {
             name: plain(parameter.value)
@@ -74,6 +88,19 @@ class ParameterNode(Node, Generic[P]):
         for attribute, record in self._records.items():
             value = to_ros(getattr(self.parameters, attribute))
             self.declare_parameter(record.name, value, descriptor(record), ignore_override=True)
+
+    def hidden_node(self, part: str, *, remapped: bool = False) -> Node:
+        """Return a node without parameters and log for a part of this one, in its context.
+
+        remapped: the names that the process was started with apply to it.
+        """
+        return Node(
+            f"_{self.get_name()}_{part}",
+            context=self.context,
+            start_parameter_services=False,
+            enable_rosout=False,
+            use_global_arguments=remapped,
+        )
 
     def parameters_changed(self) -> None:
         """Put `self.parameters` into effect after a change; called once for each change."""

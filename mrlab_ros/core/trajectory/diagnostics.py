@@ -162,13 +162,6 @@ NO_ROOM_FOR_COPY = Code(
     "A trajectory cannot be kept in {folder} ({error}).",
     "Make room on the disk.",
 )
-NAMED_OTHERWISE = Code(
-    "named_otherwise", "'{file}' holds the trajectory '{id}'.", "Name it {name}."
-)
-NOT_A_TRAJECTORY_FILE = Code(
-    "not_a_trajectory_file",
-    "'{file}' is {found:choice folder=a folder|none=no file}, not a trajectory.",
-)
 # the converter's services
 REPLACED_MEANWHILE = Code(
     "replaced_meanwhile", "'{id}' was replaced while it was fetched.", "Load it again."

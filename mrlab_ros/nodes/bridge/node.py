@@ -11,14 +11,11 @@ import time
 import traceback
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import yaml
 from diagnostic_msgs.msg import DiagnosticArray  # type: ignore[import-untyped]
 from mrlab_msgs.msg import Latency, Robots, RobotSystems
-from rclpy.context import Context
-from rclpy.node import Node
-from rclpy.parameter import Parameter
 
 from mrlab_ros.adapters.yaml_files import Loader
 from mrlab_ros.adapters.zenoh.configuration import LOOPBACK, configuration, log_logins
@@ -56,8 +53,11 @@ from mrlab_ros.nodes.parameters import AUTOMATIC, BridgeParameters
 from mrlab_ros.ros import share
 from mrlab_ros.ros.clock import LabClock, every
 from mrlab_ros.ros.graph_changes import GraphChanges
-from mrlab_ros.ros.parameters import ParameterNode
+from mrlab_ros.ros.parameters import NodeArguments, ParameterNode
 from mrlab_ros.ros.spinning import SpunNode
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 # zenoh's setting of the sessions of all people together, and its least value.
 MAX_SESSIONS = "transport/unicast/max_sessions"
@@ -131,23 +131,13 @@ NAMES = 4096
 SWITCH_INTERVAL_S = 5e-4
 
 
-class BridgeNode(ParameterNode[BridgeParameters]):
+class BridgeNode(
+    ParameterNode[BridgeParameters], name="bridge", kind=BridgeParameters, others=parameters.ALL
+):
     """Checks the graph, forwards what the allow-list names, closes the routes of what is gone."""
 
-    def __init__(
-        self,
-        *,
-        context: Context | None = None,
-        parameter_overrides: list[Parameter] | None = None,
-        session: Session | None = None,
-    ) -> None:
-        super().__init__(
-            "bridge",
-            BridgeParameters,
-            parameters.ALL,
-            context=context,
-            parameter_overrides=parameter_overrides,
-        )
+    def __init__(self, session: Session | None = None, **ros: Unpack[NodeArguments]) -> None:
+        super().__init__(**ros)
         self._rules = _rules(Path(self.parameters.allow_list))
         # Of every name at every check; matching it with all patterns takes 20 us.
         self._topic_rule = lru_cache(NAMES)(self._rules.topic)
@@ -159,13 +149,7 @@ class BridgeNode(ParameterNode[BridgeParameters]):
         self._started = time.monotonic()
         self._logged: set[str] = set()
         # The forwarding publishers, subscriptions and clients are on a node of their own.
-        streams = Node(
-            "_bridge_streams",
-            context=context,
-            start_parameter_services=False,
-            enable_rosout=False,
-            use_global_arguments=False,
-        )
+        streams = self.hidden_node("streams")
         self._bridge = BridgeContext(self._session, streams, prefix, self._warn_once)
         self._ledger = Ledger()
         self._pace = Pace(self.parameters.discovery_period)

@@ -23,7 +23,6 @@ from mrlab_ros.adapters.trajectories import npz_file
 from mrlab_ros.adapters.trajectories.catalogue_writer import DAY_S, CatalogueWriter
 from mrlab_ros.adapters.trajectories.files import TrajectoryFiles
 from mrlab_ros.adapters.trajectories.npz_file import Damaged
-from mrlab_ros.adapters.trajectories.plain_folder import import_folder
 from mrlab_ros.core.base.diagnostic import heard
 from mrlab_ros.core.base.errors import BadInput, LabError
 from mrlab_ros.core.trajectory.catalogue import (
@@ -71,12 +70,9 @@ class TrajectoryServices:
     Where the store does not answer at the start, every service says so until it does.
     """
 
-    def __init__(
-        self, node: Node, catalogue: CatalogueWriter, files: TrajectoryFiles, plain_folder: Path
-    ) -> None:
+    def __init__(self, node: Node, catalogue: CatalogueWriter, files: TrajectoryFiles) -> None:
         self.catalogue, self.files = catalogue, files
         self._log = node.get_logger()
-        self._plain_folder = plain_folder
         self._catalogue_topic = node.create_publisher(
             msg.TrajectoryCatalogue, "/trajectories", qos.LATCHED
         )
@@ -235,9 +231,6 @@ class TrajectoryServices:
     def _open(self) -> None:
         try:
             self.catalogue.open()
-            taken = import_folder(self._plain_folder, self.catalogue, self._log.error)
-            if taken:
-                self._log.info(f"took {len(taken)} trajectories of {self._plain_folder} over")
             self._problem = None
         except StoreFailure as error:
             self._problem = error

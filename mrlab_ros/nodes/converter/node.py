@@ -10,12 +10,10 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from mrlab_msgs import srv
 from rclpy.callback_groups import ReentrantCallbackGroup
-from rclpy.context import Context
-from rclpy.parameter import Parameter
 
 from mrlab_ros.adapters import private_folder
 from mrlab_ros.adapters.robots.diagnostics import NO_END_EFFECTOR
@@ -49,28 +47,25 @@ from mrlab_ros.nodes.parameters import ConverterParameters
 from mrlab_ros.ros import share
 from mrlab_ros.ros.clock import every
 from mrlab_ros.ros.diagnostics import FAULT
-from mrlab_ros.ros.parameters import ParameterNode
+from mrlab_ros.ros.parameters import NodeArguments, ParameterNode
 from mrlab_ros.ros.services import create_deferred_service
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 SWEEP_PERIOD_S = 3600.0
 
 
-class ConverterNode(ParameterNode[ConverterParameters]):
+class ConverterNode(
+    ParameterNode[ConverterParameters],
+    name="converter",
+    kind=ConverterParameters,
+    others=parameters.ALL,
+):
     """Converts, keeps and announces trajectories; no callback ever holds up the executor."""
 
-    def __init__(
-        self,
-        *,
-        context: Context | None = None,
-        parameter_overrides: list[Parameter] | None = None,
-    ) -> None:
-        super().__init__(
-            "converter",
-            ConverterParameters,
-            parameters.ALL,
-            context=context,
-            parameter_overrides=parameter_overrides,
-        )
+    def __init__(self, **ros: Unpack[NodeArguments]) -> None:
+        super().__init__(**ros)
         state = self.parameters.state_dir
         folder = Path(state) if state else Path.home() / ".local" / "share" / "mrlab"
         self._coefficients = load_coefficients(share.directory() / "config" / "torque_proxy.yaml")
@@ -84,7 +79,6 @@ class ConverterNode(ParameterNode[ConverterParameters]):
             self,
             self._writer,
             TrajectoryFiles(self._store, folder / "fetched"),
-            folder / "trajectories",
         )
         self._pool = ConversionPool(self._limits())
         self._reads = ThreadPoolExecutor(max_workers=2, thread_name_prefix="catalogue")

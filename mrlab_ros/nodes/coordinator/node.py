@@ -6,13 +6,11 @@ import secrets
 import threading
 from collections.abc import Callable
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from mrlab_msgs import msg, srv
 from mrlab_msgs.srv import SetLoop, Trigger
-from rclpy.context import Context
 from rclpy.duration import Duration
-from rclpy.parameter import Parameter
 from rclpy.service import Service
 
 from mrlab_ros.adapters.journal import Journal
@@ -40,10 +38,13 @@ from mrlab_ros.nodes.coordinator.fleet import Hosts, MemberChecks, MemberClient,
 from mrlab_ros.nodes.parameters import CoordinatorParameters
 from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.clock import LabClock, every
-from mrlab_ros.ros.parameters import ParameterNode
+from mrlab_ros.ros.parameters import NodeArguments, ParameterNode
 from mrlab_ros.ros.services import Turns
 from mrlab_ros.ros.spinning import Caller
 from mrlab_ros.ros.worker import Worker
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 # Period at which an active system is polled, s.
 POLL_PERIOD_S = 0.02
@@ -53,22 +54,16 @@ RENEWAL_PERIOD_S = 1.0
 ARRIVAL = Duration(seconds=0.05)
 
 
-class CoordinatorNode(ParameterNode[CoordinatorParameters]):
+class CoordinatorNode(
+    ParameterNode[CoordinatorParameters],
+    name="coordinator",
+    kind=CoordinatorParameters,
+    others=parameters.ALL,
+):
     """Creates and dissolves systems, and offers the services of each below its name."""
 
-    def __init__(
-        self,
-        *,
-        context: Context | None = None,
-        parameter_overrides: list[Parameter] | None = None,
-    ) -> None:
-        super().__init__(
-            "coordinator",
-            CoordinatorParameters,
-            parameters.ALL,
-            context=context,
-            parameter_overrides=parameter_overrides,
-        )
+    def __init__(self, **ros: Unpack[NodeArguments]) -> None:
+        super().__init__(**ros)
         log = self.get_logger()
         self.caller = Caller(self)
         self._identity = Identity(self.parameters.lab_id, lambda said: log.warning(str(said)))

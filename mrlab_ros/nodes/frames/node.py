@@ -8,13 +8,10 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from mrlab_msgs import msg
-from rclpy.context import Context
-from rclpy.node import Node
-from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile
 from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import JointState
@@ -36,8 +33,11 @@ from mrlab_ros.nodes import parameters
 from mrlab_ros.nodes.frames.markers import MarkerPublishers
 from mrlab_ros.nodes.parameters import FramesParameters
 from mrlab_ros.ros.clock import LabClock
-from mrlab_ros.ros.parameters import ParameterNode
+from mrlab_ros.ros.parameters import NodeArguments, ParameterNode
 from mrlab_ros.ros.raw_streams import Received, TopicPoll
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 
 @dataclass(eq=False)
@@ -134,26 +134,17 @@ NEWEST = QoSProfile(depth=1)
 Take = Callable[[bytes], None]
 
 
-class FramesNode(ParameterNode[FramesParameters]):
+class FramesNode(
+    ParameterNode[FramesParameters], name="frames", kind=FramesParameters, others=parameters.ALL
+):
     """Publishes where each link is, and what else is in the lab, as ROS's own displays take it.
 
     One thread polls all topics at `rate` and publishes; the node's own executor has nothing to do
     but its parameters.
     """
 
-    def __init__(
-        self,
-        *,
-        context: Context | None = None,
-        parameter_overrides: list[Parameter] | None = None,
-    ) -> None:
-        super().__init__(
-            "frames",
-            FramesParameters,
-            parameters.ALL,
-            context=context,
-            parameter_overrides=parameter_overrides,
-        )
+    def __init__(self, **ros: Unpack[NodeArguments]) -> None:
+        super().__init__(**ros)
         self._log = self.get_logger()
         self._identity = Identity(
             self.parameters.lab_id, lambda said: self._log.warning(str(said))
@@ -168,12 +159,7 @@ class FramesNode(ParameterNode[FramesParameters]):
         self._moving = self.create_publisher(TFMessage, "/tf", TF)
         self._fixed = self.create_publisher(TFMessage, "/tf_static", qos.LATCHED)
         self._together = self.create_publisher(String, "/robot_description", qos.LATCHED)
-        self._streams = Node(
-            "_frames_streams",
-            context=context,
-            start_parameter_services=False,
-            enable_rosout=False,
-        )
+        self._streams = self.hidden_node("streams", remapped=True)
         self._poll = TopicPoll("frames", 1 / self.parameters.rate, self._turn)
         rate = self.parameters.marker_rate
         self._markers = MarkerPublishers(self, rate, self._identity) if rate else None

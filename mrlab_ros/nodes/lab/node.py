@@ -5,11 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from mrlab_msgs import msg, srv
-from rclpy.context import Context
-from rclpy.parameter import Parameter
 from rclpy.publisher import Publisher
 from std_msgs.msg import String
 
@@ -49,30 +47,22 @@ from mrlab_ros.nodes.lab.scenes import Scenes
 from mrlab_ros.nodes.parameters import LabParameters
 from mrlab_ros.ros import share
 from mrlab_ros.ros.clock import LabClock, every
-from mrlab_ros.ros.parameters import ParameterNode
+from mrlab_ros.ros.parameters import NodeArguments, ParameterNode
 from mrlab_ros.ros.services import answered, create_service
 from mrlab_ros.ros.spinning import Caller
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 # What robots have loaded and where they stand is written this often where it changed, s.
 SAVE_PERIOD_S = 2.0
 
 
-class LabNode(ParameterNode[LabParameters]):
+class LabNode(ParameterNode[LabParameters], name="lab", kind=LabParameters, others=parameters.ALL):
     """Spawns, places and removes robots, and announces who is where."""
 
-    def __init__(
-        self,
-        *,
-        context: Context | None = None,
-        parameter_overrides: list[Parameter] | None = None,
-    ) -> None:
-        super().__init__(
-            "lab",
-            LabParameters,
-            parameters.ALL,
-            context=context,
-            parameter_overrides=parameter_overrides,
-        )
+    def __init__(self, **ros: Unpack[NodeArguments]) -> None:
+        super().__init__(**ros)
         state_dir = self.parameters.state_dir
         log = self.get_logger()
         file = Path(state_dir) / SCENE_FILE if state_dir else None

@@ -7,12 +7,10 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from mrlab_msgs import srv
 from mrlab_msgs.srv import Trigger
-from rclpy.context import Context
-from rclpy.parameter import Parameter
 
 from mrlab_ros.adapters.bullet import support
 from mrlab_ros.adapters.robots.library import RobotLibrary
@@ -47,8 +45,11 @@ from mrlab_ros.nodes.physics.publishers import WorldPublishers
 from mrlab_ros.ros import share
 from mrlab_ros.ros.clock import LabClock, every
 from mrlab_ros.ros.deadlines import SWITCH_INTERVAL_S
-from mrlab_ros.ros.parameters import ParameterNode
+from mrlab_ros.ros.parameters import NodeArguments, ParameterNode
 from mrlab_ros.ros.services import answered, create_service
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 try:
     from mrlab_ros.adapters.bullet.engine import BulletEngine
@@ -65,22 +66,13 @@ SAVE_PERIOD = 2.0  # s
 FILE = "physics.json"
 
 
-class PhysicsNode(ParameterNode[PhysicsParameters]):
+class PhysicsNode(
+    ParameterNode[PhysicsParameters], name="physics", kind=PhysicsParameters, others=parameters.ALL
+):
     """Steps the world as joint states arrive; publishes contacts, collisions, grasps, objects."""
 
-    def __init__(
-        self,
-        *,
-        context: Context | None = None,
-        parameter_overrides: list[Parameter] | None = None,
-    ) -> None:
-        super().__init__(
-            "physics",
-            PhysicsParameters,
-            parameters.ALL,
-            context=context,
-            parameter_overrides=parameter_overrides,
-        )
+    def __init__(self, **ros: Unpack[NodeArguments]) -> None:
+        super().__init__(**ros)
         state = self.parameters.state_dir
         log = self.get_logger()
         file = StateFile(Path(state) / FILE if state else None, log.error, whole=False)

@@ -6,12 +6,9 @@ import threading
 import time
 import weakref
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from mrlab_msgs import msg, srv
-from rclpy.context import Context
-from rclpy.node import Node
-from rclpy.parameter import Parameter
 
 from mrlab_ros.adapters.journal import Journal
 from mrlab_ros.adapters.robots.library import RobotLibrary
@@ -35,9 +32,12 @@ from mrlab_ros.nodes.playback.node import PlaybackNode
 from mrlab_ros.ros import share
 from mrlab_ros.ros.clock import LabClock, every
 from mrlab_ros.ros.deadlines import REALTIME, Scheduler, take_precedence
-from mrlab_ros.ros.parameters import ParameterNode
+from mrlab_ros.ros.parameters import NodeArguments, ParameterNode
 from mrlab_ros.ros.services import answered, create_service
 from mrlab_ros.ros.spinning import Caller, SpunNode
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 # Trajectories that are fetched at the same time.
 MOST_LOADS = 4
@@ -78,7 +78,12 @@ class _Turn:
         self.lock = threading.Lock()
 
 
-class PlaybackHostNode(ParameterNode[PlaybackParameters]):
+class PlaybackHostNode(
+    ParameterNode[PlaybackParameters],
+    name="playback_host",
+    kind=PlaybackParameters,
+    others=parameters.ALL,
+):
     """Runs one playback node for each robot of the scene, all on one deadline thread.
 
     The playback nodes and the orders of robot systems have an executor of their own, whose
@@ -86,19 +91,8 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
     telemetry, in another thread.
     """
 
-    def __init__(
-        self,
-        *,
-        context: Context | None = None,
-        parameter_overrides: list[Parameter] | None = None,
-    ) -> None:
-        super().__init__(
-            "playback_host",
-            PlaybackParameters,
-            parameters.ALL,
-            context=context,
-            parameter_overrides=parameter_overrides,
-        )
+    def __init__(self, **ros: Unpack[NodeArguments]) -> None:
+        super().__init__(**ros)
         log = self.get_logger()
         self._identity = Identity(self.parameters.lab_id, lambda said: log.warning(str(said)))
         self._only = set(self.parameters.robots)
@@ -118,12 +112,7 @@ class PlaybackHostNode(ParameterNode[PlaybackParameters]):
         # What could not be brought back.
         self.lost: list[Diagnostic] = []
         self._leases = Leases()
-        orders = Node(
-            "_playback_host_orders",
-            context=context,
-            start_parameter_services=False,
-            enable_rosout=False,
-        )
+        orders = self.hidden_node("orders", remapped=True)
         self.create_subscription(msg.Robots, "/robots", self._on_robots, qos.LATCHED)
         # Named by the lab too: the coordinator of another one on the same domain must not drive
         # robots that happen to have the names of its own.

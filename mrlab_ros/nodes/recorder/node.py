@@ -6,13 +6,10 @@ import threading
 import time
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from mrlab_msgs import msg, srv
 from mrlab_msgs.srv import ListBags, SetLoop, Trigger
-from rclpy.context import Context
-from rclpy.node import Node
-from rclpy.parameter import Parameter
 
 from mrlab_ros.adapters.bags.other import open_bag
 from mrlab_ros.adapters.bags.reader import Bag, bags_in, default_folder, remove_empty
@@ -57,37 +54,28 @@ from mrlab_ros.nodes.recorder.diagnostics import (
 from mrlab_ros.nodes.recorder.recording import Recording
 from mrlab_ros.nodes.recorder.replaying import ReplayedTrajectories, Replaying
 from mrlab_ros.ros.clock import every
-from mrlab_ros.ros.parameters import ParameterNode
+from mrlab_ros.ros.parameters import NodeArguments, ParameterNode
 from mrlab_ros.ros.services import answered, create_service
 from mrlab_ros.ros.spinning import Caller
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 MEGABYTE = 1_000_000
 
 
-class RecorderNode(ParameterNode[RecorderParameters]):
+class RecorderNode(
+    ParameterNode[RecorderParameters],
+    name="recorder",
+    kind=RecorderParameters,
+    others=parameters.ALL,
+):
     """Records or replays, one at a time, and publishes its state on ~/state."""
 
-    def __init__(
-        self,
-        *,
-        context: Context | None = None,
-        parameter_overrides: list[Parameter] | None = None,
-    ) -> None:
-        super().__init__(
-            "recorder",
-            RecorderParameters,
-            parameters.ALL,
-            context=context,
-            parameter_overrides=parameter_overrides,
-        )
+    def __init__(self, **ros: Unpack[NodeArguments]) -> None:
+        super().__init__(**ros)
         # The raw topics are on a node that no executor spins.
-        self._streams = Node(
-            "_recorder_streams",
-            context=context,
-            start_parameter_services=False,
-            enable_rosout=False,
-            use_global_arguments=False,
-        )
+        self._streams = self.hidden_node("streams")
         self._caller = Caller(self)
         # Guards the machine and what its state is about; nothing slow is done under it.
         self._lock = threading.RLock()

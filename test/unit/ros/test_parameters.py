@@ -57,10 +57,10 @@ class Other:
     size: int = field(Integer(), "Size.", 1)
 
 
-class SampleNode(ParameterNode[Sample]):
+class SampleNode(ParameterNode[Sample], name="sample", kind=Sample, others=(Other,)):
     def __init__(self, context: Context, **overrides: object) -> None:
         given = [Parameter(name.replace("__", "."), value=v) for name, v in overrides.items()]
-        super().__init__("sample", Sample, (Other,), context=context, parameter_overrides=given)
+        super().__init__(context=context, parameter_overrides=given)
         self.changes: list[Sample] = []
 
     def parameters_changed(self) -> None:

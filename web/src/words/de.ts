@@ -1990,7 +1990,6 @@ export const diagnostics: Templates = {
     "{file}: Ein Glied oder ein Gelenk heißt '{name}'; erwartet werden druckbare Zeichen und keines von = + - @ am Anfang.",
   ],
   named_entries: ['eine Zuordnung von Namen zu Einträgen'],
-  named_otherwise: ["'{file}' enthält die Trajektorie '{id}'.", 'Gib der Datei den Namen {name}.'],
   named_twice: [
     '{place:problem} nennt {what:choice robot=den Roboter|object=den Gegenstand|system=das System|surface=die Fläche} {name} zweimal.',
     'Benenne eines davon um.',
@@ -2400,9 +2399,6 @@ export const diagnostics: Templates = {
   not_a_number: ["'{text}' ist keine Zahl[; schreibe {better}]; erwartet: {expected:problem}."],
   not_a_package_uri: ["Die URI ist '{uri}'; erwartet wird eine, die mit {begin} beginnt."],
   not_a_place: ['Der Ort ist {text}; erwartet wird [[x, y]] oder [[x, y, z]] in m, in world.'],
-  not_a_trajectory_file: [
-    "'{file}' ist {found:choice folder=ein Ordner|none=keine Datei} und keine Trajektorie.",
-  ],
   not_among_yours: [
     "Unter deinen und den geteilten Trajektorien ist keine '{trajectory}'.",
     'Suche sie in der Liste.',

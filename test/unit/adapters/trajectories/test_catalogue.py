@@ -2,7 +2,6 @@
 
 import io
 import os
-from dataclasses import replace
 
 import numpy as np
 import orjson
@@ -14,12 +13,11 @@ from refusals import refused
 from mrlab_ros.adapters.store import keys
 from mrlab_ros.adapters.store.memory import MemoryStore
 from mrlab_ros.adapters.store.port import StoreFailure
-from mrlab_ros.adapters.trajectories import formats, npz_file
+from mrlab_ros.adapters.trajectories import npz_file
 from mrlab_ros.adapters.trajectories.catalogue import Catalogue, NoTrajectory
 from mrlab_ros.adapters.trajectories.catalogue_writer import DAMAGED, CatalogueWriter
 from mrlab_ros.adapters.trajectories.files import TrajectoryFiles
 from mrlab_ros.adapters.trajectories.npz_file import Damaged
-from mrlab_ros.adapters.trajectories.plain_folder import import_folder
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.trajectory.catalogue import TrajectoryName
 from mrlab_ros.core.trajectory.diagnostics import NO_TRAJECTORY_OF_NAME, OVER_QUOTA
@@ -321,61 +319,6 @@ def test_parts_of_a_version_know_whose_they_are(store, writer, tmp_path):
 
 
 # --- folders of earlier versions
-
-
-def plain(folder, *trajectories):
-    folder.mkdir(parents=True, exist_ok=True)
-    for trajectory in trajectories:
-        with (folder / f"{trajectory.id}.npz").open("w+b") as file:
-            npz_file.write(trajectory, file)
-
-
-def test_a_plain_folder_is_taken_over_and_nothing_is_lost(store, writer, tmp_path, log):
-    folder = tmp_path / "trajectories"
-    plain(folder, make("a", 1), make("b.c", 2))
-    formats.write(make("old", 3), folder / "old.json")
-    formats.write(replace(make("a", 9), created_ns=5), folder / "a.json")
-    (folder / "bad.npz").write_bytes(b"no archive")
-    (folder / "broken.json").write_text("{")
-    (folder / "dir.npz").mkdir()
-    plain(folder, make("c"))
-    (folder / "c.npz").rename(folder / "other.npz")
-    import_folder(folder, writer, log.append)
-    kept = Kept(writer, TrajectoryFiles(store, tmp_path / "fetched"))
-    assert kept.ids() == ["a", "b.c", "old"]
-    assert kept.load("a").positions[0, 0] == 1
-    assert kept.load("a@1").positions[0, 0] == pytest.approx(9)
-    names = {p.parent.name: set() for p in folder.glob("*/*")}
-    for path in folder.glob("*/*"):
-        names[path.parent.name].add(path.name)
-    assert names == {
-        "imported": {"a.npz", "a.json", "b.c.npz", "old.json"},
-        "damaged": {"bad.npz", "broken.json", "dir.npz"},
-    }
-    assert (folder / "other.npz").is_file()
-    assert any("Name it c.npz" in line for line in log)
-    assert import_folder(folder, writer, log.append) == []
-
-
-def test_an_import_that_was_killed_goes_on(store, writer, tmp_path, log):
-    folder = tmp_path / "trajectories"
-    plain(folder, make("a", 1))
-    writer.save(make("a", 1))  # as if the process had died before the file was moved
-    import_folder(folder, writer, log.append)
-    assert ids(writer) == ["a@1"]
-    assert [p.name for p in (folder / "imported").iterdir()] == ["a.npz"]
-
-
-def test_a_store_that_fails_leaves_the_folder(store, writer, tmp_path, log):
-    folder = tmp_path / "trajectories"
-    plain(folder, make("a", 1), make("b", 2))
-    store.writes_left = 3
-    with pytest.raises(StoreFailure):
-        import_folder(folder, writer, log.append)
-    assert (folder / "b.npz").is_file()
-    store.writes_left = None
-    import_folder(folder, writer, log.append)
-    assert ids(writer) == ["a@1", "b@1"]
 
 
 def test_changes_that_cannot_be_read_are_read_anew(store, writer):
