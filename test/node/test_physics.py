@@ -156,7 +156,7 @@ def test_a_box_in_the_way_halts_the_arm_and_moving_it_away_lets_it_play_on(graph
     assert first.contact.kind == msg.Contact.OBJECT
     assert first.contact.depth >= 0
     assert halted.message == f"{first.contact.link} touches {box}"
-    # How many frames later is a matter of timing: bench/physics.py.
+    # How many frames later is a matter of timing: bench/run.py physics.
     assert first.contact.frame <= halted.frame < halted.frame_count - 1
     point = first.contact.point
     assert np.allclose([point.x, point.y, point.z], tool(0.7), atol=0.12)

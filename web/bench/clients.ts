@@ -1,5 +1,5 @@
-/** Many clients in one process, for bench/gateway.py: ages as JSON lines on stdout. Arguments:
- * url, number of clients, s to warm up, s to measure, cookie; without one: the baseline. */
+/** Many clients in one process, for bench/measures/gateway.py: ages as JSON lines on stdout.
+ * Arguments: url, number of clients, s to warm up, s to measure, cookie; without one: the baseline. */
 
 import { type Ages, receiveLink, receivePlain } from './receive'
 

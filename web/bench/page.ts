@@ -1,4 +1,4 @@
-/** The page of bench/gateway.py: the driver starts a reception and reads its figures. */
+/** The page of bench/measures/gateway.py: the driver starts a reception and reads its figures. */
 
 import { socketUrl } from '../src/link/socket'
 import { type Ages, receiveLink, receivePlain } from './receive'

