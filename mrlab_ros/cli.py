@@ -57,7 +57,7 @@ is yours, 3 an error of MR-Lab itself, or a missing package, 130 interrupted
 TAKE_NEGATIVE = ("rate", "seek")
 NEGATIVE = {"ignore_unknown_options": True}
 PANELS = {"robot": "One robot of the running lab"}
-# Where each command is; of a group its Typer. In the order of the help.
+# Modules of the commands, and of a group its Typer, in the order of the help.
 COMMANDS = {
     "up": "up.command:up",
     "demo": "demo.command:demo",
@@ -133,7 +133,7 @@ def absent() -> None:
 
 
 class Settings:
-    """What holds for every command."""
+    """Options that hold for every command."""
 
     debug = False
 
@@ -161,7 +161,7 @@ def options(
 BROKEN = 3
 ROOM = "make room on that disk, or name a folder on another one"
 MAY = "check who may read and write there, or name another folder"
-# What is to be done about a disk that refuses, by the error's number.
+# Remedies for a disk that refuses, by the number of the error.
 OF_THE_DISK = {
     errno.ENOSPC: ROOM,
     errno.EDQUOT: ROOM,

@@ -1,4 +1,4 @@
-"""What is said of files and folders of this machine, and of what reads them."""
+"""Diagnostics of files and folders of this machine, and of their readers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where the installed ROS packages lie."""
+"""Folders of the installed ROS packages."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ from pathlib import Path
 import mrlab_ros
 
 SAFE_PATH = "PYTHONSAFEPATH"  # Python 3.11 and later leave the current folder out
-# What `python -m` does, without the first entry of the path.
+# The same as `python -m`, without the first entry of the path.
 RUN = "import sys; del sys.path[0]; import runpy; runpy._run_module_as_main(sys.argv.pop(1))"
 # Forking is safe with one thread only, and the libraries draw nothing from more.
 ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}

@@ -69,7 +69,7 @@ CALLS = {
     "fallocate": (285, 47), "getrandom": (318, 278), "memfd_create": (319, 279),
     "membarrier": (324, 283), "rseq": (334, 293),
 }  # fmt: skip
-# What they need besides to open what Landlock lets them; none changes a mode, an owner or a time,
+# Capabilities for opening files that Landlock allows; none changes a mode, an owner or a time,
 # nor the length of a file by its name, which Landlock knows only since its third version.
 OPENING = {
     "open": (2, None), "stat": (4, None), "lstat": (6, None), "poll": (7, None),

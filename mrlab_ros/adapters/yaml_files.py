@@ -80,7 +80,7 @@ class RosLoader(yaml.SafeLoader):
         return super().construct_mapping(node, deep=deep)
 
 
-# What PyYAML takes for numbers and dates, and rcl for texts.
+# Texts that PyYAML takes for numbers and dates, and rcl for texts.
 _TEXTS = re.compile(r"[-+]?[\d.]+[_:].*|[-+]?0b.*|\d{4}-.*")
 RosLoader.yaml_implicit_resolvers = {
     first: [("tag:yaml.org,2002:str", _TEXTS), *found] if first in set("-+.0123456789") else found

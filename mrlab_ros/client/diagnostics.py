@@ -1,4 +1,4 @@
-"""What a client of a lab says of its robots and their runs."""
+"""Diagnostics of a lab's robots and their runs for a client."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a command shows of one robot: its state, its progress and how punctual it is."""
+"""One robot as a command shows it: its state, its progress and its deadline errors."""
 
 from __future__ import annotations
 

@@ -70,7 +70,7 @@ class LinkGraph(GraphClient):
             return
         latest = deserialize_message(newest, kind)
         with lock:
-            # What has come meanwhile is newer.
+            # Messages that came meanwhile are newer.
             if not live.is_set():
                 callback(latest)
 

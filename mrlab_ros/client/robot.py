@@ -141,7 +141,7 @@ class LabRobot:
 
     @property
     def follower(self) -> Follower:
-        """What the robot reports of its playback; raises NoAnswer where it has none."""
+        """Return the reports of the robot's playback; raise NoAnswer where it has none."""
         if self._follower is None:
             self._follower = Follower(self._graph, self.name)
             self._follower.watch.wait(lambda _: True, STATE_TIMEOUT_S)
@@ -321,7 +321,7 @@ class Run:
 
     @property
     def complete(self) -> bool:
-        """Whether its last frame was played, as far as `advance` has read."""
+        """Return whether its last frame was played, as far as `advance` has read."""
         return self._course.complete
 
     def wait(self, timeout: float = math.inf) -> bool:

@@ -1,4 +1,4 @@
-"""What the Tab key completes: it asks no lab and imports no ROS, so that it is quick."""
+"""Completions of the Tab key: they ask no lab and import no ROS, so that they are quick."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What single commands say; only here may a text name options."""
+"""Diagnostics of single commands; only here may a text name options."""
 
 from __future__ import annotations
 

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from mrlab_ros.client.lab import Lab
     from mrlab_ros.client.robot import LabRobot, Run
 
-# What is a file by its name, also where it does not exist.
+# Endings of file names, also of files that do not exist.
 ENDINGS = (
     *(".mat", ".csv", ".txt", ".tsv", ".lvm", ".npz", ".json", ".mcap", ".db3"),
     *(".gz", ".zst", ".zstd"),

@@ -192,7 +192,7 @@ def _follow(
             gap = time.monotonic() - received_at
             before, last, received_at = last, state, time.monotonic()
             grown_at, known = received_at, 0
-            # What is latched from before this recording says nothing of it.
+            # A message latched before this recording says nothing of it.
             trouble = heard(state) if state.message else None
             if state.state == RecorderState.RECORDING.value and state.bag == bag:
                 show(state, before if began else None)

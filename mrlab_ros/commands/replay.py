@@ -31,10 +31,10 @@ if TYPE_CHECKING:
     from mrlab_ros.ros.graph import GraphClient, Watch
 
 REFRESH = 0.1
-# What is typed faster than it is served comes at once: an arrow is three bytes.
+# Keys typed faster than they are served come at once: an arrow is three bytes.
 KEY = re.compile(rb"\x1b[\[O][A-Z]|[^\x1b]")
 LEFT, RIGHT = b"D", b"C"
-# What an arrow key seeks, s, and the rates that + and - go through.
+# Seek of an arrow key, s, and the rates that + and - go through.
 STEP = 5.0
 RATES = (0.1, 0.2, 0.5, 1.0, 2.0, 4.0, 10.0)
 KEYS = "space pauses, left and right seek 5 s, + and - set the rate, q ends"
@@ -181,7 +181,7 @@ def position_now(state: Any) -> float:
 
 
 class Keyboard:
-    """What the keys do."""
+    """Actions of the keys."""
 
     def __init__(self, graph: GraphClient, watch: Watch[Any]) -> None:
         self._graph = graph

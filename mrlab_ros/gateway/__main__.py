@@ -24,7 +24,7 @@ from mrlab_ros.gateway.settings import PORT, Settings, parsed_address
 
 # EX_CONFIG of sysexits.h: a restart would end the same way.
 WRONG_CONFIGURATION = 78
-# What may still be sent after a wanted stop, s; the lab ends its processes after 1.5 s.
+# Time for last messages after a wanted stop, s; the lab ends its processes after 1.5 s.
 LAST_WORDS_S = 1
 # Connections that may wait to be accepted: a class that opens the pages at once.
 BACKLOG = 256

@@ -1,4 +1,4 @@
-"""What the gateway says of requests, of its settings, and of the assets that it passes on."""
+"""Diagnostics of requests, of settings, and of the assets that the gateway passes on."""
 
 from __future__ import annotations
 

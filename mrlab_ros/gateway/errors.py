@@ -98,7 +98,7 @@ class TooMany(GatewayError):
 
 
 class Fault(Finding):
-    """What went wrong, as a diagnostic. kind: a coarse word, such as not_found or bad_input."""
+    """A failure as a diagnostic. kind: a coarse word, such as not_found or bad_input."""
 
     kind: str
 
@@ -123,7 +123,7 @@ STATUS: tuple[tuple[type[LabError], int, str], ...] = (
 )
 # The code with which a socket is closed whose person may not have it.
 SOCKET_REFUSED = 4003
-# What any route may answer, for the OpenAPI description.
+# Answers that any route may give, for the OpenAPI description.
 RESPONSES: dict[int | str, dict[str, Any]] = {
     status: {"model": Problem}
     for status in (400, 401, 403, 404, 405, 409, 413, 422, 429, 502, 503, 504)

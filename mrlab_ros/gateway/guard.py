@@ -141,7 +141,7 @@ class Guard:
                 headers = MutableHeaders(scope=message)
                 for name, value in HEADERS.items():
                     headers.setdefault(name, value)
-                # What no route says otherwise is for this person alone.
+                # An answer is for this person alone unless its route says otherwise.
                 headers.setdefault("Cache-Control", "no-store")
             await send(message)
 

@@ -43,7 +43,7 @@ COMPRESSED = (".css", ".html", ".js", ".json", ".mjs", ".svg", ".wasm", ".webman
 # Files below /static/ have a fingerprint of their content in their names.
 FOR_EVER = "public, max-age=31536000, immutable"
 ASK_AGAIN = "no-cache"
-# What is an API or a file answers 404 where there is none; other paths are the application's.
+# An API or a file answers 404 for an unknown path; other paths are the application's.
 NOT_PAGES = ("api/", "assets/", "static/", "link")
 # The one-time token in the URL that is opened on the lab's machine.
 TOKEN = "token"

@@ -25,7 +25,7 @@ def protocol(wait: float = HEAD_S) -> type[H11Protocol]:
 
     class Patient(H11Protocol):
         waiting: asyncio.TimerHandle | None = None
-        # Whether this connection still speaks HTTP.
+        # Cleared when this connection leaves HTTP.
         wanted = True
 
         def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]

@@ -1,4 +1,4 @@
-"""What each route needs: the same policy as the lab's keys have, route by route.
+"""Rights that each route needs: the same policy as the lab's keys have, route by route.
 
 A route without a line here answers nobody: a new route cannot be open by mistake.
 """
@@ -39,7 +39,7 @@ class Everybody(Enum):
 
 @dataclass(frozen=True)
 class Need:
-    """What somebody needs for a route: the right to a verb on a key of the lab.
+    """The right that a route needs: a verb on a key of the lab.
 
     own: the right to one's own is enough; the route checks whose it is.
     """
@@ -92,7 +92,7 @@ ROUTES: Mapping[tuple[str, str], Everybody | Role | Need] = {
     ("PATCH", "/api/trajectories/{trajectory:path}"): CONVERTS_OWN,
     ("DELETE", "/api/trajectories/{trajectory:path}"): CONVERTS_OWN,
     ("POST", "/api/trajectories/{trajectory:path}/restore"): CONVERTS_OWN,
-    # Who may play a motion may have it checked; what was found, all may read.
+    # A person who may play a motion may have it checked; all may read the findings.
     ("POST", "/api/checks"): DRIVES,
     ("GET", "/api/checks"): READS,
     ("DELETE", "/api/checks"): DRIVES,
@@ -102,7 +102,7 @@ ROUTES: Mapping[tuple[str, str], Everybody | Role | Need] = {
     ("GET", "/api/class/{key}/file"): Role.INSTRUCTOR,
     ("GET", "/assets/{path:path}"): Need(Verb.RECEIVE, "assets"),
     ("HEAD", "/assets/{path:path}"): Need(Verb.RECEIVE, "assets"),
-    # What is needed for the keys that a socket asks for, the socket itself checks.
+    # The socket itself checks the rights of the keys that it is asked for.
     (SOCKET, "/link"): Role.DISPLAY,
 }
 

@@ -1,4 +1,4 @@
-"""What a gateway is started with."""
+"""Settings of a gateway."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ from mrlab_ros.gateway.diagnostics import (
 HOST = "127.0.0.1"
 PORT = 8080
 LARGEST_PORT = 65535
-# What `mrlab class` writes for pages and other tools.
+# The file that `mrlab class` writes for pages and other tools.
 CLASS_FILE = "class.json"
 
 
 @dataclass(frozen=True)
 class Settings:
-    """What a gateway is started with.
+    """Settings of a gateway.
 
     state_dir: folder of people, sign-ins and the store. host, port: where it listens; port 0: any
     free one. zenoh: endpoint of the lab's bridge or router; empty: that of zenoh_config, or
@@ -62,7 +62,7 @@ class Settings:
 
     @property
     def https(self) -> bool:
-        """Whether this gateway itself serves HTTPS."""
+        """Return whether this gateway itself serves HTTPS."""
         return self.keys is not None or self.certificate is not None
 
     @property
@@ -77,7 +77,7 @@ class Settings:
 
     @property
     def signs_in(self) -> bool:
-        """Whether people sign in; otherwise one local user needs no password."""
+        """Return whether people sign in; otherwise one local user needs no password."""
         return self.keys is not None or self.certificate is not None or bool(self.public_url)
 
     def check(self) -> None:

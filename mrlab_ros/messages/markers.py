@@ -1,4 +1,4 @@
-"""What stands and happens in the lab as markers, for RViz, Foxglove and other 3D panels.
+"""The lab as markers, for RViz, Foxglove and other 3D panels.
 
 A marker keeps its namespace and id while the thing is there, and is deleted with it. Stamps are 0,
 which displays read as "the newest transform": what hangs at a link moves with it.

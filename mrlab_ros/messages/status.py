@@ -14,9 +14,9 @@ from mrlab_ros.core.runtime.watch import Sign, silence
 from mrlab_ros.messages.texts import told
 from mrlab_ros.messages.time import make_header
 
-# What the names of the lab's processes begin with on /diagnostics.
+# Prefix of the names of the lab's processes on /diagnostics.
 PREFIX = "mrlab: "
-# What a process says of itself alone, and never of another.
+# Values that a process reports of itself alone.
 RESTARTS = "restarts"
 # That it says itself how it ended, and what was lost: for a minute after its restart.
 RESTARTED = "restarted"

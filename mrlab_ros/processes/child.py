@@ -28,7 +28,7 @@ STABLE_AFTER_S = 10.0
 READ_TIMEOUT_S = 1.0
 # The name of the supervisor's own lines.
 SELF = "mrlab"
-# What zenoh's own lines contain.
+# The mark of zenoh's own lines.
 ZENOH = "zenoh"
 
 # Runs as: python -I -S -c GUARDED <pid of the supervisor> <1: unblock SIGINT> program argument...

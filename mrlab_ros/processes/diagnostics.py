@@ -1,4 +1,4 @@
-"""What the processes of a lab say when they cannot be started."""
+"""Diagnostics of a lab's processes that cannot be started."""
 
 from __future__ import annotations
 

@@ -111,12 +111,12 @@ def run(names: list[str]) -> int:
             if mistakes:
                 raise mistakes[0]
             if not settled:
-                # What was imported stays. A search of it for garbage takes 20 ms, in which no
+                # Imported modules stay. Searching them for garbage takes 20 ms, in which no
                 # thread moves anything.
                 settled = True
                 gc.collect()
                 gc.freeze()
-            # What its nodes could not bring back after a restart.
+            # Diagnostics of state that its nodes could not bring back after a restart.
             watcher.lost = [
                 said for node in spun.values() for said in getattr(node.node, "lost", ())
             ]

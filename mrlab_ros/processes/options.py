@@ -1,4 +1,4 @@
-"""What a lab is started with."""
+"""Options of a lab."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from pathlib import Path
 
 @dataclass(frozen=True)
 class WebOptions:
-    """What the gateway of a lab is started with beside the lab's own options.
+    """Options of a lab's gateway beside the lab's own.
 
     host, port: where it listens. certificate, certificate_key: for HTTPS in place of those of the
     keys folder. public_url: the address of a reverse proxy before it. oidc: YAML file of an OpenID
@@ -32,7 +32,7 @@ class WebOptions:
 
 @dataclass(frozen=True)
 class LabOptions:
-    """What a lab is started with.
+    """Options of a lab.
 
     config: a ROS parameter file. state_dir: the folder for scene and trajectories. robots:
     models to begin with. frames: publish /tf and markers. listen: where zenoh clients connect;

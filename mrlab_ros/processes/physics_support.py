@@ -1,4 +1,4 @@
-"""Whether a lab is started with physics."""
+"""Decides whether a lab is started with physics."""
 
 from __future__ import annotations
 

@@ -65,7 +65,7 @@ class RunFile:
 
     @property
     def socket(self) -> str:
-        """Where the lab's bridge listens for this user's commands; empty: the path is too long."""
+        """Return the bridge's address for this user's commands; empty: the path is too long."""
         path = str(self._path.with_suffix(".sock"))
         return path if len(os.fsencode(path)) < SOCKET_PATH else ""
 

@@ -1,4 +1,4 @@
-"""What an executable of the lab's nodes says of itself: `ros2 run mrlab_ros playback --help`."""
+"""Usage of an executable of the lab's nodes: `ros2 run mrlab_ros playback --help`."""
 
 from __future__ import annotations
 

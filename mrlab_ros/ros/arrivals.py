@@ -41,7 +41,7 @@ def _announce(subscription: Subscription, descriptor: int | None) -> None:
 
 
 class _Taker:
-    """What takes the messages of a subscription; next: its publisher's next number, 0: unknown."""
+    """The taker of a subscription's messages; next: its publisher's next number, 0: unknown."""
 
     __slots__ = ("kind", "next", "on_gap", "on_message", "take")
 

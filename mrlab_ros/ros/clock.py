@@ -59,7 +59,7 @@ class LabClock:
 
     @property
     def simulated(self) -> bool:
-        """Whether /clock gives the time."""
+        """Return whether /clock gives the time."""
         return self._time.simulated
 
     def now_ns(self) -> int:

@@ -1,4 +1,4 @@
-"""What calls and services of the graph say."""
+"""Diagnostics of calls and services of the graph."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the lab sets about Fast DDS, the middleware that ROS's wheels come with.
+"""Settings of Fast DDS, the middleware that ROS's wheels come with.
 
 The ROS domain of this process.
 
@@ -56,7 +56,7 @@ def remove_abandoned(folder: Path = FOLDER) -> list[str]:
     return sorted(removed)
 
 
-# Where Fast DDS looks for its profiles; other middlewares ignore it.
+# Fast DDS reads its profiles from here; other middlewares ignore it.
 PROFILES = "FASTRTPS_DEFAULT_PROFILES_FILE"
 # Has rmw_fastrtps leave what the profiles say of writers and readers.
 PROFILES_OF_ENDS = "RMW_FASTRTPS_USE_QOS_FROM_XML"

@@ -58,7 +58,7 @@ class Watch(Generic[T]):
 
 
 class GraphClient(ABC):
-    """What a program does with a running lab; use it as a context manager.
+    """A client of a running lab; use it as a context manager.
 
     domain: the lab's ROS domain. prompt: a watch of a latched topic has its value at once, and
     what is not there then was never published.

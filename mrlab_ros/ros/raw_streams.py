@@ -31,7 +31,7 @@ MAX_WAIT_NS = 200_000_000
 # The most messages taken from one subscription before the others are served.
 BATCH = 16
 
-# What a thread keeps for each subscription.
+# State that a thread keeps for each subscription.
 Kept = TypeVar("Kept")
 
 
@@ -171,7 +171,7 @@ class Received(NamedTuple):
     sequence: int
 
 
-# What is received while messages are taken, ns, is younger than the reading of the clock.
+# Messages received while others are taken, ns, are younger than the reading of the clock.
 LONGEST_TAKE_NS = SECOND
 
 

@@ -54,7 +54,7 @@ def spin(executor: Executor, context: Context, stop: threading.Event | None = No
             except rclpy_implementation.InvalidHandle:
                 continue
             except Exception:
-                # What fails because the context was shut down beneath it is no mistake.
+                # A failure after the shutdown of the context is no mistake.
                 if context.ok():
                     traceback.print_exc()
 

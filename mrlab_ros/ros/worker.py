@@ -87,7 +87,7 @@ class Worker:
 
     @property
     def ended(self) -> bool:
-        """Whether no further work is taken."""
+        """Return whether no further work is taken."""
         return self._closed
 
     def _put(self, task: _Task) -> bool:

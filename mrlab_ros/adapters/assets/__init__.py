@@ -1,1 +1,1 @@
-"""What clients draw the lab with: files that may be served, and documents made of the lab."""
+"""Assets that clients draw the lab with: files that are served, documents made of the lab."""

@@ -1,4 +1,4 @@
-"""What is said of assets: the meshes, pictures and documents that clients read."""
+"""Diagnostics of assets: the meshes, pictures and documents that clients read."""
 
 from __future__ import annotations
 

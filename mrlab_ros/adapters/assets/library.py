@@ -50,7 +50,7 @@ class Assets:
         self._library = library
         self._files = AssetFiles(share, library)
         self._more = dict(more or {})
-        # What a document was made of, and the document.
+        # Sources of a document, and the document.
         self._made: dict[str, tuple[object, bytes]] = {}
         self._known: tuple[object, Catalogue] | None = None
 

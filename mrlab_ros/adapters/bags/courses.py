@@ -59,7 +59,7 @@ class Samples:
 
 @dataclass(frozen=True)
 class Arm:
-    """What of a robot's description the report needs."""
+    """The part of a robot's description that the report needs."""
 
     chain: KinematicChain
     joints: tuple[RunJoint, ...]

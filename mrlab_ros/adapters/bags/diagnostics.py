@@ -1,4 +1,4 @@
-"""What is said of bags: what is wrong with their files, and what in them cannot be read."""
+"""Diagnostics of bags: damaged files, and records that cannot be read."""
 
 from __future__ import annotations
 

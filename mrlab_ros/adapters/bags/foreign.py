@@ -58,7 +58,7 @@ APART = 1.5
 
 @dataclass
 class Imported:
-    """What became of a bag.
+    """The outcome for a bag.
 
     robots: model by name; skipped: why, by topic; strange: names of joints that no robot of the
     library has, by topic.

@@ -39,7 +39,7 @@ from mrlab_ros.core.recording.diagnostics import importing, repairing
 RECORD = struct.Struct("<BQ")
 MESSAGE = struct.Struct("<HIQQ")
 FOOTER_SIZE = 8 + 8 + 4
-# What reading records raises that are not what they should be.
+# Errors of reading damaged records.
 DAMAGE = (McapError, ZstdError, struct.error, ValueError, KeyError, OverflowError, MemoryError)
 
 
@@ -54,7 +54,7 @@ class Message(NamedTuple):
 
 @dataclass
 class ChunkRef:
-    """Where a chunk lies, when its messages were received (ns), and channel ids in it."""
+    """A chunk: its place, the times of its messages (ns), and the channel ids in it."""
 
     offset: int
     start_ns: int

@@ -47,7 +47,7 @@ ENDINGS = {b"\x89MCA": ".mcap", SQLITE: ".db3"}
 # A file that is compressed as a whole may hold so many bytes, and so many for each of its own.
 INFLATED, RATIO = 1 << 30, 100
 MOST_BYTES = 1 << 30
-# What sqlite3 returns of a damaged database.
+# sqlite3's code of a damaged database.
 SQLITE_CORRUPT = 11
 # Messages of one batch.
 BATCH = 500

@@ -86,12 +86,12 @@ class Bag:
 
     @property
     def live(self) -> bool:
-        """Whether a recorder that lives writes into it."""
+        """Return whether a recorder that lives writes into it."""
         return any(is_being_written(file.path) for file in self.files)
 
     @property
     def troubles(self) -> list[Diagnostic]:
-        """What is wrong with its files; while it is recorded, nothing is."""
+        """Return the faults of its files; while it is recorded, there are none."""
         found = [file.trouble for file in self.files if file.trouble and not self.live]
         return [replace(trouble, fixes=repairing(self.path)) for trouble in found]
 

@@ -37,7 +37,7 @@ NEW = ".repairing"
 
 @dataclass
 class Repaired:
-    """What a repair did: the rewritten files, and what was wrong with them."""
+    """The result of a repair: the rewritten files, and their faults."""
 
     files: list[str]
     troubles: list[Diagnostic]

@@ -57,7 +57,7 @@ OBJECT_INTERVAL = 1 / 30
 HOPS = ("published_to_bridged", "bridged_to_received", "published_to_received")
 # s: stamps that go back further are of a clock that was set.
 SET_BACK = 1.0
-# What reading a message raises whose bytes are damaged, or of another type.
+# Errors of reading a message whose bytes are damaged, or of another type.
 BROKEN = (SerdeError, struct.error, ValueError, IndexError, MemoryError)
 # Topics of a foreign bag that are named.
 NAMED = 6
@@ -153,7 +153,7 @@ class _Reader:
         self._seen = -1.0
         # When a robot's stamps went back, s of the session; by how much, s; the stamp before, ns.
         self._set_back: tuple[float, float, int] | None = None
-        # Whether the times of the bag went on evenly after that.
+        # Set while the times of the bag go on evenly after that.
         self._even = False
         # Messages that cannot be read, by topic.
         self._broken: dict[str, int] = {}

@@ -31,7 +31,7 @@ from mrlab_ros.core.physics.diagnostics import (
 from mrlab_ros.core.physics.engine import BodyState, LinkPairs
 from mrlab_ros.core.physics.grasp.load import PAD_FRICTION
 
-# Where the first removed arm waits, m, and how many wait at most: one costs 25 us a step.
+# Height of the first removed arm, m, and most removed arms that wait: one costs 25 us a step.
 PARKED_AT, MOST_PARKED = -500.0, 8
 ALL_GROUPS = 0xFFFF
 OBJECT_GROUP = 1  # the same of what moves

@@ -215,7 +215,7 @@ class Contacts:
 
 @dataclass(eq=False)
 class HeldObject:
-    """What an arm's link holds. offset: T_link_object. motion: at the instant that the arm was
+    """An object held by a link. offset: T_link_object. motion: at the instant that the arm was
     posed for."""
 
     arm: str

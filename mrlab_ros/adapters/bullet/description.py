@@ -50,7 +50,7 @@ class Description:
         fingers = [j for j in everything if j.moves and j.name not in joints]
         self.fingers = tuple(_finger(joint) for joint in fingers)
         self.couplings = _couplings(fingers)
-        # What is rigidly fixed to a finger, such as a pad, is that finger.
+        # A body that is rigidly fixed to a finger, such as a pad, is that finger.
         moved = {joint.child for joint in fingers}
         self.finger_of = {link: self._group(link) for link in links if self._group(link) in moved}
         self.finger_links = set(self.finger_of)

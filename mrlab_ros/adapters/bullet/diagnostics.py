@@ -1,4 +1,4 @@
-"""What the physics engine says of the arms, bodies and steps that it is given."""
+"""Diagnostics of the physics engine about arms, bodies and steps."""
 
 from __future__ import annotations
 

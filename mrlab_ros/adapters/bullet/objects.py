@@ -42,9 +42,9 @@ class Objects:
         self._shapes: dict[Body, int] = {}
         self._masses: dict[int, float] = {}
         self._held: set[int] = set()
-        # Where the centre of each thin object was when its way was last looked at.
+        # Centre of each thin object at the last test of its way.
         self._thin: dict[int, Vector] = {}
-        # What was last read of each object. What sleeps keeps its pose exactly.
+        # State of each object as last read. A sleeping one keeps its pose exactly.
         self._read: dict[int, BodyState] = {}
 
     def __contains__(self, name: str) -> bool:

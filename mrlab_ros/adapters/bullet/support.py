@@ -1,4 +1,4 @@
-"""Whether pybullet is installed for this Python."""
+"""Tells whether pybullet is installed for this Python."""
 
 from __future__ import annotations
 

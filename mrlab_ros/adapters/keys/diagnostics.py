@@ -1,4 +1,4 @@
-"""What is said about the keys folder: its people, certificates and private files."""
+"""Diagnostics of the keys folder: its people, certificates and private files."""
 
 from __future__ import annotations
 

@@ -98,7 +98,7 @@ class Keys:
 
     @property
     def entries(self) -> list[Entry]:
-        """Who may connect, by name."""
+        """Return the people who may connect, by name."""
         return self._people.entries
 
     def people(self, now: datetime) -> list[Person]:

@@ -1,4 +1,4 @@
-"""Who may connect to a lab, and how: the files people.json and passwords.txt of a keys folder.
+"""People who may connect to a lab: the files people.json and passwords.txt of a keys folder.
 
 zenoh keeps passwords as they are, so they are random ones.
 

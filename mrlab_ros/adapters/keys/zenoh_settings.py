@@ -1,4 +1,4 @@
-"""What zenoh has to be configured with to use a keys folder: lab, router and clients.
+"""zenoh's configuration for a keys folder: lab, router and clients.
 
 Settings are path -> value, as zenoh's Config takes them; documents are whole JSON5 files.
 """

@@ -247,7 +247,7 @@ class _Tree:
             ways.sort(key=self.depth, reverse=True)
             first, second = self.depth(ways[0]), self.depth(ways[1]) if len(ways) > 1 else 0
             if len(ways) > 1 and first - second < LONGER_BY:
-                # What branches into shorter chains than the one that leads there is a hand.
+                # A branch into shorter chains than the one that leads to it is a hand.
                 arms = first > LONGER_BY and first >= len(arm)
                 if arms and not any(HAND_NAME.search(j.name) for j in ways):
                     raise BadInput(

@@ -1,4 +1,4 @@
-"""What is found about the URDF and the meshes of a robot."""
+"""Diagnostics of a robot's URDF and meshes."""
 
 from __future__ import annotations
 

@@ -43,7 +43,7 @@ ID = re.compile(r"[a-z][a-z0-9_]{0,47}")
 
 @dataclass(frozen=True)
 class Imported:
-    """What the lab understood of a description.
+    """A robot description as the lab understands it.
 
     findings: an error among them means that nothing was installed; the rest is then None.
     """

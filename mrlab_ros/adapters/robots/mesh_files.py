@@ -218,7 +218,7 @@ SOLID = re.compile(rb"^(?:v(?:\s+[-+.\deE]+){3,}|f(?:\s+-?\d+(?:/-?\d*){0,2}){3,
 
 @dataclass(frozen=True)
 class Look:
-    """What was found in a mesh file.
+    """The contents of a mesh file.
 
     size: its longest side in the file's unit. problem: why it cannot be read, as `plain` has it.
     missing: files that it names and that were not found, or not taken. visual, solid: names of

@@ -1,4 +1,4 @@
-"""Where robot models lie beside those of the lab."""
+"""Folders of robot models beside those of the lab."""
 
 from __future__ import annotations
 

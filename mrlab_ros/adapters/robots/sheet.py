@@ -34,7 +34,7 @@ WIDTH = 100  # characters of a note's line in the picture
 
 @dataclass(frozen=True)
 class Sheet:
-    """What there is to say. facts: (name, value). joints, fingers: rows of their tables."""
+    """The contents of a sheet. facts: (name, value). joints, fingers: rows of their tables."""
 
     title: str
     facts: tuple[tuple[str, str], ...]

@@ -1,4 +1,4 @@
-"""What is said of scene files and of the meshes of objects."""
+"""Diagnostics of scene files and of the meshes of objects."""
 
 from __future__ import annotations
 

@@ -114,7 +114,7 @@ def _check(name: str) -> None:
 
 
 FULL = (errno.ENOSPC, errno.EDQUOT)
-# What one change may add to a state file, bytes.
+# Most bytes that one change adds to a state file.
 ROOM = 65_536
 # The lab's own, with its robots and systems.
 SCENE_FILE = "scene.json"

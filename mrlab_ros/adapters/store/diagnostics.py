@@ -1,4 +1,4 @@
-"""What is said about the object store."""
+"""Diagnostics of the object store."""
 
 from __future__ import annotations
 

@@ -46,7 +46,7 @@ RETRY: Any = {
     "backoff": {"init_backoff": timedelta(milliseconds=200), "max_backoff": timedelta(seconds=2)},
 }
 CLIENT: Any = {"connect_timeout": "3 seconds", "timeout": "60 seconds"}
-# What obstore leaves beside a file that a killed process was writing.
+# obstore's files beside one that a killed process was writing.
 UNFINISHED = re.compile(r".+#[0-9]+")
 # A service says of a bucket that is not there what it says of an object.
 NO_BUCKET = re.compile("NoSuchBucket|ContainerNotFound|bucket does not exist")

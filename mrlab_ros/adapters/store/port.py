@@ -1,4 +1,4 @@
-"""What the lab needs of an object store.
+"""The object store as the lab needs it.
 
 An object is written as a whole or not at all, also where the writing process is killed: nobody
 ever sees a part of one. Keys are those of `keys`.

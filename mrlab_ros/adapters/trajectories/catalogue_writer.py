@@ -30,7 +30,7 @@ from mrlab_ros.core.trajectory.trajectory import Trajectory
 
 MOST_RECENT = 200  # changes that changes.json names
 DAY_S = 86_400.0
-# What nobody names may belong to a change that is being made.
+# A file that nobody names may belong to a change in progress.
 ORPHAN_AFTER_S = 3600.0
 DAMAGED = "damaged"
 

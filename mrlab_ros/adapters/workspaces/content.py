@@ -1,4 +1,4 @@
-"""What the reading process leaves in a memory file, as a workspace."""
+"""The memory file of the reading process as a workspace."""
 
 from __future__ import annotations
 

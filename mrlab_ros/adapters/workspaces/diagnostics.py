@@ -1,4 +1,4 @@
-"""What is said of files that cannot be read as workspaces."""
+"""Diagnostics of files that cannot be read as workspaces."""
 
 from __future__ import annotations
 

@@ -36,7 +36,7 @@ def _types() -> Any:
 
 
 class _InMemory:
-    """What rosbags reads in place of a path: bytes, with the suffix that tells their format."""
+    """A stand-in for a path that rosbags reads: bytes, with the suffix that tells their format."""
 
     def __init__(self, data: memoryview, suffix: str) -> None:
         self.data = data

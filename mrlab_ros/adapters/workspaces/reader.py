@@ -236,7 +236,7 @@ LARGE = 64 * MiB
 # For the order: bytes that are converted in a second. What waits is taken in the order of its
 # arrival plus its expected time, so a large file lets smaller ones pass, but not for ever.
 BYTES_PER_S = 10 * MiB
-# What may wait: files, and bytes of those that were sent and not named.
+# Most waiting files, and bytes of those that were sent and not named.
 MOST_WAITING, MOST_BYTES = 1000, 1024 * MiB
 
 Work = Callable[[WorkspaceReader], Any]

@@ -28,7 +28,7 @@ from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.channels import ProxyCoefficients
 from mrlab_ros.core.trajectory.document import metadata
 
-# What a document may hold beside plain values.
+# Types that a document may hold beside plain values.
 RECORDS: dict[str, type[Any]] = {
     kind.__name__: kind for kind in (ConversionResult, Candidate, Preview)
 }
@@ -36,7 +36,7 @@ RECORDS: dict[str, type[Any]] = {
 
 @dataclass(frozen=True)
 class Task:
-    """What `convert` is asked, beside the file.
+    """A request to `convert`, beside the file.
 
     file: its name. read_as: the name whose ending says what it is, where that is another one.
     """
@@ -54,7 +54,7 @@ class Task:
 
 @dataclass(frozen=True)
 class Converted:
-    """What became of a file, without its frames.
+    """The outcome for a file, without its frames.
 
     result: as `convert` returns it, but its trajectory is None. said: what a person is told first.
     head: the metadata of the trajectory where the file was accepted, else None.

@@ -1,4 +1,4 @@
-"""What a reader finds, and who takes it.
+"""Findings of a reader, and their takers.
 
 Sinks for files with objects: one keeps closed objects back, one remembers matrices.
 

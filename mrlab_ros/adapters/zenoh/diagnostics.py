@@ -1,4 +1,4 @@
-"""What zenoh refuses."""
+"""Diagnostics of zenoh."""
 
 from __future__ import annotations
 

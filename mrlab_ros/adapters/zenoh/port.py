@@ -1,4 +1,4 @@
-"""What the bridge needs of zenoh: publishers, subscribers, queryables, liveliness tokens."""
+"""zenoh as the bridge needs it: publishers, subscribers, queryables, liveliness tokens."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class Query(Protocol):
 
 
 class Session(Protocol):
-    """What the bridge needs of zenoh. Callbacks run in the session's threads."""
+    """zenoh as the bridge needs it. Callbacks run in the session's threads."""
 
     @property
     def zid(self) -> str: ...

@@ -1,4 +1,4 @@
-"""What arrives over zenoh in a demo, and whether it is what the file holds."""
+"""Frames that arrive over zenoh in a demo, compared with the file."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from mrlab_ros.messages.time import time_from_message
 
 
 class Arrivals:
-    """What arrives over zenoh on one robot's joint_states: every payload, in order."""
+    """Payloads that arrive over zenoh on one robot's joint_states, in order."""
 
     def __init__(self, session: Any, robot: str) -> None:
         self.key = f"{robot}/joint_states"

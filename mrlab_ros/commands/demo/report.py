@@ -1,4 +1,4 @@
-"""What a demo shows: progress while it runs, and its verdict."""
+"""Output of a demo: progress while it runs, and its verdict."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ PROGRESS_PERIOD_S = 1.0
 
 @dataclass
 class RobotSummary:
-    """What became of one robot's run; errors in s."""
+    """The result of one robot's run; errors in s."""
 
     robot: str
     trajectory: str
@@ -39,7 +39,7 @@ class RobotSummary:
     zenoh_messages: int
     zenoh_bytes: int
     warnings: list[str] = field(default_factory=list)
-    # What kept the frames from arriving once each, in order, as the file has them.
+    # Faults of frames that did not arrive once each, in order, as the file has them.
     faults: list[str] = field(default_factory=list)
 
 

@@ -199,7 +199,7 @@ def _latency_rows(report: Mapping[str, Any]) -> list[Row]:
 def _table(title: str, columns: tuple[str, ...], rows: list[Row], width: int) -> RenderableType:
     if not rows:
         return Text.assemble((title, "bold"), "  none yet")
-    # What nobody has is no column.
+    # An empty column is left out.
     kept = [
         index
         for index in range(len(columns))

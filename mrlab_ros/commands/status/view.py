@@ -1,4 +1,4 @@
-"""What `mrlab status` knows of the running lab, kept up to date by its graph.
+"""The state of the running lab for `mrlab status`, kept up to date by its graph.
 
 A window on lines that are more than the terminal has, moved with keys.
 
@@ -179,7 +179,7 @@ class Scroll:
             yield Text(footer[: options.max_width], "reverse", end="")
 
 
-# What a robot that was just found has to say is there by then, s.
+# First messages of a robot that was just found arrive within this time, s.
 SETTLE_TIMEOUT_S = 6.0
 # A node that nobody has seen for this long is missing, s: discovery takes up to 3.5 s. With --once
 # that is the longest wait.
@@ -187,7 +187,7 @@ ONCE_TIMEOUT_S = 4.0
 MISSING_AFTER_S = 5.0
 # Once the lab's robots are known the publishers of all topics are, after this time at most, s.
 DISCOVERY_S = 1.5
-# Who measures reports once a second; one that has been silent for longer has gone, s.
+# Measuring clients report once a second; a client silent for longer has gone, s.
 LATENCY_AGE_S = 5.0
 # How often the gateway is asked whether it is there, s.
 WEB_PERIOD_S = 1.0
@@ -292,7 +292,7 @@ class View:
             received = [w.value for w in watched]
             same = len(received) == len(before) and all(map(operator.is_, received, before))
             measured = self._latencies or "bridge" not in self._graph.node_names()
-            # What nobody publishes once discovery is over will not come.
+            # A topic without a publisher after discovery will not come.
             discovered = now - begun > DISCOVERY_S
             awaited = [w for w in watched if w.value is None]
             if discovered:

@@ -1,4 +1,4 @@
-"""What `mrlab up` does about keys: where the bridge may listen, and following their changes."""
+"""Keys of `mrlab up`: where the bridge may listen, and changes of the keys."""
 
 from __future__ import annotations
 

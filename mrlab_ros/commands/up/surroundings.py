@@ -1,4 +1,4 @@
-"""What a lab has around it: who sees its graph, its folder for state, the signals that end it."""
+"""Surroundings of a lab: the range of its graph, its folder for state, the signals that end it."""
 
 from __future__ import annotations
 

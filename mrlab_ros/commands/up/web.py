@@ -1,4 +1,4 @@
-"""What `mrlab up` does about the pages: where they are served, and how to open them."""
+"""The pages of `mrlab up`: their address, and how to open them."""
 
 from __future__ import annotations
 

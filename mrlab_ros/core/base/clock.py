@@ -83,7 +83,7 @@ class LabTime:
 
     @property
     def simulated(self) -> bool:
-        """Whether it follows /clock."""
+        """Return whether it follows /clock."""
         return self._simulated_ns is not None
 
     def follow_wall(self, steady_ns: int, wall_ns: int) -> int:

@@ -24,7 +24,7 @@ from typing import Any
 from mrlab_ros.core.base.foreign_text import visible
 from mrlab_ros.core.base.phrase import Phrase, Value, phrase
 
-# What MATLAB takes for a variable, or a part of one, and for nothing else; what is pasted there
+# Text that MATLAB takes for a variable or a part of one, and for nothing else; pasted text
 # may hold no other name of a file, such as `q; system('...')`.
 MATLAB_PATH = re.compile(r"[A-Za-z]\w*(\.[A-Za-z]\w*|\([\d:, ]+\)|\{[\d:, ]+\})*", re.ASCII)
 # Values that say where a diagnostic applies; each code may have them beside those of its text.
@@ -110,13 +110,13 @@ class Diagnostic:
 
     @property
     def value(self) -> float | None:
-        """What was found, in `unit`; None: no number."""
+        """Return the found figure, in `unit`; None: no number."""
         value = self.values.get("value")
         return None if value is None else float(value)
 
     @property
     def limit(self) -> float | None:
-        """What the value was compared with, in `unit`."""
+        """Return the figure that it was compared with, in `unit`."""
         limit = self.values.get("limit")
         return None if limit is None else float(limit)
 
@@ -148,7 +148,7 @@ class Diagnostic:
 
     @property
     def kind(self) -> str:
-        """What the robot meets, by engine.Kind's name in lower case; empty: nothing."""
+        """Return the obstacle, by engine.Kind's name in lower case; empty: none."""
         return str(self.values.get("kind") or "")
 
     @property

@@ -1,4 +1,4 @@
-"""What is said of fields, of names and of state machines."""
+"""Diagnostics of fields, of names and of state machines."""
 
 from __future__ import annotations
 

@@ -31,7 +31,7 @@ class Misuse(LabError):
 
 
 class Unreached(LabError):
-    """Who was asked did not answer in time; whether it did what was asked is not known."""
+    """No answer came in time; the request may have been carried out or not."""
 
 
 class IllegalEvent(Misuse):

@@ -20,7 +20,7 @@ ACTING = (
 )
 ANY = re.compile(f"[{ACTING}]")
 BUT_LINES = re.compile(f"(?![\\n\\t])[{ACTING}]")
-# What a table program computes, also where another character than the comma parts the cells
+# Text that a table program computes, also where another character than the comma parts the cells
 FORMULA = re.compile("(^|[;\t\r\n])([\\s\"']*)(?=[=+\\-@\uff1d\uff0b\uff0d\uff20])")
 
 

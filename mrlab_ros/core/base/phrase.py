@@ -44,7 +44,7 @@ from typing import Any, TypeAlias
 
 from mrlab_ros.core.base.foreign_text import visible, visible_lines
 
-# What a value may be: a text, a number in the unit of its quantity, several of these, or a
+# A text, a number in the unit of its quantity, several of these, or a
 # diagnostic with values of its own.
 Value: TypeAlias = Any
 

@@ -97,7 +97,7 @@ def between(low: float, high: float) -> Range:
 
 
 class Check(Protocol[T_co]):
-    """What a value must be.
+    """The check of a value.
 
     expected: the words after 'expected' in an error. read: returns the value in its type; raises
     ValueError, with a remedy where there is one, for a value that is not expected.

@@ -1,1 +1,1 @@
-"""What the bridge carries, who may see it, and how long it takes."""
+"""The bridge's rules: topics and services, rights, latency."""

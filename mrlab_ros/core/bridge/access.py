@@ -276,12 +276,12 @@ def _key(name: str, prefix: str) -> str:
     return key_of("/" + "/".join(parts), prefix)
 
 
-# What clients draw the lab from; offered beside the graph, to everybody who may connect.
+# Assets that clients draw the lab from; offered beside the graph, to everybody who may connect.
 OFFERED = ("assets", "schema")
 
 
 class Verb(Enum):
-    """What somebody does with a key."""
+    """Uses of a key by a person."""
 
     RECEIVE = "receive"  # subscribe to a topic, or get its newest message or an asset
     PUBLISH = "publish"  # put a message on a topic

@@ -111,7 +111,7 @@ def span(offset: str | None, length: str | None) -> Span:
 
 @dataclass(frozen=True)
 class Described:
-    """What an attachment says of an asset as a whole: bytes, hexadecimal SHA-256, media type."""
+    """The attachment of an asset as a whole: bytes, hexadecimal SHA-256, media type."""
 
     size: int
     sha256: str

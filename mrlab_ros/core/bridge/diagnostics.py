@@ -1,4 +1,4 @@
-"""What the bridge says: of its allow-list and endpoints, and why it refuses a query."""
+"""Diagnostics of the bridge: of its allow-list and endpoints, and refusals of queries."""
 
 from __future__ import annotations
 

@@ -23,7 +23,7 @@ SPARE = 50
 
 @dataclass(frozen=True)
 class Share:
-    """What one person may have: sessions, bytes a second, and bytes at once."""
+    """The share of one person: sessions, bytes a second, and bytes at once."""
 
     sessions: int
     rate: float
@@ -64,7 +64,7 @@ class _Guest:
 
 
 class Guests:
-    """Who is connected, and which links must be closed.
+    """Connected people, and links that must be closed.
 
     people: who may connect. by_certificate: a link without the certificate of one of them is
     closed; otherwise people are told apart by their addresses, and their bytes are not limited.

@@ -20,7 +20,7 @@ _CLOCK = struct.Struct("<qq")
 
 @dataclass(frozen=True)
 class Stamps:
-    """What the bridge attaches to a message.
+    """The bridge's attachment of a message.
 
     sequence: counts the messages of a key from 1. published_ns: when it was published in the
     graph. bridged_ns: when the bridge published it over zenoh.

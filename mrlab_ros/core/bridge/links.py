@@ -24,7 +24,7 @@ LEASE_WITHIN = 10.0
 OPEN_TIMEOUT = 2000
 LOCAL_PROTOCOL = "unixsock-stream"
 PORT = 7447
-# Where a lab with keys listens.
+# Endpoints of a lab with keys.
 EVERYWHERE = (f"tls/0.0.0.0:{PORT}",)
 RETRY = {"period_init_ms": 250, "period_max_ms": 500, "period_increase_factor": 1.5}
 

@@ -63,7 +63,7 @@ class Direction(Enum):
 
 
 class Congestion(Enum):
-    """What happens to a message on a full link."""
+    """Treatment of a message on a full link."""
 
     DROP = "drop"  # it is dropped: the next one is newer
     BLOCK = "block"  # it waits: each one counts
@@ -77,7 +77,7 @@ class Reliability(Enum):
 
 
 class Role(Enum):
-    """What a person may do in a lab with keys; a later role includes the earlier ones."""
+    """Roles of people in a lab with keys; a later role includes the earlier ones."""
 
     DISPLAY = "display"  # watch
     STUDENT = "student"  # upload and publish what is one's own

@@ -1,1 +1,1 @@
-"""What can be said of a motion before a robot moves: limits, evidence from physics, a verdict."""
+"""Checks of a motion before a robot moves: limits, evidence from physics, a verdict."""

@@ -1,8 +1,8 @@
-"""What a check says: findings, conditions of a real controller, verdicts."""
+"""Diagnostics of a check: findings, conditions of a real controller, verdicts."""
 
 from mrlab_ros.core.base.diagnostic import INFO, WARNING, Code
 
-# What a robot meets: `kind` is a name of engine.Kind in lower case.
+# Obstacles of a robot: `kind` is a name of engine.Kind in lower case.
 MET = (
     "{kind:choice self=its own|robot=the robot|object=the object|surface=the surface} {other}"
     "[ ({other_link})]"

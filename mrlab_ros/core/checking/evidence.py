@@ -1,4 +1,4 @@
-"""What a rehearsal in physics says: collisions, distances, grasps, as findings."""
+"""Findings of a rehearsal in physics: collisions, distances, grasps."""
 
 from __future__ import annotations
 

@@ -40,7 +40,7 @@ ROUNDING = 1.01
 
 @dataclass(frozen=True)
 class StatedLimits:
-    """What a vendor states of a joint beside range and speed: rad/s^2 and rad/s^3, or None."""
+    """Limits that a vendor states beside range and speed: rad/s^2 and rad/s^3, or None."""
 
     acceleration: float | None = None
     jerk: float | None = None
@@ -80,7 +80,7 @@ class JointFigures:
 
     @property
     def jolts(self) -> bool:
-        """Whether its speed changes at one frame as it does nowhere else."""
+        """Return whether its speed changes at one frame as it does nowhere else."""
         return (
             self.speed_step > STEP_USUAL * self.usual_step
             and self.speed_step > STEP_SHARE * self.joint.max_velocity

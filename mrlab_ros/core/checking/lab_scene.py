@@ -21,7 +21,7 @@ from mrlab_ros.core.checking.diagnostics import (
 )
 from mrlab_ros.core.scene.document import SceneDocument
 
-# What moved less is where it was: m, and rad of an orientation or a joint.
+# A smaller motion counts as none: m, and rad of an orientation or a joint.
 SAME_PLACE, SAME_ANGLE = 0.002, 0.02
 
 

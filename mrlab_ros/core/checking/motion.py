@@ -45,7 +45,7 @@ class CheckedRobot:
 
 @dataclass(frozen=True, eq=False)
 class MotionFigures:
-    """What a motion is by itself. tool: (N, 3) m of tool0 in world at times (N,) s; speeds: (N,)
+    """Figures of a motion. tool: (N, 3) m of tool0 in world at times (N,) s; speeds: (N,)
     m/s of it."""
 
     joints: tuple[JointFigures, ...]

@@ -34,7 +34,7 @@ LEAD_NS, TAIL_NS = SECOND, SECOND // 2
 # Distances are taken every 20 ms, up to 0.5 m.
 DISTANCE_TICKS, FARTHEST = 2, 0.5
 DISTANCE_PERIOD = DISTANCE_TICKS * TICK_NS / SECOND
-# What is drawn is recorded 25 times a second.
+# Pictures are recorded 25 times a second.
 DRAWN_TICKS = 4
 # A member waits for ever where nothing else has moved for so long, ns.
 STUCK_NS = 2 * SECOND
@@ -356,7 +356,7 @@ class Rehearsal:
                 mine = other[1] in held and self._world.object(other[1]).held_by == name
                 near = None if mine else self._engine.nearest(name, *other, FARTHEST, without)
                 series = self._recorded.distances.setdefault((name, other), Distances())
-                # What came later was far before, and what is held is no obstacle.
+                # Later obstacles were far before, and held objects are none.
                 missing = len(self._recorded.times) - 1 - len(series.values)
                 series.add_far(missing, FARTHEST)
                 if near is None:

@@ -1,4 +1,4 @@
-"""What a rehearsal in physics recorded: contacts, distances, grasps, and where everything was."""
+"""The record of a rehearsal in physics: contacts, distances, grasps, and places over time."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class Collision:
 
 @dataclass(frozen=True)
 class GraspChange:
-    """What became of a gripper at a time, s. reason: why, None: nothing is to be said."""
+    """A change of a gripper at a time, s. reason: why, None: no remark."""
 
     time: float
     robot: str
@@ -90,7 +90,7 @@ class Distances:
 
 @dataclass
 class Course:
-    """Where something was over time. values: of a robot its joints, then its fingers, rad or m; of
+    """Places of one thing over time. values: of a robot its joints, then its fingers, rad or m; of
     an object x, y, z, qx, qy, qz, qw in world. holders: since when which robot holds it."""
 
     times: list[float] = field(default_factory=list)

@@ -53,7 +53,7 @@ from mrlab_ros.core.checking.waypoints import Passed
 
 
 class State(Enum):
-    """Whether a condition holds."""
+    """The state of a condition."""
 
     OK = "ok"
     NOT = "not"
@@ -191,7 +191,7 @@ DECIMALS = 6
 
 @dataclass(frozen=True)
 class RobotReport:
-    """What is said of one robot. figures: numbers by name, SI; joints: of each joint, by name."""
+    """The report of one robot. figures: numbers by name, SI; joints: of each joint, by name."""
 
     name: str
     model: str

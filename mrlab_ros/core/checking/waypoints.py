@@ -1,4 +1,4 @@
-"""Whether the tool passes given points, in order, within a tolerance."""
+"""Tells whether the tool passes given points, in order, within a tolerance."""
 
 from __future__ import annotations
 

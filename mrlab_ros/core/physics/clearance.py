@@ -8,14 +8,14 @@ from mrlab_ros.core.base.state_machine import Machine, Table
 
 
 class Halt(Enum):
-    """Whether an arm collides."""
+    """States of an arm's collisions."""
 
     CLEAR = "clear"
     COLLIDING = "colliding"
 
 
 class HaltEvent(Enum):
-    """What is observed of an arm."""
+    """Observations of an arm."""
 
     TOUCHED = "touch"
     LEFT = "keep clear"
@@ -46,7 +46,7 @@ class Clearance:
 
     @property
     def state(self) -> Halt:
-        """Whether the arm collides."""
+        """The state of the arm's collisions."""
         return self._machine.state
 
     def touched(self) -> bool:

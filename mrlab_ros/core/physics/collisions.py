@@ -83,7 +83,7 @@ class Collisions:
         if touch.other in robot.passing:
             cup = robot.gripper is Gripper.VACUUM
             return touch.depth > (STROKE if cup else self._world_state.settings.set_down)
-        # What fingers may touch they press with little force.
+        # Fingers press with little force on obstacles that they may touch.
         if counts or touch.depth > SQUEEZED or touch.link not in robot.finger_links:
             way = self._engine.squeezed(robot.name, touch.other, touch.normal)
             if math.hypot(*way) > SQUEEZED:

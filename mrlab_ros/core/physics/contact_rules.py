@@ -16,9 +16,9 @@ from mrlab_ros.core.physics.world_state import WorldState
 # Cosine between a contact and the release direction, for the tolerance along it: 45 degrees.
 ALONG = 0.707
 UP = (0.0, 0.0, 1.0)
-# What is not touched any more for so long, ns, was left.
+# A contact that ended this long ago, ns, is forgotten.
 FORGET_NS = 100_000_000
-# What is touched so soon after a grasp, ns, was touched when it was grasped.
+# A contact that begins this soon after a grasp, ns, began with it.
 GRASPED_NS = 10_000_000
 
 

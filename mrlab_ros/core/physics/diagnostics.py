@@ -1,4 +1,4 @@
-"""What physics says: of grasps, of objects and surfaces, of the catalogue, of joint states."""
+"""Diagnostics of physics: of grasps, objects and surfaces, of the catalogue, of joint states."""
 
 from __future__ import annotations
 

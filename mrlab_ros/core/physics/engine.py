@@ -21,7 +21,7 @@ LinkPairs = frozenset[frozenset[str]]
 
 
 class Kind(Enum):
-    """What an arm touches; the values are those of mrlab_msgs/Contact."""
+    """Kinds of obstacles of an arm; the values are those of mrlab_msgs/Contact."""
 
     OBJECT = 0
     SURFACE = 1
@@ -53,7 +53,7 @@ class Part:
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """What the engine needs of an object or a surface. mass: kg, 0 is fixed."""
+    """An object or a surface for the engine. mass: kg, 0 is fixed."""
 
     parts: tuple[Part, ...]
     mass: float
@@ -97,7 +97,7 @@ class Finger:
 
 @dataclass(frozen=True, eq=False)
 class Arm:
-    """What the engine found in a robot's description.
+    """A robot's description as the engine reads it.
 
     fingers: its joints that the trajectory does not prescribe. hand: the link an object is fixed
     to. tool: tool0, or what stands for it. tool_links: all links beyond it. grip_links: the
@@ -153,7 +153,7 @@ class Touch:
 
 @dataclass(frozen=True)
 class Near:
-    """Where an arm is nearest to something. distance: m, negative where they overlap.
+    """The nearest places of an arm and an obstacle. distance: m, negative where they overlap.
 
     held: the object in its hand that is nearest; empty: the arm's link itself. other_link: of
     another robot, or of the arm itself.
@@ -167,7 +167,7 @@ class Near:
 
 @dataclass(frozen=True)
 class Hit:
-    """Where a ray meets an object. share: of the ray's length; normal: unit, out of the object."""
+    """The place where a ray meets an object. share: of the ray's length; normal: unit, outward."""
 
     share: float
     normal: Vector

@@ -178,7 +178,7 @@ class Grippers:
         robot.watch.reset()
         if not closed:
             self.let_go(robot)
-            # What the fingers only pressed on is released too.
+            # Objects that the fingers only pressed on are released too.
             robot.leaving |= {
                 touch.other
                 for touch in robot.touches
@@ -219,7 +219,7 @@ class Grippers:
         if found is not None and self._may_take(robot, found[0]):
             self._seize(robot, *found)
         elif shut and robot.grasp is Grasp.CLOSING:
-            # What was touched may be gone by now: why it was not held.
+            # The touched object may be gone by now: keep the reason why it was not held.
             robot.reason = reason or robot.reason
             robot.fire(GraspEvent.SHUT)
             self.announce(robot)

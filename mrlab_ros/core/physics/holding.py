@@ -1,4 +1,4 @@
-"""What a robot holds: fixing it to the hand, weighing it, letting it slip, letting it go."""
+"""Holding: an object is fixed to the hand, weighed, slips, is released."""
 
 from __future__ import annotations
 

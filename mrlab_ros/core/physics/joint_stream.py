@@ -79,7 +79,7 @@ class JointStream:
         self._pieces: deque[_Piece] = deque(maxlen=KEPT)
         self._last: tuple[int, Joints] | None = None
         self._moves = False
-        # Whether the next state is expected without a pause.
+        # Set while the next state is expected without a pause.
         self._streams = False
         self._fresh = True
         self.delay_ns = 0

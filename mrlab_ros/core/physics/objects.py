@@ -50,7 +50,7 @@ MAX_SPIN = 100.0  # rad/s
 SPAWN_GAP = 0.0005
 # A step in which a free object moves further than this, m, near an arm is divided.
 FAST_WAY = 0.008
-# What an object gains between two looks at what is fast, m/s: by falling.
+# Speed that an object gains by falling between two tests of fast objects, m/s.
 GAINED = 0.5
 # Rings around the wanted position in which a free one is searched.
 SPAWN_RINGS = 12
@@ -67,7 +67,7 @@ class Inventory:
         self._grippers = grippers
         # Free objects that are fast, or may be before the next look.
         self.fast: tuple[str, ...] = ()
-        # Whether a person holds something.
+        # Set while a person holds something.
         self.in_hand = False
 
     def spawn(self, type_id: str, name: str, pose: Pose | None, *, automatic: bool) -> SceneObject:

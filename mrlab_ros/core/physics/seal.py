@@ -1,4 +1,4 @@
-"""Whether a vacuum cup seals: how its lip lies on the surface under it."""
+"""The seal of a vacuum cup: how its lip lies on the surface under it."""
 
 from __future__ import annotations
 

@@ -150,7 +150,7 @@ class Robot:
     share_of: Joints | None = None
     closed: bool = False
     closing_since_ns: int = 0
-    # Whether it closed as its motion goes on: then it may take over what another robot holds.
+    # A gripper that closes as its motion goes on may take over what another robot holds.
     takes_over: bool = True
     held: str = ""
     held_since_ns: int = 0
@@ -163,7 +163,7 @@ class Robot:
     passing: set[str] = field(default_factory=set)
     # By kind, name and link: what the held object presses on.
     pressed: dict[tuple[Kind, str, str], Pressed] = field(default_factory=dict)
-    # What is to be said of the gripper; None: nothing.
+    # A remark on the gripper; None: nothing.
     reason: Diagnostic | None = None
     # The load that was announced last.
     told: Load | None = None
@@ -194,7 +194,7 @@ class Robot:
 
     @property
     def payload(self) -> float:
-        """What it may carry beside its end effector, kg; 0: not stated."""
+        """Return the payload beside its end effector, kg; 0: not stated."""
         return max(self.tool.payload - self.arm.tool_mass, 0.0)
 
     def queue(self, playing: Playing) -> None:
@@ -213,7 +213,7 @@ class Robot:
                 # Physics restarted during a halt: announce the collision again so that its end
                 # is announced too.
                 self.raise_again = self.inherited = True
-                # What the arm stands in is what halted it.
+                # The arm stands in the obstacle that halted it.
                 self.tolerated.clear()
             yield before
 

@@ -1,1 +1,1 @@
-"""What is recorded and how a recording is played again; no graph and no file here."""
+"""Recordings and their replay; no graph and no file here."""

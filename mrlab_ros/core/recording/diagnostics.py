@@ -1,4 +1,4 @@
-"""What is said of recordings: of the runs of a session, of its bag, and of the recorder."""
+"""Diagnostics of recordings: of the runs of a session, of its bag, and of the recorder."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What metadata.yaml says of a bag: rosbag2's document of version 9, as ROS 2 Jazzy writes it."""
+"""The metadata.yaml of a bag: rosbag2's document of version 9, as ROS 2 Jazzy writes it."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ VERSION = 9
 ROOT = "rosbag2_bagfile_information"
 # The metadata record in a file that the recorder began after a time in which it did not run.
 GAP = "mrlab_gap"
-# What rosbag2 writes for the start of a bag without messages.
+# rosbag2's start of a bag without messages.
 NEVER_NS = 2**63 - 1
 POLICIES = {
     "history": ("system_default", "keep_last", "keep_all", "unknown"),

@@ -1,4 +1,4 @@
-"""Where the objects of a session were, and where trajectories were programmed to release them.
+"""Places of the objects of a session, and places where trajectories release them.
 
 Times are s from the bag's first message; poses are in the frame world unless they say otherwise.
 """
@@ -16,7 +16,7 @@ LATE = 0.3
 
 @dataclass(frozen=True)
 class Placed:
-    """Where an object is from a time on. in_tool: its pose in tool0 of the robot that holds it."""
+    """The pose of an object from a time on. in_tool: its pose in tool0 of the holding robot."""
 
     pose: Pose
     held_by: str
@@ -82,7 +82,7 @@ class Target:
 
 @dataclass
 class Targets:
-    """What the trajectories that a robot loaded do with its gripper."""
+    """Gripper states of the trajectories that a robot loaded."""
 
     times: list[float] = field(default_factory=list)
     sets: list[tuple[Target, ...]] = field(default_factory=list)

@@ -45,7 +45,7 @@ class RecorderState(Enum):
 
 
 class RecorderEvent(Enum):
-    """What can happen to the recorder. The value is the verb in "cannot <value> in <STATE>"."""
+    """Events of the recorder. The value is the verb in "cannot <value> in <STATE>"."""
 
     START = "start a recording"
     SPLIT = "split the recording"

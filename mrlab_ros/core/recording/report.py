@@ -1,4 +1,4 @@
-"""What happened in a recorded session: states, contacts, grasps, errors, latency, per robot.
+"""Report of a recorded session: states, contacts, grasps, errors, latency, per robot.
 
 Times are s from the bag's first message unless a name says otherwise.
 """
@@ -69,7 +69,7 @@ class Changes:
 
 @dataclass
 class Said:
-    """What was said when, s; the same again is ignored, also where its figures vary."""
+    """Remarks and their times, s; a repeated one is ignored, also where its figures vary."""
 
     values: list[tuple[float, Diagnostic]] = field(default_factory=list)
 
@@ -108,7 +108,7 @@ def course_of(
 
 @dataclass(frozen=True)
 class ReportedState:
-    """What a playback_state says; stamps ns. time: s of the session; length: s, 0: unknown."""
+    """A recorded playback_state; stamps ns. time: s of the session; length: s, 0: unknown."""
 
     stamp_ns: int
     label: str
@@ -197,13 +197,13 @@ class Borne:
 
 @dataclass
 class RobotReport:
-    """What one robot did. tracking rad, deadline s, latency s by hop."""
+    """Report of one robot. tracking rad, deadline s, latency s by hop."""
 
     name: str
     model: str = ""
     states: Changes = field(default_factory=Changes)
     grasps: Changes = field(default_factory=Changes)
-    # What was said of its grasps, and of its states.
+    # Remarks on its grasps, and on its states.
     remarks: Said = field(default_factory=Said)
     reasons: Said = field(default_factory=Said)
     borne: dict[str, Borne] = field(default_factory=dict)
@@ -219,7 +219,7 @@ class RobotReport:
     deadline: Series = field(default_factory=Series)
     latency: dict[Hop, Series] = field(default_factory=dict)
     _holds: list[int] = field(default_factory=list)
-    # Where in _holds the present reckoning of time begins: the clock may be set back.
+    # Start of the present reckoning of time in _holds: the clock may be set back.
     _begin: int = 0
 
     def add(self, reported: ReportedState) -> None:
@@ -296,7 +296,7 @@ class RobotReport:
 
 @dataclass
 class SessionReport:
-    """What happened in a session of `duration` s that began at `start_ns`."""
+    """Report of a session of `duration` s that began at `start_ns`."""
 
     duration: float
     start_ns: int

@@ -40,7 +40,7 @@ class Result(Enum):
 
 
 class Deed(Enum):
-    """What a robot did in a run."""
+    """Events of a robot in a run."""
 
     GRASPED = "grasped"
     RELEASED = "released"
@@ -105,7 +105,7 @@ class Deviation:
 
 @dataclass
 class Course:
-    """What was recorded of a run's motion. (N,) s of the session; (N, J) rad or m; (N, 3) m.
+    """The recorded motion of a run. (N,) s of the session; (N, J) rad or m; (N, 3) m.
 
     positions: s of the trajectory, NaN where the robot did not play. expected: (N, J) of the
     reference at these positions, NaN where it has none.

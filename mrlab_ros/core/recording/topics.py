@@ -16,7 +16,7 @@ from mrlab_ros.core.recording.diagnostics import (
 )
 
 PATTERN = re.compile(r"(?:/(?:[A-Za-z_][A-Za-z0-9_]*|\*{1,2}))+")
-# What the lab says: motion, state, events, and how well it went.
+# Topics of the lab: motion, state, events, and measurements.
 LAB_TOPICS = (
     "/robots",
     "/systems",

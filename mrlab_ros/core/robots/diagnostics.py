@@ -1,4 +1,4 @@
-"""What is said of joint positions and of the reach of a robot."""
+"""Diagnostics of joint positions and of the reach of a robot."""
 
 from __future__ import annotations
 

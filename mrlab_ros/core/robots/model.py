@@ -103,7 +103,7 @@ class KinematicChain:
 
     @cached_property
     def _steps(self) -> tuple[tuple[Vector, Quaternion, bool], ...]:
-        """What lies before each moving joint, its axis on z, and whether it is prismatic.
+        """The transform before each moving joint, its axis on z, and whether it is prismatic.
 
         A last step, which moves nothing, leads to the tip.
         """

@@ -36,7 +36,7 @@ BURST = 10
 PERIOD_S = 5.0
 # Kinds that are remembered, the newest ones.
 KINDS = 256
-# What differs between lines of one kind: numbers, addresses, identifiers.
+# Parts that differ between lines of one kind: numbers, addresses, identifiers.
 DIFFERS = re.compile(r"[0-9a-f]{6,}|[0-9]+")
 
 

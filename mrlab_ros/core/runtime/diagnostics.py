@@ -1,4 +1,4 @@
-"""What is said of the processes of a lab, of other labs beside it, and of the machine."""
+"""Diagnostics of the processes of a lab, of other labs beside it, and of the machine."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What may keep a lab or its pages from working: facts of a machine, and what to do about each."""
+"""Faults that may keep a lab or its pages from working: facts of a machine, and remedies."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class Port:
 
 @dataclass(frozen=True)
 class Gateway:
-    """What a gateway answered. version: of the lab behind it; offset: its clock minus ours, s.
+    """The answer of a gateway. version: of the lab behind it; offset: its clock minus ours, s.
 
     error: why it did not answer; empty: it did.
     """
@@ -57,7 +57,7 @@ class Certificate:
 
 @dataclass(frozen=True)
 class Facts:
-    """What was found on a machine. multicast: why a packet did not come back; None: it did."""
+    """Facts of a machine. multicast: why a packet did not come back; None: it did."""
 
     python: tuple[int, int]
     modules: Mapping[str, bool]

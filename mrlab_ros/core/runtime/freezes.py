@@ -19,7 +19,7 @@ FROZEN_AFTER_S = 1.5
 BUSY_SHARE = 0.1
 # How often a process says that it runs, s, at least.
 LOOK_PERIOD_S = 0.5
-# What does not say when it was sent counts as old for THAW_S after a freeze of LONG_S: it is read
+# Requests without a send time are stale for THAW_S after a freeze of LONG_S: they are read
 # at once when the process runs again. Callers over zenoh and the web wait longer than LONG_S.
 LONG_S = 3.0
 THAW_S = 1.0

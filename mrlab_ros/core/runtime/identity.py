@@ -23,7 +23,7 @@ class Identity:
 
     @property
     def namespace(self) -> str:
-        """What a name in the graph ends with that another lab must not have; may be empty."""
+        """Return the end of names in the graph that are this lab's alone; may be empty."""
         return f"/lab_{re.sub('[^0-9A-Za-z]', '', self.lab)}" if self.lab else ""
 
     def accepts(self, lab: str) -> bool:

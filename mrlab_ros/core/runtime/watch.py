@@ -29,7 +29,7 @@ class Freeze:
 
 @dataclass(frozen=True)
 class Sign:
-    """What a process says of itself.
+    """The report of a process about itself.
 
     restarts: how often it was started again. last_exit: the signal that ended it before, such as
     SIGKILL, or its exit code.

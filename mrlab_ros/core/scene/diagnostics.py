@@ -1,4 +1,4 @@
-"""What is said of scenes: their files, the robots in them and the places where they stand."""
+"""Diagnostics of scenes: their files, the robots in them and their places."""
 
 from __future__ import annotations
 

@@ -99,7 +99,7 @@ class ObjectEntry:
 
 @dataclass(frozen=True)
 class SceneDocument:
-    """What a scene holds, or a cell, which has systems alone. about: a sentence for people."""
+    """Contents of a scene, or of a cell, which has systems alone. about: a sentence for people."""
 
     robots: tuple[RobotEntry, ...] = ()
     objects: tuple[ObjectEntry, ...] = ()

@@ -1,4 +1,4 @@
-"""Where a robot comes to stand: level surfaces of the room, what is clear there, who looks at it.
+"""Chooses a place for a robot: level surfaces of the room, free space there, viewers.
 
 Everything is in the frame `world`, lengths in m, angles in rad.
 """
@@ -30,7 +30,7 @@ BASE_RADIUS = 0.12
 SPACING = 0.75
 # Two bases on one surface that is no floor: arms there may meet, but not stand in each other.
 BESIDE = 0.45
-# What a robot's base takes of its reach beside objects, and the part of its reach that its arm may
+# The part of its reach that a robot's base takes beside objects, and that its arm may
 # take at home: over objects that are lower than the base's share of the reach it passes.
 BASE_SHARE, HOME_SHARE = 0.2, 0.6
 # An object that reaches so little above a surface, m, is not in the way there.
@@ -143,7 +143,7 @@ class Thing:
 
 @dataclass(frozen=True)
 class Viewer:
-    """Where somebody stands and looks: the place of the eyes and the direction of their x."""
+    """A standing person: the place of the eyes and the direction of their x."""
 
     position: tuple[float, float, float]
     ahead: tuple[float, float, float]

@@ -36,7 +36,7 @@ from mrlab_ros.core.systems.waits import parse as parse_wait
 
 @dataclass(frozen=True)
 class Present:
-    """What the lab holds. loaded: by robot the trajectory that its playback has loaded, empty
+    """The contents of the lab. loaded: by robot the trajectory that its playback has loaded, empty
     for none; a robot whose playback is unknown is left out. physics: whether it runs."""
 
     robots: frozenset[str] = frozenset()

@@ -213,7 +213,7 @@ VERSION = re.compile(r"[1-9][0-9]{0,8}")
 
 @dataclass(frozen=True, order=True)
 class TrajectoryName:
-    """What an id says. owner: empty: the lab's. version: 0: the newest one."""
+    """An id in its parts. owner: empty: the lab's. version: 0: the newest one."""
 
     owner: str
     name: str

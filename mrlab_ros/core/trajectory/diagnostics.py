@@ -1,4 +1,4 @@
-"""What is said of trajectories, their files, and the catalogue that keeps them."""
+"""Diagnostics of trajectories, their files, and the catalogue that keeps them."""
 
 from __future__ import annotations
 

@@ -33,7 +33,7 @@ ON_FRAME = 1e-6
 
 @dataclass(frozen=True)
 class Source:
-    """Where a trajectory came from: file name without folder, variable, sha256 of the file."""
+    """The source of a trajectory: file name without folder, variable, sha256 of the file."""
 
     file: str
     variable: str

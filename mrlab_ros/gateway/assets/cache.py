@@ -28,7 +28,7 @@ MIB = 1 << 20
 FRESH_S = 5.0
 # A file that changes while it is fetched is fetched anew; this often in all.
 ATTEMPTS = 3
-# What does not shrink: pictures are compressed already.
+# Media types that compression does not shrink: pictures.
 NOT_COMPRESSED = ("image/png", "image/jpeg", "image/webp", "image/gif")
 
 

@@ -72,7 +72,7 @@ class CheckProcess:
 
 MOST_WAITING = 12
 MOST_KEPT = 100
-# What a person may try again after, s, where too many wait.
+# Delay before another try, s, while too many requests wait.
 AGAIN_S = 10.0
 log = logging.getLogger("mrlab.gateway")
 

@@ -28,7 +28,7 @@ router = APIRouter(prefix="/api/checks", tags=["checks"])
 
 @dataclass(eq=False)
 class Checking:
-    """What the routes share. scenes: None: this gateway has no lab."""
+    """State that the routes share. scenes: None: this gateway has no lab."""
 
     desk: CheckDesk
     scenes: SceneWatch | None

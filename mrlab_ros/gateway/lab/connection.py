@@ -1,4 +1,4 @@
-"""What the gateway needs of the lab: services, newest values, samples, presence.
+"""The lab as the gateway needs it: services, newest values, samples, presence.
 
 The bridge's liveliness tokens, read back into what the lab offers.
 
@@ -129,7 +129,7 @@ class Sample:
 
 @dataclass(frozen=True)
 class LabKeys:
-    """What the lab offers now: key -> type. latched: topics whose newest message is kept."""
+    """Keys that the lab offers now: key -> type. latched: topics whose newest message is kept."""
 
     topics: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
     services: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
@@ -154,7 +154,7 @@ class LabConnection(Protocol):
 
     @property
     def connected(self) -> bool:
-        """Whether the lab is there now."""
+        """Return whether the lab is connected."""
         ...
 
     @property

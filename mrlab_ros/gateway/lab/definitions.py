@@ -24,7 +24,7 @@ from mrlab_ros.gateway.lab.diagnostics import (
 )
 
 PACKAGE = "mrlab_msgs"
-# What ROS puts into a message without fields.
+# The field that ROS puts into a message without fields.
 EMPTY = "structure_needs_at_least_one_member"
 
 

@@ -1,4 +1,4 @@
-"""What is said about the lab behind the gateway, and about messages by their definitions."""
+"""Diagnostics of the lab behind the gateway, and of messages by their definitions."""
 
 from __future__ import annotations
 

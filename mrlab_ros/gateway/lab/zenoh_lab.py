@@ -40,7 +40,7 @@ SCHEMA = "schema"
 TOKENS = "@/*/@ros2_lv/**"
 # s between two attempts to open the session.
 RETRY_S = 0.5
-# What zenoh itself answers where nobody did in time.
+# zenoh's own answer after a time-out.
 ZENOH_TIMEOUT = "Timeout"
 log = logging.getLogger(__name__)
 

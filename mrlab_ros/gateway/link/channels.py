@@ -1,4 +1,4 @@
-"""What waits for a client: of each topic the newest message, the most urgent topics first.
+"""The queue of a client: of each topic the newest message, the most urgent topics first.
 
 The lossless channel to a client: ordered, acknowledged, bounded, resumed after a reconnect.
 """
@@ -99,7 +99,7 @@ class ReliableSender:
 
     @property
     def idle(self) -> bool:
-        """Whether everything was sent."""
+        """Return whether everything was sent."""
         return not self._waiting and self._sent == len(self._unacknowledged)
 
     def push(self, record: bytes) -> None:

@@ -1,4 +1,4 @@
-"""What is said over the WebSocket /link: why a frame, a call or a page is not taken."""
+"""Diagnostics of the WebSocket /link: refusals of frames, calls and pages."""
 
 from __future__ import annotations
 

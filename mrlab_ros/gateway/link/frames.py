@@ -49,7 +49,7 @@ class ToGateway(IntEnum):
 
 
 class RecordKind(IntEnum):
-    """What a record of the lossless channel holds."""
+    """Kinds of records in the lossless channel."""
 
     MESSAGE = 1  # of a topic of which each message counts
     VALUE = 2  # of any other topic, too large for a batch

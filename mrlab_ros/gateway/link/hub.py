@@ -49,7 +49,7 @@ class Message:
 
     @property
     def stream(self) -> int | tuple[int, str]:
-        """What a newer message replaces: those of its topic, of presence those of one display."""
+        """Return the topic, or display's presence, whose older message a newer one replaces."""
         if self.topic.key != presence.KEY:
             return self.topic.id
         return self.topic.id, presence.display(self.sample.payload)
@@ -72,7 +72,7 @@ class Message:
 
 
 class Target(Protocol):
-    """Who receives the messages of topics."""
+    """A receiver of messages of topics."""
 
     def take(self, message: Message) -> None: ...
 

@@ -1,4 +1,4 @@
-"""What one page may take of the gateway, and how many pages there may be.
+"""Limits of one page, and of the number of pages.
 
 How many batches a client may be sent: it says up to which number, after decoding.
 """

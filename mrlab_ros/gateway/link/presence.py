@@ -1,4 +1,4 @@
-"""Who is in the room: a display says where it is; name and role are those of the sign-in.
+"""Presence in the room: a display says where it is; name and role are those of the sign-in.
 
 What people hold in their hands: nobody who goes leaves it hanging in the air.
 """
@@ -112,7 +112,7 @@ REQUEST = "mrlab_msgs/srv/MoveObject_Request"
 
 
 class Hands:
-    """Who holds which object, by the calls that the lab has carried out."""
+    """Holders of objects, by the calls that the lab has carried out."""
 
     def __init__(self, definitions: Definitions) -> None:
         self._definitions = definitions

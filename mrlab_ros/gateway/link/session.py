@@ -1,4 +1,4 @@
-"""What the gateway keeps of one client, across its sockets: subscriptions, what waits, calls."""
+"""State of one client across its sockets: subscriptions, queues, calls."""
 
 from __future__ import annotations
 

@@ -55,7 +55,7 @@ SILENCE_S = 15.0
 # The same of a hidden page, whose timers a browser slows down to one a minute.
 HIDDEN_SILENCE_S = 150.0
 HEARTBEAT_S = 1.0
-# Who stands before a robot that stops is told who did it. `success` follows the CDR header.
+# Displays are told who paused a robot. `success` follows the CDR header.
 PAUSE = "/pause"
 SUCCESS = 4
 
@@ -64,7 +64,7 @@ router = APIRouter()
 
 
 class LinkPort:
-    """What the sockets of one gateway share."""
+    """State that the sockets of one gateway share."""
 
     def __init__(
         self, sessions: Sessions, may: May, limits: LinkLimits, moves: Callable[[str], bool]

@@ -1,4 +1,4 @@
-"""What the routes about people take and answer."""
+"""Requests and answers of the routes of people."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Lab(BaseModel):
 
 
 class User(BaseModel):
-    """Who is signed in."""
+    """The signed-in user."""
 
     name: str
     role: Role
@@ -38,7 +38,7 @@ class Ways(BaseModel):
 
 
 class Rights(BaseModel):
-    """What the pages offer to somebody; the socket checks each call by the same policy.
+    """Commands that the pages offer to a person; the socket checks each call by the same policy.
 
     commands: loads and plays robots. scene: puts robots there and takes them away. replay: plays
     bags. grades: steps through the class that this gateway shows.
@@ -51,7 +51,7 @@ class Rights(BaseModel):
 
 
 class Session(BaseModel):
-    """What a page needs to know first. csrf: for the header X-CSRF-Token of unsafe requests."""
+    """First facts of a page. csrf: for the header X-CSRF-Token of unsafe requests."""
 
     lab: Lab
     user: User | None
@@ -74,13 +74,13 @@ class NewPassword(BaseModel):
 
 
 class PairingBegin(BaseModel):
-    """What a device calls itself, for the list of devices."""
+    """The name of a device for the list of devices."""
 
     device: Annotated[str, Field(max_length=80)] = "headset"
 
 
 class PairingShown(BaseModel):
-    """What a device shows, and the secret with which it asks. qr: an SVG document."""
+    """The code that a device shows, and the secret with which it asks. qr: an SVG document."""
 
     code: str
     secret: str
@@ -90,7 +90,7 @@ class PairingShown(BaseModel):
 
 
 class PairingState(BaseModel):
-    """Whether a device was let in; its cookie comes with this answer, once."""
+    """The state of a pairing; the cookie of an admitted device comes with this answer, once."""
 
     state: Literal["waiting", "approved", "expired"]
     user: User | None

@@ -1,4 +1,4 @@
-"""What is said about people, sign-ins, invitations and paired devices."""
+"""Diagnostics of people, sign-ins, invitations and paired devices."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Who a request comes from.
+"""The person that a request comes from.
 
 How often somebody may try: buckets of tokens, one a subject. Pure; time is an argument.
 """
@@ -22,7 +22,7 @@ LOCAL = "local"
 
 @dataclass(frozen=True)
 class Person:
-    """Who a request comes from. The name scopes what is one's own; sign_in: id of the sign-in."""
+    """The person that a request comes from. name: scopes things; sign_in: id of the sign-in."""
 
     name: str
     role: Role

@@ -1,4 +1,4 @@
-"""What the routes about trajectories take and answer."""
+"""Requests and answers of the routes of trajectories."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ SeverityWord = Literal["info", "warning", "error"]
 
 
 class Fix(BaseModel):
-    """What mends a finding: an option of a conversion with its value, and the same in MATLAB."""
+    """A remedy of a finding: an option of a conversion with its value, and the same in MATLAB."""
 
     option: str
     value: str
@@ -20,7 +20,7 @@ class Fix(BaseModel):
 
 
 class Finding(BaseModel):
-    """What the converter says of a file. Rows count from 1; 0: none."""
+    """A finding of the converter about a file. Rows count from 1; 0: none."""
 
     severity: SeverityWord
     code: str
@@ -39,7 +39,7 @@ class Finding(BaseModel):
 
 
 class Trajectory(BaseModel):
-    """What there is to know of a trajectory without its frames: mrlab_msgs/TrajectoryInfo.
+    """A trajectory without its frames: mrlab_msgs/TrajectoryInfo.
 
     created: s since 1970. deleted: when it was deleted; null: it is there.
     """
@@ -100,7 +100,7 @@ class Publishing(Strict):
 
 
 class Sharing(Strict):
-    """Whether everybody may see a trajectory."""
+    """A request to share a trajectory with everybody, or to end that."""
 
     shared: bool
 

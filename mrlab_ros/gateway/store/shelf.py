@@ -44,7 +44,7 @@ class Shelf:
         self.catalogue = Catalogue(store)
         self.files = TrajectoryFiles(store, state_dir / "fetched")
         self.robots = robots
-        # Where uploads and downloads lie for a moment.
+        # Folder of uploads and downloads in progress.
         self.work = private_folder.make(private_folder.make(state_dir) / "work")
         for path in self.work.glob(f"{downloads.FOLDER}*"):
             if path.stat().st_mtime < time.time() - STALE_AFTER_S:

@@ -1,4 +1,4 @@
-"""What is said about files that people send, and about what becomes of them."""
+"""Diagnostics of files that people send, and of their conversion."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a page draws of a conversion: kept as a document, or made from the draft when asked for.
+"""The drawing of a conversion for a page: kept as a document, or made from the draft on request.
 
 The converter's answer, as it comes over zenoh, in core objects and as fields of JSON.
 """

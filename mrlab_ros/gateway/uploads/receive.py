@@ -33,7 +33,7 @@ from mrlab_ros.gateway.uploads.diagnostics import (
 
 MiB = 1 << 20
 BLOCK = MiB  # bytes that are hashed and written at once
-# What the converter reads; it looks into the file for what it really is.
+# Endings of files that the converter reads; it finds the real kind in the file.
 ENDINGS = (
     *(".mat", ".csv", ".txt", ".tsv", ".npz", ".json", ".mcap", ".db3", ".cdr"),
     *(".gz", ".zst", ".zstd"),
@@ -103,7 +103,7 @@ class Receiver:
             await run_in_threadpool(keep, bytes(block))
             if size == 0:
                 raise BadInput(EMPTY_UPLOAD(file=file_name))
-            # What came beside it meanwhile is in the store now.
+            # Files that came meanwhile are in the store now.
             used = await run_in_threadpool(self._used, user)
             self._check_quota(user, used, 0)
             number = keys.unique()

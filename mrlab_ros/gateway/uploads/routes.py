@@ -40,7 +40,7 @@ class Upload(BaseModel):
 
 
 class Conversion(Strict):
-    """What a file becomes: the options of mrlab_msgs/ConvertTrajectory."""
+    """Options of a conversion: those of mrlab_msgs/ConvertTrajectory."""
 
     upload: Identifier
     robot_model: Words
@@ -82,7 +82,7 @@ class Candidate(BaseModel):
 
 
 class Converted(BaseModel):
-    """What became of a file. values: of the message's code, as the wire has them.
+    """The outcome for a file. values: of the message's code, as the wire has them.
 
     motion: URL of its MotionDocument; null: it holds no motion.
     """

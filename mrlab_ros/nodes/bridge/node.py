@@ -209,7 +209,7 @@ class BridgeNode(
                 self._check(thorough=self._pace.check(now))
             self._outward.match()
         except Exception:
-            # What fails because the context was shut down beneath it is no mistake.
+            # A failure after the shutdown of the context is no mistake.
             if self.context.ok():
                 self.get_logger().error(traceback.format_exc(), throttle_duration_sec=1.0)
         return self._pace.wait(time.monotonic())

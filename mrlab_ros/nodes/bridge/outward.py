@@ -228,7 +228,7 @@ class Outward(TopicRoutes[OutRoute]):
         bridge, type_name, qos = self._bridge, route.type, route.qos
         key, session = bridge.key(name), bridge.session
         count = bridge.count(key, type_name, Direction.OUT.value)
-        # Who comes late to what is latched, or counts, must find it.
+        # Late joiners of latched topics, and counted messages, must get each one.
         always = qos.latched or rule.congestion is Congestion.BLOCK
         publisher = session.publisher(
             key, rule, rule.history if qos.latched else 0, None if always else self._on_match

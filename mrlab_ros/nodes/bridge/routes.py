@@ -26,7 +26,7 @@ from mrlab_ros.adapters.zenoh.port import Query, Session
 from mrlab_ros.core.bridge.links import key_of
 from mrlab_ros.core.bridge.rules import Direction, TopicQos, TopicRule
 
-# Who reports does so once a second; what is older says nothing of now, s.
+# Reports come once a second; an older one says nothing of now, s.
 KEPT_FOR_S = 5.0
 # More than a class of clients reports in that time.
 MOST = 512
@@ -37,7 +37,7 @@ class Kept:
 
     def __init__(self, node: Node, kind: Any, topic: str, quality: QoSProfile) -> None:
         self._messages: deque[tuple[float, bytes]] = deque(maxlen=MOST)
-        # What is not published as `quality` asks is of no program of the lab; rclpy would warn.
+        # A publisher without this `quality` is of another program; rclpy would warn of it.
         silent = SubscriptionEventCallbacks(incompatible_qos=lambda _: None)
         node.create_subscription(
             kind, topic, self._keep, quality, raw=True, event_callbacks=silent
@@ -71,7 +71,7 @@ class Count:
 
 @dataclass
 class BridgeContext:
-    """What the routes share.
+    """State that the routes share.
 
     streams: the node of the forwarding publishers, subscriptions and clients; it is spun in a
     thread of its own. prefix: what every key begins with. warn_once: logs a text, each text once.

@@ -256,7 +256,7 @@ class TrajectoryServices:
             yield Path(file.name)
 
     def _find(self, text: str, *, private: bool) -> tuple[Record, Version]:
-        # What get_any says reaches whoever loads a robot: private names are not for everybody.
+        # Everybody who loads a robot reads the answer of get_any: it names nothing private.
         return self.catalogue.find(
             text,
             lambda record: private or record.visible_to(""),

@@ -71,7 +71,7 @@ class ConverterNode(
         self._coefficients = load_coefficients(share.directory() / "config" / "torque_proxy.yaml")
         self._library = RobotLibrary(share.directory() / "robots")
         self._store = open_store(self.parameters.store or str(folder / "store"))
-        # Where converted files lie until the store has them.
+        # Folder of converted files until the store has them.
         self._work = private_folder.make(private_folder.make(folder) / "work")
         self._writer = CatalogueWriter(self._store, self.get_logger().error)
         self._set_bounds()

@@ -77,7 +77,7 @@ class CoordinatorNode(
         self._members: dict[str, MemberClient] = {}
         self._fleets: dict[str, RosFleet] = {}
         self._publishing = threading.Lock()
-        # What could not be brought back.
+        # Diagnostics of state that could not be brought back.
         self.lost: list[Diagnostic] = []
         self._offered: dict[str, list[Service]] = {}
         self._robots: dict[str, msg.Robot] = {}

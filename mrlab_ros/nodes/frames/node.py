@@ -78,7 +78,7 @@ class ShownRobot:
 
     @property
     def moved(self) -> bool:
-        """Whether there is something new to publish. tf2 warns of a stamp that comes twice."""
+        """Return whether there is something new to publish. tf2 warns of a repeated stamp."""
         # A stamp from before the last one: the lab's clock was set back, or went back in a loop.
         return self.stamp_ns > self.sent_ns or self.sent_ns - self.stamp_ns > SECOND
 
@@ -152,9 +152,9 @@ class FramesNode(
         self._lab_clock = LabClock(self)
         self._robots: dict[str, ShownRobot] = {}
         self._batch = Batch()
-        # What a topic's messages are given to.
+        # Takers of a topic's messages.
         self._takers: dict[str, Take] = {}
-        # What changed since the last turn: where robots stand, and what they are.
+        # Changes since the last turn: places of robots, and their descriptions.
         self._placed = self._described = False
         self._moving = self.create_publisher(TFMessage, "/tf", TF)
         self._fixed = self.create_publisher(TFMessage, "/tf_static", qos.LATCHED)

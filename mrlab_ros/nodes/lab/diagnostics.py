@@ -1,4 +1,4 @@
-"""What the services of the lab node answer, and what a restart could not bring back."""
+"""Diagnostics of the lab node's services and of a restart."""
 
 from __future__ import annotations
 

@@ -54,7 +54,7 @@ from mrlab_ros.ros.spinning import Caller
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-# What robots have loaded and where they stand is written this often where it changed, s.
+# Period of writing changed loaded trajectories and places of robots, s.
 SAVE_PERIOD_S = 2.0
 
 
@@ -67,7 +67,7 @@ class LabNode(ParameterNode[LabParameters], name="lab", kind=LabParameters, othe
         log = self.get_logger()
         file = Path(state_dir) / SCENE_FILE if state_dir else None
         self._file = StateFile(file, log.error, whole=True)
-        # What could not be brought back, a sentence each.
+        # Diagnostics of state that could not be brought back.
         self.lost: list[Diagnostic] = []
         self._library = RobotLibrary(share.directory() / "robots")
         self._scene = Scene()

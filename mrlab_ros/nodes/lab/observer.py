@@ -1,4 +1,4 @@
-"""What the other nodes publish of the lab's robots and systems."""
+"""Messages of the other nodes about the lab's robots and systems."""
 
 from __future__ import annotations
 

@@ -215,7 +215,7 @@ class Return:
         lose: Callable[[Diagnostic], None],
     ) -> None:
         loaded = tuple(r for r in wanted.robots if r.trajectory and r.name not in wanted.driven)
-        # What is not back yet; a state file that is written meanwhile must still hold it.
+        # The part that is not back yet; a state file written meanwhile must still hold it.
         self.pending = SceneDocument(robots=loaded, systems=wanted.systems)
         self._robots = frozenset(robot.name for robot in wanted.robots)
         self._restore = restore
@@ -298,6 +298,6 @@ class Return:
             self.pending = replace(self.pending, systems=systems)
 
     def _warn(self, why: Diagnostic) -> None:
-        # What fails because the lab ends is no trouble.
+        # A failure while the lab ends is no trouble.
         if not self._cancelled.is_set():
             self._log(str(NOT_AS_BEFORE(all=[why])))

@@ -32,7 +32,7 @@ from mrlab_ros.nodes.lab.observer import Observer
 from mrlab_ros.nodes.lab.restore import ARRIVAL_TIMEOUT_S, LOAD_TIMEOUT_S, LabRestore
 from mrlab_ros.ros.calls import NoAnswer, call
 
-# What was published before a request reaches the lab this much later, s.
+# Messages published before a request reach the lab within this time, s.
 SETTLE_S = 0.1
 # Every process that plays robots offers a service of this type.
 PLAYBACK = "mrlab_msgs/srv/CommandMembers"

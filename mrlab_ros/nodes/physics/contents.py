@@ -28,7 +28,7 @@ ROBOT_TIMEOUT_NS = 20 * SECOND
 
 
 class Contents:
-    """What is in the world beside the robots.
+    """Contents of the world beside the robots.
 
     lock: guards the world. rehearsal: makes an empty world beside it, in which a change is tried;
     its context closes it. max_objects: active at once.
@@ -137,7 +137,7 @@ class Contents:
 
     @property
     def waiting(self) -> bool:
-        """Whether a robot is to hold something that it does not hold yet."""
+        """Return whether a robot is to hold something that it does not hold yet."""
         return bool(self._pending)
 
     # for a restart --------------------------------------------------------------------------

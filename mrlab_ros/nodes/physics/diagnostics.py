@@ -1,4 +1,4 @@
-"""What the services of the physics node answer."""
+"""Diagnostics of the physics node's services."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the physics node publishes: contacts, collisions, grasps, objects, surfaces."""
+"""Publishers of the physics node: contacts, collisions, grasps, objects, surfaces."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Who else drives a robot: an action, a topic of trajectories, a stream of joint commands."""
+"""Other ways to drive a robot: an action, a topic of trajectories, a stream of joint commands."""
 
 from __future__ import annotations
 
@@ -102,7 +102,7 @@ class Commanders:
         with self._command() as now_ns:
             trajectory = self._playback.external.pursue(now_ns, goal_from_message(message))
             start_ns = self._playback.clock.stamp_ns
-            # What is announced from here on is of the new goal.
+            # Statuses from here on are of the new goal.
             self._statuses.clear()
             replaced, self._pursuit = self._pursuit, Pursuit(trajectory, start_ns, bounds)
         if replaced is not None and self._goal is not None:

@@ -41,10 +41,10 @@ if TYPE_CHECKING:
 
 # Trajectories that are fetched at the same time.
 MOST_LOADS = 4
-# What moves, and what has changed, is written into the journal this often, s: a robot whose
+# Period of writing moving and changed robots into the journal, s: a robot whose
 # process was killed stands at most this much behind.
 JOURNAL_PERIOD_S = 0.1
-# What moves publishes its state this often, s, in as many groups one after another: all at once
+# Period of a moving robot's state, s, in as many groups one after another: all at once
 # would delay joint states by milliseconds.
 STATE_PERIOD_S = 1.0
 STATE_TURNS = 10
@@ -105,11 +105,11 @@ class PlaybackHostNode(
         self._journal = Journal.of(
             self.parameters.state_dir, self.get_name(), self.get_logger().error
         )
-        # What robots had before a restart, until they are in the scene again; None: all are.
+        # State of robots before a restart, until they are in the scene again; None: all are.
         self._kept: dict[str, tuple[str, Kept]] = entries.read(self._journal.load())
         # By robot what is in the journal.
         self._written: dict[str, dict[str, Any]] = {}
-        # What could not be brought back.
+        # Diagnostics of state that could not be brought back.
         self.lost: list[Diagnostic] = []
         self._leases = Leases()
         orders = self.hidden_node("orders", remapped=True)

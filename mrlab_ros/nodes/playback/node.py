@@ -160,7 +160,7 @@ class PlaybackNode(Node):
 
     @property
     def changed(self) -> bool:
-        """Whether it moves, or its state changed since this was asked last."""
+        """Return whether it moves, or its state changed since the last call."""
         announced, self._announced = self._announced, False
         return announced or self.playback.moving
 
@@ -233,7 +233,7 @@ class PlaybackNode(Node):
         """Publish the present state again, while the robot moves."""
         if not self.playback.moving:
             return
-        # What was said of a grasp does not outlive the physics that said it.
+        # Remarks on a grasp end with the physics that published them.
         if not self._grasps.get_publisher_count():
             self._grasp = None
         with self._command() as now_ns:

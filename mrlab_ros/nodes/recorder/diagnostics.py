@@ -1,4 +1,4 @@
-"""What the recorder answers, and what it says of its recordings and replays."""
+"""Diagnostics of the recorder, of recordings and of replays."""
 
 from __future__ import annotations
 

@@ -88,7 +88,7 @@ class RecorderNode(
         self._preparing: Bag | None = None
         self._trouble: Diagnostic | None = None
         self._made_at = time.monotonic()
-        # What was not recorded because of a restart.
+        # Diagnostics of messages that a restart kept from the recording.
         self.lost: list[Diagnostic] = []
         # Why the newest recording ended by itself; empty again once another one begins.
         self.failed: list[Diagnostic] = []

@@ -27,7 +27,7 @@ PUBLISHER_CHECK_EVERY = 8
 FLUSH_NS = 400_000_000
 # How often metadata.yaml is brought up to date while recording, ns.
 METADATA_NS = 10 * SECOND
-# What a latched topic said before it was followed has arrived within this time, ns.
+# Latched messages of a topic arrive within this time after it is followed, ns.
 PRESENT_NS = SECOND // 2
 # A stamp that is so far in the future is of before the clock was set back, ns.
 AHEAD_NS = SECOND // 10
@@ -107,7 +107,7 @@ class Recording:
         # How long ago a recorder that was killed began this bag, s.
         facts = writer.facts
         self._earlier = max(time.time_ns() - facts.start_ns, 0) / SECOND if facts.messages else 0.0
-        # Where the clock was set back while no recorder ran, its messages follow the earlier ones.
+        # After a clock that was set back without a recorder, messages follow the earlier ones.
         self._later_ns = max(facts.end_ns - time.time_ns(), 0) if facts.messages else 0
         self._closed = False
         # Why the recording ended by itself.

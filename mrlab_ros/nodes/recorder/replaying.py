@@ -94,7 +94,7 @@ class Replaying:
         self._on_end = on_end
         self._now_ns = now_ns
         present = Topics(OF_THE_PRESENT)
-        # What is not replayed, and why.
+        # Diagnostics of topics that are not replayed.
         self.left_out: list[Diagnostic] = []
         self._kinds: dict[str, Any] = {}
         self._converts: dict[str, Convert] = {}
@@ -206,7 +206,7 @@ class Replaying:
             self._feed.stop()
         deadline = time.monotonic() + ARRIVAL_TIMEOUT_S
         for publisher in self._publishers.values():
-            # What a publisher has not handed over goes with it.
+            # Messages that a publisher has not handed over are lost with it.
             left_s = max(deadline - time.monotonic(), 0.0)
             publisher.wait_for_all_acked(Duration(seconds=left_s))
             self._streams.destroy_publisher(publisher)

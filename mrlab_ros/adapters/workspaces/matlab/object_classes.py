@@ -1,4 +1,4 @@
-"""What the properties of MATLAB's classes mean: which are data, times, names and units.
+"""Meaning of the properties of MATLAB's classes: data, times, names and units.
 
 Depth and number of parts are bounded; a class that means nothing to a converter stays closed.
 """

@@ -1,4 +1,4 @@
-"""What the values hold that mat-io loads: text, numbers, structs, cells, properties of objects."""
+"""Values that mat-io loads: text, numbers, structs, cells, properties of objects."""
 
 from __future__ import annotations
 

@@ -121,7 +121,7 @@ def above_table(lines: list[str], separator: str | None, stated: dict[str, float
 KNOWN_UNITS = {"", "-", "rad", "deg", "grad", "°", "degree", "degrees", "radian", "radians"}
 KNOWN_UNITS |= {"s", "sec", "ms", "us", "bool"}
 TIMES = ("t", "time", "time_from_start")
-# What a spreadsheet writes for a cell without a value, in its own language.
+# A spreadsheet's text for a cell without a value, in its own language.
 SHEET_ERROR = re.compile(r"\s*(#(?:N/?[A-Z]+|[^\W\d_]+(?:/0)?[!?]))(?=[\s;,]|$)")
 LABVIEW_X, LABVIEW_COMMENT = "x_value", "comment"
 

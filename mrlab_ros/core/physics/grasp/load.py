@@ -1,4 +1,4 @@
-"""What a grasp bears and whether friction holds it: a quasi-static model with declared figures.
+"""The load of a grasp and its friction: a quasi-static model with declared figures.
 
 Fingers: Coulomb friction of a soft pad. A pad that carries a force F across it and a moment M
 about its normal slips where (F / (mu N))^2 + (M / (mu N r))^2 > 1, with r its effective radius
@@ -24,7 +24,7 @@ PAD_FRICTION = 1.5
 CUP_FRICTION = 1.0
 # Effective radius of a finger pad, m: two thirds of the radius of a pad of 12 mm.
 PAD_RADIUS = 0.008
-# What is needed where nothing presses on the object any more.
+# Friction needed where nothing presses on the object any more.
 NO_GRIP = 99.0
 # Friction less than this is needed by no grasp, so that the margin stays finite.
 LEAST = 1e-3
@@ -38,7 +38,7 @@ ON_A_LINE = 0.35
 
 @dataclass(frozen=True)
 class Tool:
-    """What is stated of a robot's hand. payload: kg of the robot at its flange, 0: not stated;
+    """Stated figures of a robot's hand. payload: kg of the robot at its flange, 0: not stated;
     cup_force: N that a vacuum cup holds; lip_radius: m; tip: the link of the tool's frame, empty:
     tool0."""
 
@@ -62,7 +62,7 @@ class Grip:
 
 @dataclass(frozen=True)
 class Load:
-    """What a grasp bears; see mrlab_msgs/Grasp. excess: m/s^2, by which it slips along `way`.
+    """The load of a grasp; see mrlab_msgs/Grasp. excess: m/s^2, by which it slips along `way`.
 
     friction, friction_needed: 0 of what was attached by service, which never slips.
     """
@@ -138,7 +138,7 @@ def bears(
         along, rest = _apart(load, axis)
         twist = dot(moment, axis)
         across = rest if pair else along
-        # What pushes on one finger must not open it.
+        # A push on one finger must not open it.
         opening = _length(along if pair else rest)
         pressing, pull = (force if opening <= force / 2 else 0.0), 0.0
         radius = PAD_RADIUS if pair else max(grip.spread, PAD_RADIUS)

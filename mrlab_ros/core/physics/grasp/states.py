@@ -38,7 +38,7 @@ class Grasp(Enum):
 
 
 class GraspEvent(Enum):
-    """What can happen to a gripper. The value is the verb in "cannot <value> while <STATE>"."""
+    """Events of a gripper. The value is the verb in "cannot <value> while <STATE>"."""
 
     CLOSE = "close"
     OPEN = "open"
