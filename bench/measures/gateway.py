@@ -169,7 +169,7 @@ def ages(size: Size) -> list[dict[str, Any]]:
 @contextmanager
 def launched(folder: Path, *options: str) -> Iterator[Any]:
     """Run a lab with pages and one UR5e, as the browser's tests do."""
-    sys.path.append(str(ROOT / "test"))
+    sys.path.append(str(ROOT / "test" / "support" / "labs"))
     from served_lab import served_lab
 
     with served_lab(folder, *options) as lab:

@@ -192,7 +192,7 @@ def steps(size: Size) -> list[dict[str, Any]]:
 
 def beside_mujoco(size: Size) -> list[dict[str, Any]]:
     """Replay the tests' motions in this engine and in MuJoCo; return how far apart objects are."""
-    sys.path.append(str(ROOT / "test"))
+    sys.path.append(str(ROOT / "test" / "support" / "physics"))
     from physics_oracle import gaps, replays
 
     rows = []

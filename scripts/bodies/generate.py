@@ -1,8 +1,8 @@
 """Generate robot.urdf and meshes/ of robots and end effectors: `generate.py [--out DIR] [ID ...]`.
 
 The same description gives the same bytes on one machine, and on every machine the same surfaces
-within the tolerances of test/generated_meshes.py: processors sum in different orders, and the
-last bits decide which edge the thinning removes first.
+within the tolerances of test/support/data/generated_meshes.py: processors sum in different orders,
+and the last bits decide which edge the thinning removes first.
 """
 
 from __future__ import annotations

@@ -18,7 +18,7 @@ from PIL import Image
 from playwright.sync_api import sync_playwright
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "test"))
+sys.path[:0] = [str(ROOT / "test" / "support" / room) for room in ("labs", "pages")]
 
 from emulated_room import EmulatedRoom  # noqa: E402
 from served_lab import ServedLab, served_lab  # noqa: E402

@@ -21,7 +21,7 @@ from PIL import Image
 from playwright.sync_api import Browser, Page, expect, sync_playwright
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "test")]
+sys.path[:0] = [str(path) for path in (ROOT / "test" / "support").iterdir()]
 
 import student_files  # noqa: E402
 from page_objects import SignInPage, UploadPage  # noqa: E402

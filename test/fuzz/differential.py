@@ -20,8 +20,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import fuzz_matfile
 from found_matrices import matrix
-from fuzz import fuzz_matfile
 from numpy.typing import NDArray
 
 from mrlab_ros.adapters.workspaces import worker

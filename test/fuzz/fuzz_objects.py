@@ -18,10 +18,10 @@ import resource
 import signal
 from collections import Counter
 
+import fuzz_matfile
 import matlab_objects as matlab
 import numpy as np
-from fuzz import fuzz_matfile
-from fuzz.differential import Matrices
+from differential import Matrices
 
 from mrlab_ros.adapters import wall
 from mrlab_ros.adapters.workspaces import worker

@@ -2,8 +2,8 @@
 
 import os
 
+import differential
 import pytest
-from fuzz import differential
 
 pytestmark = pytest.mark.slow
 

@@ -1,7 +1,7 @@
 """A bounded run of the fuzz target; the long one is by hand."""
 
+import fuzz_matfile
 import pytest
-from fuzz import fuzz_matfile
 
 pytestmark = pytest.mark.slow
 

@@ -6,7 +6,7 @@ import pytest
 
 pytest.importorskip("matio", reason="mat-io needs Python 3.11")
 
-from fuzz import fuzz_objects
+import fuzz_objects
 
 pytestmark = pytest.mark.slow
 

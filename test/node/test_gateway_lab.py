@@ -6,7 +6,6 @@ import asyncio
 import json
 from collections.abc import Callable
 
-import pytest
 from own_port import free_endpoint
 from refusals import refused
 
@@ -24,7 +23,7 @@ from mrlab_ros.core.bridge.rules import (
 )
 from mrlab_ros.gateway.lab.connection import NoAnswer, Phase, Refused, Sample
 from mrlab_ros.gateway.lab.definitions import Definitions, installed_definitions
-from mrlab_ros.gateway.lab.diagnostics import NOBODY_ANSWERS, UNKNOWN_TYPE
+from mrlab_ros.gateway.lab.diagnostics import LAB_UNCONNECTED, NOBODY_ANSWERS, UNKNOWN_TYPE
 from mrlab_ros.gateway.lab.zenoh_lab import ZenohLab
 from mrlab_ros.gateway.link.diagnostics import CALLS_FULL
 
@@ -84,7 +83,7 @@ def test_topics_services_and_presence() -> None:
         lab.subscribe("robots", got.append)
         await lab.open()
         assert lab.phase is Phase.CONNECTING
-        with pytest.raises(NoAnswer, match="no connection to the lab"):
+        with refused(LAB_UNCONNECTED, NoAnswer):
             await lab.call("a/play", TRIGGER)
 
         bridge = Bridge(endpoint, prefix)

@@ -15,6 +15,7 @@ from typer.testing import CliRunner
 
 from mrlab_ros.cli import make_app
 from mrlab_ros.commands.check import command
+from mrlab_ros.commands.rubric import command as rubric_command
 from mrlab_ros.core.rubrics.document import parse
 
 pytestmark = pytest.mark.slow
@@ -190,6 +191,5 @@ def test_what_cannot_be_marked_ends_with_2_and_a_sentence(tmp_path, text, senten
 
 
 def test_a_cell_by_a_rubric_for_one_robot_is_refused():
-    said = mark(ROOT / "examples" / "handover_cell.yaml", RUBRIC)
-    assert said.exit_code == 2
-    assert "leave robot: out of a rubric for cells" in said.stderr
+    with command_refuses(rubric_command, "cell_for_one_robot", robot="ur5e"):
+        assert mark(ROOT / "examples" / "handover_cell.yaml", RUBRIC).exit_code == 2

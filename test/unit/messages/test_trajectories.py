@@ -10,11 +10,13 @@ from hypothesis import strategies as st
 from mrlab_msgs.msg import Diagnostic as DiagnosticMessage
 from mrlab_msgs.msg import Trajectory as TrajectoryMessage
 from rclpy.serialization import deserialize_message, serialize_message
+from refusals import refused
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, Severity
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.conversion.preview import preview
 from mrlab_ros.core.conversion.workspace import Variable
+from mrlab_ros.core.trajectory.diagnostics import POSITIONS_SHAPE
 from mrlab_ros.messages import trajectories
 from mrlab_ros.messages.poses import transform_to_pose_message
 
@@ -45,7 +47,7 @@ def test_a_trajectory_survives_the_wire(frames, gripper, rate):
 def test_a_message_with_a_missing_value_is_refused():
     message = trajectories.trajectory_to_message(make_trajectory())
     message.positions = message.positions[:-1]
-    with pytest.raises(BadInput, match="expected at least 2 rows and 2 columns"):
+    with refused(POSITIONS_SHAPE, BadInput):
         trajectories.trajectory_from_message(message)
 
 

@@ -18,6 +18,7 @@ from refusals import refused
 
 from mrlab_ros.adapters import python_process
 from mrlab_ros.adapters.keys.folder import Keys, now
+from mrlab_ros.adapters.robots.diagnostics import NO_ROBOT_MODEL
 from mrlab_ros.commands.demo.lab import free_port
 from mrlab_ros.commands.up.speaker import COLOURS
 from mrlab_ros.commands.up.surroundings import DISCOVERY, folder_for_state
@@ -203,7 +204,7 @@ def test_the_supervisor_starts_the_host_with_the_arguments() -> None:
 def test_robots_and_parameter_files_that_do_not_exist_are_refused() -> None:
     assert robot_models(" ur5e, ,kuka_kr3_r540") == ("ur5e", "kuka_kr3_r540")
     assert robot_models("") == ()
-    with pytest.raises(BadInput, match="no robot 'ur6'; there are:"):
+    with refused(NO_ROBOT_MODEL, BadInput, robot="ur6"):
         robot_models("ur5e,ur6")
     with pytest.raises(BadInput, match="no parameter file /nowhere.yaml"):
         parameter_file(Path("/nowhere.yaml"))

@@ -99,7 +99,7 @@ def test_show_writes_what_its_options_say(tmp_path: Path) -> None:
     assert done.output.strip() == str(file)
     assert trimesh.load_scene(file).bounds[1, 1] > 0.9
     done = CliRunner().invoke(app, ["show", "ur5e", "--joints", "0,1", "--out", str(file)])
-    assert "expected 6 angles in degrees" in str(done.exception)
+    assert done.exception.diagnostic.code == "bad_angles"
 
 
 def test_show_without_out_prints_the_robot_and_writes_nothing(

@@ -210,25 +210,30 @@ def test_a_mesh_elsewhere_is_refused(folder: Path, library: RobotLibrary, name: 
     assert "mine" not in library.ids()
 
 
-@pytest.mark.parametrize("name", ["{outside}/secret.png", "../../outside/secret.png", "link.png"])
 @pytest.mark.parametrize("write", [painted, collada, gltf])
-def test_a_picture_elsewhere_is_left_out(folder: Path, library, write, name: str) -> None:
+def test_pictures_elsewhere_are_left_out(folder: Path, library: RobotLibrary, write) -> None:
     outside = folder.parents[1] / "outside"
     (folder / "link.png").symlink_to(outside / "secret.png")
-    texture = name.format(outside=outside)
-    mesh = gltf(folder, "a", texture=texture) if write is gltf else write(folder, "a", texture)
-    assert imported(folder, library, mesh) == {"robot_no_texture"}
+    textures = (f"{outside}/secret.png", "../../outside/secret.png", "link.png")
+    meshes = [
+        gltf(folder, f"m{i}", texture=texture)
+        if write is gltf
+        else write(folder, f"m{i}", texture)
+        for i, texture in enumerate(textures)
+    ]
+    assert imported(folder, library, *meshes) == {"robot_no_texture"}
     assert "mine" in library.ids()
 
 
-@pytest.mark.parametrize("name", ["../../outside/secret.bin", "notes.txt", "link.bin", ".hidden"])
-def test_a_buffer_elsewhere_or_of_another_kind_is_refused(
-    folder: Path, library: RobotLibrary, name: str
+def test_buffers_elsewhere_or_of_another_kind_are_refused(
+    folder: Path, library: RobotLibrary
 ) -> None:
     (folder / "link.bin").symlink_to(folder.parents[1] / "outside" / "secret.bin")
     for file in ("notes.txt", ".hidden"):
         (folder / file).write_bytes(MARKER * 40)
-    assert imported(folder, library, gltf(folder, "a", buffer=name)) == {"robot_mesh_unreadable"}
+    names = ("../../outside/secret.bin", "notes.txt", "link.bin", ".hidden")
+    meshes = [gltf(folder, f"m{i}", buffer=name) for i, name in enumerate(names)]
+    assert imported(folder, library, *meshes) == {"robot_mesh_unreadable"}
 
 
 def test_no_entity_of_a_file_names_another(folder: Path, library: RobotLibrary) -> None:

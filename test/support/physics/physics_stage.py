@@ -20,7 +20,7 @@ from mrlab_ros.core.physics.world import World
 from mrlab_ros.core.physics.world_state import CollisionChanged, GraspChanged
 from mrlab_ros.core.playback.states import State
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[3]
 LIBRARY = RobotLibrary(ROOT / "robots")
 TYPES = catalogue.parse(read_yaml(ROOT / "config" / "objects.yaml"))
 SCENES = SceneFiles(ROOT / "config" / "scenes", ROOT / "no saved ones")

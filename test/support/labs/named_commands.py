@@ -19,7 +19,7 @@ from typer.core import TyperGroup
 
 from mrlab_ros.cli import make_app
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[3]
 SOURCES = [
     *sorted((ROOT / "mrlab_ros").rglob("*.py")),
     *sorted((ROOT / "web" / "src" / "words").glob("*.ts")),
@@ -243,7 +243,7 @@ ELSEWHERE = {
     "robots meshes --package": "as robots meshes",
     "robots meshes": "writes into the clone; test/unit/adapters/robots/test_arm_and_hand.py",
     "demo": "test/system/test_demo.py",
-    "up": "test/launched_lab.py",
+    "up": "test/support/labs/launched_lab.py",
     "up --class": "the gateway's own option --classroom, in test/browser/test_class.py",
     "up --config": "test/system/test_up.py",
     "up --https-cert": "the gateway's own option, in test/system/test_gateway.py",
@@ -252,8 +252,8 @@ ELSEWHERE = {
     "up --insecure": "test/system/test_up_keys.py",
     "up --keys": "test/system/test_up_keys.py",
     "up --no-bridge": "test/system/test_physics_commands.py",
-    "up --no-frames": "test/launched_lab.py",
-    "up --no-web": "test/launched_lab.py",
+    "up --no-frames": "test/support/labs/launched_lab.py",
+    "up --no-web": "test/support/labs/launched_lab.py",
     "up --oidc": "test/system/test_gateway.py",
     "up --physics": "test/system/test_named_commands.py",
     "up --robots": "test/system/test_named_commands.py",

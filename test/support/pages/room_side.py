@@ -8,7 +8,7 @@ from pathlib import Path
 from browser_side import DEADLINE_MS, eventually
 from playwright.sync_api import BrowserContext, Page
 
-HERE = Path(__file__).parent
+HERE = Path(__file__).parents[2]
 IWER = HERE.parent / "web" / "node_modules" / "iwer" / "build" / "iwer.min.js"
 BOARD = "room.board"
 

@@ -21,7 +21,7 @@ from dataclasses import dataclass
 from itertools import takewhile
 from pathlib import Path
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[3]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 # Languages of blocks that show data, and a page whose blocks are generated.
 DATA = ("yaml", "json", "mermaid", "text")

@@ -21,7 +21,7 @@ from mrlab_ros.core.physics.world import World
 from mrlab_ros.core.physics.world_state import CollisionChanged, GraspChanged, LoadChanged
 from mrlab_ros.core.playback.states import State
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[3]
 LIBRARY = RobotLibrary(ROOT / "robots")
 OWN = {
     "bar": {"shape": "box", "size": [0.6, 0.04, 0.04], "mass": 0.5},

@@ -19,7 +19,7 @@ from mrlab_ros.core.rubrics.document import parse
 from mrlab_ros.core.scene.document import ObjectEntry, SceneDocument
 from mrlab_ros.core.trajectory.trajectory import Channels, Source, Trajectory
 
-MODEL = RobotLibrary(Path(__file__).parents[1] / "robots").model("ur5e")
+MODEL = RobotLibrary(Path(__file__).parents[3] / "robots").model("ur5e")
 ROBOT = CheckedRobot("ur5e_1", MODEL, "parallel_gripper", Pose(), {})
 RATE = 50.0
 STEP = np.linspace(0, 1, 201)

@@ -21,7 +21,7 @@ from mrlab_ros.core.base.geometry import pose_from_transform
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.robots.model import RobotModel
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[3]
 LIBRARY = RobotLibrary(ROOT / "robots")
 ROBOTS = sorted(p.parent.name for p in (ROOT / "robots").glob("*/robot.yaml"))
 KUKA = "kuka_kr6_r900_sixx"

@@ -12,7 +12,7 @@ import zenoh
 from child_process import start_child
 from sensor_msgs.msg import JointState
 
-CLIENTS = Path(__file__).parents[1] / "examples" / "clients" / "python"
+CLIENTS = Path(__file__).parents[3] / "examples" / "clients" / "python"
 JOINTS = "ur5e_1/joint_states"
 STATISTICS = "@mrlab/bridge/statistics"
 
