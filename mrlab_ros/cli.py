@@ -22,7 +22,7 @@ import mrlab_ros
 from mrlab_ros.adapters.guarded_streams import guard
 from mrlab_ros.adapters.python_process import keep_to_installed_modules
 from mrlab_ros.commands import completion
-from mrlab_ros.commands.output import say_error, say_problem
+from mrlab_ros.commands.output import say_problem
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.errors import LabError
 
@@ -159,15 +159,13 @@ def options(
 
 # Neither a refusal (1) nor wrong usage (2), which are verdicts of `mrlab check` and others.
 BROKEN = 3
-ROOM = "make room on that disk, or name a folder on another one"
-MAY = "check who may read and write there, or name another folder"
-# Remedies for a disk that refuses, by the number of the error.
+# What a disk that refuses lacks, by the error's number: room, or rights.
 OF_THE_DISK = {
-    errno.ENOSPC: ROOM,
-    errno.EDQUOT: ROOM,
-    errno.EROFS: MAY,
-    errno.EACCES: MAY,
-    errno.EPERM: MAY,
+    errno.ENOSPC: "room",
+    errno.EDQUOT: "room",
+    errno.EROFS: "may",
+    errno.EACCES: "may",
+    errno.EPERM: "may",
 }
 
 
@@ -199,27 +197,34 @@ def main() -> None:
     except OSError as error:
         fail(*refused(error))
     except Exception as error:
-        fail(f"{type(error).__name__}: {error}; mrlab --debug ... shows where", BROKEN)
+        fail(_fault(error), BROKEN)
 
 
-def refused(error: OSError) -> tuple[str, int]:
+def _fault(error: Exception) -> Diagnostic:
+    from mrlab_ros.commands.diagnostics import COMMAND_FAULT
+
+    return COMMAND_FAULT(error=f"{type(error).__name__}: {error}")
+
+
+def refused(error: OSError) -> tuple[Diagnostic, int]:
     """Return what to do where the disk refuses, and the exit code: of any other error BROKEN."""
-    do = OF_THE_DISK.get(error.errno or 0)
-    if do is None:
-        return f"{type(error).__name__}: {error}; mrlab --debug ... shows where", BROKEN
-    return f"{error.filename or 'a file could not be written'}: {error.strerror}; {do}", 1
+    from mrlab_ros.commands.diagnostics import DISK_REFUSES, UNNAMED_FILE
+
+    lacks = OF_THE_DISK.get(error.errno or 0)
+    if lacks is None:
+        return _fault(error), BROKEN
+    file = error.filename or UNNAMED_FILE()
+    return DISK_REFUSES(file=file, why=error.strerror, remedy=lacks), 1
 
 
-def without_graph(error: ModuleNotFoundError) -> str:
+def without_graph(error: ModuleNotFoundError) -> Diagnostic:
     """Return what to do where a module is missing, of ROS 2 or another one."""
+    from mrlab_ros.commands.diagnostics import MODULE_NOT_INSTALLED, NEEDS_ROS
+
     package = str(error.name).partition(".")[0]
     if package != "rclpy" and not package.endswith(("_msgs", "_interfaces")):
-        return f"{error}; install what requirements.lock names, or run make demo in a clone"
-    return (
-        f"this command needs ROS 2 and the lab's messages, and {package} is not installed here: "
-        "no wheel has them. In a clone `make demo` sets both up, on a ROS machine colcon builds "
-        "them. Without them `mrlab convert`, show, check, rubric, robots and keys work"
-    )
+        return MODULE_NOT_INSTALLED(error=str(error))
+    return NEEDS_ROS(package=package)
 
 
 def hang_up(number: int, frame: FrameType | None) -> None:
@@ -230,17 +235,14 @@ def hang_up(number: int, frame: FrameType | None) -> None:
     signal.default_int_handler(number, frame)
 
 
-def fail(found: Diagnostic | str, code: int = 1) -> None:
+def fail(found: Diagnostic, code: int = 1) -> None:
     """Print what is wrong and the commands that mend it; end with `code`.
 
     Under --debug the traceback is printed, too.
     """
     if Settings.debug:
         traceback.print_exc()
-    if isinstance(found, str):
-        say_error(found)
-    else:
-        say_problem(found)
+    say_problem(found)
     sys.exit(code)
 
 

@@ -4,6 +4,50 @@ from __future__ import annotations
 
 from mrlab_ros.core.base.diagnostic import INFO, WARNING, Code
 
+# every command
+COMMAND_FAULT = Code("command_fault", "{error}", "mrlab --debug ... shows where.")
+DISK_REFUSES = Code(
+    "disk_refuses",
+    "{file:problem}: {why:problem}.",
+    "{remedy:choice room=Make room on that disk, or name a folder on another one."
+    "|may=Check who may read and write there, or name another folder.}",
+)
+UNNAMED_FILE = Code("unnamed_file", "a file could not be written")
+MODULE_NOT_INSTALLED = Code(
+    "module_not_installed",
+    "{error}.",
+    "Install what requirements.lock names, or run make demo in a clone.",
+)
+NEEDS_ROS = Code(
+    "needs_ros",
+    "This command needs ROS 2 and the lab's messages, and {package} is not installed here: no "
+    "wheel has them.",
+    "In a clone make demo sets both up, on a ROS machine colcon builds them. Without them mrlab "
+    "convert, show, check, rubric, robots and keys work.",
+)
+
+# up
+SCENE_COMES_BACK = Code(
+    "scene_comes_back",
+    "--state-dir {folder} holds a scene, which is brought back; --robots is for an empty one.",
+    severity=INFO,
+)
+OPEN_TO_ALL = Code(
+    "open_to_all",
+    "--insecure: whoever reaches {endpoint} sees and moves everything.",
+    severity=WARNING,
+)
+WAITS_FOR_CLOCK = Code(
+    "waits_for_clock",
+    "--sim-time: nothing moves until somebody publishes /clock.",
+    severity=INFO,
+)
+KEYS_EXPIRE = Code(
+    "keys_expire",
+    "The lab's certificate expires in {days:count day|days}.",
+    severity=WARNING,
+)
+
 # record
 NOT_A_BAG_NAME = Code(
     "not_a_bag_name",

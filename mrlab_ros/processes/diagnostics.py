@@ -34,6 +34,11 @@ NO_PARAMETER_FILE = Code(
     "Name an existing one as config, or leave it out.",
     meaning="The parameter file that was chosen is not there.",
 )
+NOBODY_WAITS = Code(
+    "nobody_waits",
+    "Nobody waits for the lab any longer.",
+    meaning="The launch file waits for its lab for a limited time.",
+)
 NO_PHYSICS = Code(
     "no_physics", "There is no physics: {why:problem}.", meaning="Physics was asked for."
 )

@@ -130,6 +130,7 @@ def main() -> None:
     began = time.monotonic()
     lab, robots, names, services = sys.argv[1], int(sys.argv[2]), sys.argv[3], sys.argv[4:]
     from mrlab_ros.core.runtime.identity import Identity
+    from mrlab_ros.processes.diagnostics import NOBODY_WAITS
     from mrlab_ros.processes.lab import NODES
     from mrlab_ros.ros.graph_node import Graph
 
@@ -144,7 +145,7 @@ def main() -> None:
             said = f"{missing} is missing after {time.monotonic() - began:.0f} s"
             print(f"the lab is not ready: {said}; the lines above say why", flush=True)
         else:
-            sys.exit("nobody waits for the lab any longer")
+            sys.exit(str(NOBODY_WAITS()))
         print(f"the lab is ready after {time.monotonic() - began:.1f} s", flush=True)
         if refused := [why for service in services if (why := readiness.why_not(service))]:
             sys.exit("\n".join(map(str, refused)))

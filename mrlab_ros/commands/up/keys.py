@@ -10,9 +10,12 @@ from typing import NamedTuple
 
 from mrlab_ros.commands.diagnostics import (
     BRIDGE_PORT_TAKEN,
+    KEYS_EXPIRE,
     KEYS_OR_INSECURE,
     ROUTER_WITHOUT_KEYS,
 )
+from mrlab_ros.commands.output import with_fixes
+from mrlab_ros.core.base.diagnostic import Fix
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.processes.child import SELF
 
@@ -79,13 +82,10 @@ def tell_when_keys_expire(
     from mrlab_ros.adapters.keys.folder import Keys, now
 
     left = (Keys(folder).server_expires(router=router) - now()).days
-    then = f", then mrlab keys router --dir {folder}" if router else ""
     if left < EXPIRES_SOON:
-        say(
-            SELF,
-            f"the lab's certificate expires in {left} days; make a new one with: mrlab keys renew "
-            f"--dir {folder}{then}",
-        )
+        commands = ("keys renew", *(("keys router",) if router else ()))
+        fixes = tuple(Fix(command=f"{each} --dir {folder}") for each in commands)
+        say(SELF, with_fixes(KEYS_EXPIRE(days=left, fixes=fixes)))
 
 
 class KeyChanges(NamedTuple):

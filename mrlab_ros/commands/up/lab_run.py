@@ -7,6 +7,7 @@ import time
 from dataclasses import dataclass, field
 
 from mrlab_ros.adapters.scenes.files import SCENE_FILE
+from mrlab_ros.commands.diagnostics import OPEN_TO_ALL, SCENE_COMES_BACK, WAITS_FOR_CLOCK
 from mrlab_ros.commands.up.keys import follow_keys, keys_changed_at, tell_when_keys_expire
 from mrlab_ros.commands.up.refusals import Refusals
 from mrlab_ros.commands.up.speaker import Speaker
@@ -94,19 +95,15 @@ class LabRun:
         """Say what of the options has an effect that is easily overlooked."""
         options = self.options
         if options.robots and (options.state_dir / SCENE_FILE).exists():
-            self.say(
-                SELF,
-                f"--state-dir {options.state_dir} holds a scene, which is brought back; "
-                "--robots is for an empty one",
-            )
+            self.say(SELF, str(SCENE_COMES_BACK(folder=str(options.state_dir))))
         if self.listen is not None and options.insecure:
-            self.say(SELF, f"--insecure: whoever reaches {self.listen} sees and moves everything")
+            self.say(SELF, str(OPEN_TO_ALL(endpoint=self.listen)))
         if self._keys is not None:
             tell_when_keys_expire(self._keys, self.say, router=bool(options.connect))
         if self.no_physics:
             self.say(SELF, str(self.no_physics))
         if options.sim_time:
-            self.say(SELF, "--sim-time: nothing moves until somebody publishes /clock")
+            self.say(SELF, str(WAITS_FOR_CLOCK()))
 
     def _missing(self) -> str:
         """Wait until the lab is complete; return what is missing after READY_TIMEOUT_S."""

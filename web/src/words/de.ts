@@ -2473,6 +2473,7 @@ export const diagnostics: Templates = {
   ],
   not_set_aside: ['Sie lässt sich nicht zur Seite legen: {problem}'],
   not_signed_in: ['Niemand ist angemeldet, oder die Anmeldung ist beendet.', 'Melde dich an.'],
+  nobody_waits: ['Niemand wartet mehr auf das Labor.'],
   not_standing: ['Der Roboter[ {robot}] ist im Zustand „{state:state}“.', 'Stoppe ihn zuerst.'],
   not_taken_back: [
     '{why:problem}. Was geändert wurde, ließ sich nicht zurücknehmen: {error:problem}.',
