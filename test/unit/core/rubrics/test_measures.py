@@ -194,6 +194,15 @@ def test_holds_by_their_span_and_partly():
     assert outcome("holds cube_1 from 1 to 2 s", found).time == pytest.approx(1.0)
 
 
+def test_the_longest_of_several_holds_counts():
+    held = [(t, state, "cube_1" if state == "HOLDING" else "") for t, state in (
+        (0.5, "HOLDING"), (1.0, "OPEN"), (1.5, "HOLDING"), (3.0, "OPEN"), (3.5, "HOLDING"),
+        (3.75, "OPEN"),
+    )]  # fmt: skip
+    found = outcome("holds cube_1 for 1.5 s", checked(record=recorded(held)))
+    assert (found.share, found.found.value, found.time) == (1.0, 1.5, 3.0)
+
+
 def test_a_hand_over_is_no_loss():
     from mrlab_ros.core.checking.rehearsed import GraspChange
     from mrlab_ros.core.physics.grasp.states import Grasp
@@ -222,9 +231,16 @@ def test_what_is_still_held_or_rolls_or_left_is_not_released():
     assert outcome(sentence, checked(record=held)).found.code == "still_held"
     rolls = recorded(HELD, {"cube_1": (0.3, 0.1, 0.025)})
     rolls.objects["cube_1"].values[0] = [0.2, 0.1, 0.025, 0, 0, 0, 1]
-    assert outcome(sentence, checked(record=rolls)).found.code == "still_moves"
+    moves = outcome(sentence, checked(record=rolls)).found
+    assert (moves.code, moves.value) == ("still_moves", pytest.approx(0.1 / 0.5))
     gone = recorded(HELD, {"cube_1": (0.3, 0.1, 0.025)}, gone=[(3.5, "cube_1")])
     assert outcome(sentence, checked(record=gone)).found.code == "not_in_the_room"
+
+
+def test_nothing_is_released_at_an_object_that_is_not_there():
+    record = recorded(HELD, {"cube_1": (0.3, 0.1, 0.025)})
+    lost = outcome("releases cube_1 within 4 cm of bin_1", checked(record=record, objects=THINGS))
+    assert (lost.share, lost.found.code, lost.time) == (0.0, "no_object_checked", 3.0)
 
 
 def test_times_are_lost_from_the_limit_on():

@@ -196,6 +196,7 @@ def test_parallel_members_begin_at_one_stamp_after_all_have_arrived():
     assert world.system.duration == 1.0
     assert world.system.play(world.now) == 0.5
     assert world.system.state is SystemState.STAGING
+    assert said(world) == ("stages", {"duration": 0.5})
     world.advance(0.4)
     assert world.sent == {"a": [], "b": []}
     world.run_until(SystemState.READY)
