@@ -1,5 +1,5 @@
-import { unpack } from './arrays'
 import type { MotionDocument } from './motion'
+import { unpack } from './motion'
 
 /** A position this close to a frame, in frames, is that frame: i / f * f need not round to i. */
 const ON_FRAME = 1e-6

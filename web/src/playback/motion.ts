@@ -1,4 +1,5 @@
 import type { Diagnostic } from '../words/diagnostic'
+
 /** A motion to look at: an accepted trajectory, or the rows of a refused one. The gateway serves
  * it as JSON, `mrlab show` puts it into a page; `mrlab_ros/core/show/` writes it. */
 export interface MotionDocument {
@@ -52,4 +53,30 @@ export interface PackedArray {
   readonly dtype: 'float32' | 'float64' | 'uint32' | 'uint8'
   readonly shape: readonly number[]
   readonly data: string
+}
+
+type NumericArray = Float32Array | Float64Array | Uint32Array | Uint8Array
+
+const KINDS = {
+  float32: Float32Array,
+  float64: Float64Array,
+  uint32: Uint32Array,
+  uint8: Uint8Array,
+} as const
+
+/** Return the numbers of a packed array, row by row. Throws a RangeError where the bytes and the
+ * shape contradict each other. */
+export function unpack(packed: PackedArray): NumericArray {
+  const text = atob(packed.data)
+  const bytes = new Uint8Array(text.length)
+  for (let i = 0; i < text.length; i++) bytes[i] = text.charCodeAt(i)
+  const Kind = KINDS[packed.dtype]
+  const count = packed.shape.reduce((product, size) => product * size, 1)
+  if (bytes.length !== count * Kind.BYTES_PER_ELEMENT) {
+    throw new RangeError(
+      `a packed array holds ${bytes.length} bytes; expected ${packed.shape.join(' x ')} of ` +
+        `${packed.dtype}`,
+    )
+  }
+  return new Kind(bytes.buffer)
 }

@@ -1,4 +1,4 @@
-import { unpack } from './arrays'
+import { unpack } from './motion'
 import type { SessionTrack } from './session'
 
 /** Samples of several values over time, linear in between; the ends hold. */

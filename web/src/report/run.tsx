@@ -1,6 +1,6 @@
 import { useContext, useMemo } from 'preact/hooks'
 import type { Mark, Strip } from '../design/plot/strip'
-import { unpack } from '../playback/arrays'
+import { unpack } from '../playback/motion'
 import type { MeasuredSeries, RunCurves, SessionRun } from '../playback/session'
 import { say } from '../words/diagnostic'
 import { number, words } from '../words/words'

@@ -10,7 +10,7 @@ import { type MeshBytes, MeshLibrary } from '../scene/robot/meshes'
 import { NoWebGL } from '../scene/stage/renderer'
 import { Stage } from '../scene/stage/stage'
 import { themeNow } from '../scene/stage/theme'
-import type { SceneWords } from '../words/scene'
+import type { SceneWords } from '../words/words'
 
 const POSE = 7
 const POSES = 9 // times at which the robots are taken into the picture

@@ -613,7 +613,6 @@ export const words: Words = {
     reference: 'Die Musterlösung',
     choose: 'Hier durch die Klasse gehen',
     leave: 'Die Klasse verlassen',
-    notThisRobot: (model) => `Die Klasse ist für ${model}.`,
   },
   room: {
     title: 'Das Labor in deinem Raum',

@@ -564,7 +564,6 @@ export const en = {
     reference: 'The solution',
     choose: 'Step through the class here',
     leave: 'Leave the class',
-    notThisRobot: (model: string) => `The class is for ${model}.`,
   },
   room: {
     title: 'The lab in your room',

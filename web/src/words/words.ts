@@ -118,3 +118,6 @@ export function dateTime(seconds: number): string {
 export function fileSize(bytes: number): string {
   return bytes < 1e6 ? `${number(bytes / 1e3, 0)} kB` : `${number(bytes / 1e6, 1)} MB`
 }
+
+/** The words of the 3D view. */
+export type SceneWords = Words['scene']

@@ -1,6 +1,6 @@
-import { unpack } from '../../playback/arrays'
 import type { Course } from '../../playback/course'
 import type { MotionDocument, MotionJoint, PackedArray } from '../../playback/motion'
+import { unpack } from '../../playback/motion'
 import type { Diagnostic } from '../../words/diagnostic'
 import type { Mark, Strip } from './strip'
 

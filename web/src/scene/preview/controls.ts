@@ -1,7 +1,7 @@
 import { fixed, number } from '../../words/words'
 import '../stage/scene.css'
 import { BACKWARD_RATES, type Player, RATES } from '../../playback/player'
-import type { SceneWords } from '../../words/scene'
+import type { SceneWords } from '../../words/words'
 
 const ICONS = {
   play: 'M8 5.5v13l11-6.5z',

@@ -1,8 +1,8 @@
 import { courseOf } from '../../playback/course'
 import type { MotionDocument } from '../../playback/motion'
 import { MotionPlayer } from '../../playback/player'
-import { type Diagnostic, say as worded } from '../../words/diagnostic'
-import { ENGLISH, type SceneWords } from '../../words/scene'
+import { say as worded } from '../../words/diagnostic'
+import type { SceneWords } from '../../words/words'
 import { MeshLibrary, type MeshSource } from '../robot/meshes'
 import { NoWebGL } from '../stage/renderer'
 import { Stage } from '../stage/stage'
@@ -15,15 +15,9 @@ const MOST_MARKS = 60
 interface PreviewOptions {
   /** The source of meshes; by default the gateway's /assets/. */
   readonly meshes?: MeshSource
-  readonly words?: SceneWords
+  readonly words: SceneWords
   /** A second motion of a robot with the same joints, shown as a ghost. */
   readonly compared?: MotionDocument | null
-  /** Ghosts of the first and last pose at first; true by default. */
-  readonly ghosts?: boolean
-  /** The tool's path at first; true by default. */
-  readonly path?: boolean
-  /** Play, timeline, speed and switches below the picture; true by default. */
-  readonly controls?: boolean
   /** A picture for browsers without WebGL. */
   readonly poster?: string
 }
@@ -31,14 +25,9 @@ interface PreviewOptions {
 /** A motion in 3D that plays. Times are s from the first frame. */
 export interface MotionPreview {
   play(): void
-  pause(): void
   seek(time: number): void
-  setRate(rate: number): void
-  /** Choose a finding of the document, or its number from 1, and go to its row; null: none. */
-  select(finding: Diagnostic | number | null): void
-  readonly time: number
-  readonly duration: number
-  readonly playing: boolean
+  /** Choose a finding by its number, from 1, and seek to its row; 0: none. */
+  select(finding: number): void
   /** Receive the time whenever it changes, once a picture at most. */
   onTime(listener: (time: number) => void): () => void
   /** Receive the number of a finding, from 1, whose mark is clicked. */
@@ -52,9 +41,9 @@ export interface MotionPreview {
 export function createMotionPreview(
   container: HTMLElement,
   motion: MotionDocument,
-  options: PreviewOptions = {},
+  options: PreviewOptions,
 ): MotionPreview {
-  const words = options.words ?? ENGLISH
+  const { words } = options
   const course = courseOf(motion)
   const player = new MotionPlayer(course.duration, () => performance.now() / 1000)
   const meshes = options.meshes ?? new MeshLibrary()
@@ -102,49 +91,36 @@ export function createMotionPreview(
     }
   }
 
-  let controls: Controls | null = null
-  if (options.controls !== false) {
-    const toggles =
-      scene === null
-        ? []
-        : [
-            {
-              label: options.compared ? words.compared : words.ghosts,
-              on: options.ghosts !== false,
-              set: scene.setGhosts.bind(scene),
-            },
-            { label: words.path, on: options.path !== false, set: scene.setPath.bind(scene) },
-          ]
-    controls = new Controls(
-      player,
-      words,
-      1 / motion.frame_rate,
-      (time) => course.rowOf(course.frameAt(time)),
-      toggles,
-    )
-    controls.setMarks(
-      motion.findings
-        .filter(({ first_row }) => first_row > 0)
-        .slice(0, MOST_MARKS)
-        .map((finding) => ({
-          time: course.timeOfRow(finding.first_row),
-          severity: finding.severity,
-          words: worded(finding).message,
-        })),
-    )
-    element.append(controls.element)
-  }
-  if (options.ghosts === false) scene?.setGhosts(false)
-  if (options.path === false) scene?.setPath(false)
+  const ghosts = options.compared ? words.compared : words.ghosts
+  const toggles =
+    scene === null
+      ? []
+      : [
+          { label: ghosts, on: true, set: scene.setGhosts.bind(scene) },
+          { label: words.path, on: true, set: scene.setPath.bind(scene) },
+        ]
+  const rowAt = (time: number) => course.rowOf(course.frameAt(time))
+  const controls = new Controls(player, words, 1 / motion.frame_rate, rowAt, toggles)
+  controls.setMarks(
+    motion.findings
+      .filter(({ first_row }) => first_row > 0)
+      .slice(0, MOST_MARKS)
+      .map((finding) => ({
+        time: course.timeOfRow(finding.first_row),
+        severity: finding.severity,
+        words: worded(finding).message,
+      })),
+  )
+  element.append(controls.element)
 
   const step = (): boolean => {
     const time = player.position()
     if (time !== lastTime) {
       lastTime = time
       scene?.show(time)
-      controls?.show(time)
+      controls.show(time)
       for (const listener of timed) listener(time)
-      if (!player.playing) controls?.showState()
+      if (!player.playing) controls.showState()
     }
     return player.playing
   }
@@ -200,25 +176,8 @@ export function createMotionPreview(
 
   return {
     play: () => player.play(),
-    pause: () => player.pause(),
     seek: (time) => player.seek(time),
-    setRate: (rate) => player.setRate(rate),
-    select: (finding) => {
-      const number =
-        typeof finding === 'number'
-          ? finding
-          : finding === null
-            ? 0
-            : motion.findings.indexOf(finding) + 1
-      choose(number)
-    },
-    get time() {
-      return player.position()
-    },
-    duration: course.duration,
-    get playing() {
-      return player.playing
-    },
+    select: choose,
     onTime: (listener) => {
       timed.add(listener)
       return () => timed.delete(listener)
@@ -232,7 +191,7 @@ export function createMotionPreview(
       disposed = true
       clearTimeout(waiting)
       for (const one of undo) one()
-      controls?.dispose()
+      controls.dispose()
       scene?.dispose()
       stage?.dispose()
       if (options.meshes === undefined) meshes.dispose()
