@@ -152,8 +152,8 @@ export function trajectory(of: Partial<TrajectoryInfo>): TrajectoryInfo {
   }
 }
 
-/** A gateway of a lab with a few people, in memory. What a file's name holds decides what becomes
- * of it: "bad", "which"; every other file is accepted. */
+/** A gateway of a lab with a few people, in memory. The name of a file decides its outcome: "bad",
+ * "which"; every other file is accepted. */
 export class FakeApi implements Api {
   /** ?nobody in the address: not signed in. */
   user: Session['user'] = location.search.includes('nobody')

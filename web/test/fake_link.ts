@@ -49,7 +49,7 @@ export class FakeLink implements Link {
     return () => this.deedListeners.delete(listener)
   }
 
-  /** Let somebody else have done something. */
+  /** Deliver a deed of another person. */
   did(deed: Deed): void {
     for (const listener of this.deedListeners) listener(deed)
   }
@@ -97,7 +97,7 @@ export class FakeLink implements Link {
     this.setStatus('lost', 'closed')
   }
 
-  /** Deliver a message to those who subscribed; `latched`: also to those who come later. */
+  /** Deliver a message to the subscribers; `latched`: also to later ones. */
   deliver<T>(
     key: string,
     type: MessageReader<T>,

@@ -180,7 +180,7 @@ test('a playing robot is drawn by its clock until joint states contradict it', a
   const drawn = joints.setPositions.mock.lastCall as unknown as [Float64Array]
   expect([...drawn[0]]).toEqual([expect.closeTo(0.5), expect.closeTo(1)])
   expect(follower.source('ur5e_1')).toBe('course')
-  // it stands elsewhere than the clock says: the joint states are right
+  // Its pose contradicts the clock: the joint states are right.
   for (let i = 1; i < 6; i++) states(20_000_000 + i * 1_000_000, 0.9)
   link.time = 1000.2
   expect(follower.pose()).toBe(true)

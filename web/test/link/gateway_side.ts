@@ -1,5 +1,5 @@
-/** A gateway's end of the socket, for tests: what the page sends is decoded, what it gets is set by
- * hand. */
+/** A gateway's end of the socket, for tests: it decodes the page's messages, and sends those of
+ * the test. */
 
 export const TOKEN = 'token-1'
 

@@ -22,7 +22,7 @@ export class ShapedLink<T> {
     if (!lost || sure) this.queue.push({ at, message })
   }
 
-  /** Return what arrived by `now` and was not taken yet. */
+  /** Return the messages that arrived by `now` and were not taken yet. */
   arrived(now: number): T[] {
     const here = this.queue.filter(({ at }) => at <= now).sort((a, b) => a.at - b.at)
     for (const each of here) this.queue.splice(this.queue.indexOf(each), 1)

@@ -25,7 +25,7 @@ function take(codec: Codec): void {
   else [codec.request, codec.response].forEach(take)
 }
 
-/** Return what JSON has in place of a message. */
+/** Return the JSON of a message. */
 function plain(value: unknown): unknown {
   if (typeof value === 'bigint') return value.toString()
   if (Array.isArray(value)) return value.map(plain)

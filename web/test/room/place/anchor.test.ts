@@ -94,7 +94,7 @@ describe('the anchor of the scene', () => {
     headset.pose.makeTranslation(4, 0, 5)
     anchor.update(headset.frame, floor)
     expect(group.position.toArray()).toEqual([4, 0, 5])
-    // out of view it stands where it was seen last
+    // Out of view it keeps its last place.
     headset.tracked = false
     headset.pose.makeTranslation(7, 0, 7)
     anchor.update(headset.frame, floor)

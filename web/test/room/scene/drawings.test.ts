@@ -22,7 +22,7 @@ function arm(): Chain {
 
 describe('the path of the tool', () => {
   it('has its speed at each place', () => {
-    // stands for a second, then turns by 0.5 rad in a second
+    // At rest for a second, then a turn by 0.5 rad in a second.
     const course = new Course(1, 1, new Float64Array([0, 0, 0.5]))
     const { points, speeds, fastest } = toolSpeeds(arm(), course)
     expect(speeds[0]).toBe(0)
@@ -53,7 +53,7 @@ it('the envelope is found over several pictures, and never below the floor', () 
     most = Math.max(most, out(i))
     expect(places.getZ(i)).toBeGreaterThanOrEqual(-1e-6)
   }
-  // 2 m, and what corners between the directions stand out
+  // 2 m, and the overhang of corners between the directions
   expect(most).toBeGreaterThan(1.999)
   expect(most).toBeLessThan(2.02)
   expect(envelope.update()).toBe(false)

@@ -117,7 +117,7 @@ test('objects of one shape are one mesh, each with its size, colour and place', 
   const before = mesh.instanceMatrix.version
   objects.follow()
   expect(mesh.instanceMatrix.version, 'what stands is not sent again').toBe(before)
-  // one goes: the others keep what is theirs
+  // One is removed: the others keep their geometry.
   objects.set(many.filter(({ name }) => name !== 'cube_3'))
   objects.follow()
   const colour = new Color()

@@ -84,7 +84,7 @@ async function robot(
   const arm = new SceneRobot(urdf(beside), ['turn'], source, looks, changed)
   before(arm)
   await arm.ready
-  // the far level comes after what is seen nearby
+  // The far level is loaded after the near one.
   await new Promise((resolve) => setTimeout(resolve))
   const bodies: RobotBody[] = []
   arm.root.traverse((node) => {
@@ -210,7 +210,7 @@ describe('levels of detail', () => {
     const [drawn] = [far.material as Material]
     expect(seenFrom(9, 2260)).toEqual([false, true])
     expect([far.material, far.castShadow]).toEqual([far.own, true])
-    // nothing asks for pictures of what stands, and the next time nothing is made anew
+    // A robot at rest requests no picture, and the next time nothing is made again.
     expect(pictures()).toBe(before + 2)
     seenFrom(1.5, 3000)
     expect(far.material).toBe(drawn)

@@ -2,7 +2,7 @@ import { DirectionalLight, Vector3 } from 'three'
 import { describe, expect, test } from 'vitest'
 import { ShadowFit } from '../../../src/scene/stage/shadow_fit'
 
-/** Return whether what casts a shadow at a place of the scene is in the picture of the shadow. */
+/** Return whether a caster at a place of the scene is in the picture of the shadow. */
 function covers(sun: DirectionalLight, place: Vector3): boolean {
   const { camera } = sun.shadow
   camera.position.copy(sun.position)
