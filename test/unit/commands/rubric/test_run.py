@@ -20,7 +20,7 @@ from mrlab_ros.core.rubrics.document import parse
 
 pytestmark = pytest.mark.slow
 
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[4]
 PAGE = (ROOT / "docs" / "rubrics.md").read_text()
 RUBRIC = ROOT / "examples" / "rubrics" / "pick_and_place.yaml"
 QUINTIC = ROOT / "examples" / "quintic_ur5e.mat"
@@ -34,7 +34,7 @@ def mark(file, rubric, *words):
     return run("rubric", "mark", file, "--rubric", rubric, *words)
 
 
-BLOCK = re.search(r"test_rubric.py -->\n```\n(.*?)```", PAGE, re.DOTALL)
+BLOCK = re.search(r"run by \S+rubric/test_run.py -->\n```\n(.*?)```", PAGE, re.DOTALL)
 COMMANDS = [shlex.split(line)[1:] for line in BLOCK[1].splitlines()]
 
 
@@ -66,7 +66,7 @@ def test_the_commands_of_the_documentation(tmp_path, monkeypatch, command, code,
 
 
 def test_the_rubric_of_the_documentation_is_read():
-    block = re.search(r"read by test/unit/commands/test_rubric.py -->\n```yaml\n(.*?)```", PAGE,
+    block = re.search(r"read by \S+rubric/test_run.py -->\n```yaml\n(.*?)```", PAGE,
                       re.DOTALL)  # fmt: skip
     rubric = parse(yaml.safe_load(block[1]), "docs")
     assert (rubric.points, len(rubric.tests[1].measure.poses)) == (6.0, 3)

@@ -16,7 +16,7 @@ from mrlab_ros.commands.check import command
 
 pytestmark = pytest.mark.slow
 
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[4]
 QUINTIC = str(ROOT / "examples" / "quintic_ur5e.mat")
 PICK = str(ROOT / "examples" / "pick_and_place_ur5e.mat")
 

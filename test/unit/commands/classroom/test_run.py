@@ -27,7 +27,7 @@ from mrlab_ros.core.scene.document import SceneDocument
 # two processes start, import everything and check the reference: slow on a busy machine
 pytestmark = [pytest.mark.slow, pytest.mark.timeout(400)]
 
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[4]
 PICK = ROOT / "examples" / "pick_and_place_ur5e.mat"
 RUBRIC = ROOT / "examples" / "rubrics" / "pick_and_place.yaml"
 SHEET = "Identifier,Full name,Grade,Maximum Grade\n" + "".join(
