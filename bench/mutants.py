@@ -33,7 +33,7 @@ SEED = 7
 PATIENCE_S = 60
 # The tests that are asked, by module; those of its room.
 MODULES = {
-    "mrlab_ros.core.base.clock": ("core/test_clock.py",),
+    "mrlab_ros.core.base.clock": ("core/base",),
     "mrlab_ros.core.playback.playback": ("core/playback",),
     "mrlab_ros.core.playback.external": ("core/playback",),
     "mrlab_ros.core.playback.stream": ("core/playback",),

@@ -45,4 +45,5 @@ def show(title: str, rows: Rows, earlier: Rows = ()) -> None:
 
 def _cell(value: Any, before: Any) -> str:
     text = f"{value:.3g}" if isinstance(value, float) else str(value)
-    return f"{text} ({before:.3g})" if isinstance(before, float) else text
+    shown = isinstance(before, float) and before != value
+    return f"{text} ({before:.3g})" if shown else text

@@ -136,6 +136,15 @@ def test_a_step_shifts_it_at_once_and_it_agrees_again() -> None:
     assert time.shifted_ns == 3598 * SECOND
 
 
+@pytest.mark.parametrize(("error_ns", "shifted_ns"), [(STEP_NS, STEP_NS), (STEP_NS - 1, 0)])
+def test_the_smallest_step_shifts_it_and_a_smaller_difference_does_not(
+    error_ns: int, shifted_ns: int
+) -> None:
+    time = LabTime(0, WALL)
+    time.follow_wall(0, WALL + error_ns)
+    assert time.shifted_ns == shifted_ns
+
+
 def test_a_small_difference_is_slewed_and_time_never_goes_back() -> None:
     time = LabTime(0, WALL)
     seen = [time.follow_wall(i * 10 * MS, WALL + i * 10 * MS - 50 * MS) for i in range(1, 2001)]

@@ -12,7 +12,18 @@ from refusals import refused
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.playback import diagnostics as say
-from mrlab_ros.core.playback.goal import FRAME_RATE, Code, Goal, Point, WrongGoal, trajectory
+from mrlab_ros.core.playback.goal import (
+    AT_LIMIT,
+    FRAME_RATE,
+    LONGEST,
+    STANDSTILL,
+    Code,
+    Goal,
+    Point,
+    WrongGoal,
+    check_limits,
+    trajectory,
+)
 
 UR5E = RobotLibrary(Path(__file__).parents[4] / "robots", Path("/nowhere")).model("ur5e")
 ARM = UR5E.home
@@ -184,6 +195,36 @@ def test_a_bad_goal_is_refused_with_its_code(wrong: Goal, code: Code, said, valu
     with refused(said, WrongGoal, **values) as error:
         trajectory(wrong, UR5E, ARM, NOW)
     assert error.value.code is code
+
+
+def test_a_goal_of_the_longest_time_is_taken() -> None:
+    assert trajectory(goal((LONGEST, 0.1)), UR5E, ARM, NOW).duration == LONGEST
+    with refused(say.GOAL_TOO_LONG, WrongGoal):
+        trajectory(goal((LONGEST + 0.01, 0.1)), UR5E, ARM, NOW)
+
+
+def test_a_goal_whose_last_point_is_now_is_a_set_point() -> None:
+    found = trajectory(goal((1.0, 0.001), stamp_ns=NOW - SECOND), UR5E, ARM, NOW)
+    assert found.frame_count == 2
+    assert found.positions[-1] == pytest.approx(ARM + 0.001)
+
+
+def test_a_last_point_slower_than_a_standstill_is_an_end() -> None:
+    def ending(speed: float) -> Goal:
+        return replace(goal(), points=points((1.0, 0.1), speeds=[speed]))
+
+    assert trajectory(ending(STANDSTILL), UR5E, ARM, NOW).frame_count == 101
+    with refused(say.ENDS_MOVING, WrongGoal):
+        trajectory(ending(1.01 * STANDSTILL), UR5E, ARM, NOW)
+
+
+def test_a_joint_may_round_beyond_its_limit() -> None:
+    at = ARM.copy()
+    at[0] = UR5E.joints[0].upper + 0.9 * AT_LIMIT
+    check_limits(at, UR5E)
+    at[0] = UR5E.joints[0].upper + 1.1 * AT_LIMIT
+    with refused(say.JOINT_OUT_OF_RANGE, WrongGoal, point=None):
+        check_limits(at, UR5E)
 
 
 def test_accelerations_are_those_of_segments_of_any_length() -> None:
