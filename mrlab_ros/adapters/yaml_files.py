@@ -19,9 +19,9 @@ from mrlab_ros.adapters.diagnostics import (
     YAML_ALIAS,
     YAML_MAPPING,
 )
+from mrlab_ros.core.base.checks import bad_value
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.names import close_to
-from mrlab_ros.core.base.records import bad_value
 
 
 def close_file(path: Path) -> str | None:

@@ -6,8 +6,7 @@ import re
 from dataclasses import dataclass
 from typing import Any
 
-from mrlab_ros.core.base.names import NAME
-from mrlab_ros.core.base.records import (
+from mrlab_ros.core.base.checks import (
     FLAG,
     TEXT,
     Choice,
@@ -17,8 +16,9 @@ from mrlab_ros.core.base.records import (
     Texts,
     above,
     between,
-    field,
 )
+from mrlab_ros.core.base.names import NAME
+from mrlab_ros.core.base.records import field
 from mrlab_ros.core.bridge.rules import FULL_NAME, PREFIX
 from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE, MOST_ROWS
 from mrlab_ros.core.recording.topics import LAB_TOPICS

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from mrlab_ros.adapters.yaml_files import RosLoader, read_yaml
 from mrlab_ros.core.base import records
+from mrlab_ros.core.base.checks import checked
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.names import PARAMETERS_OF_RCLPY, close_to
 from mrlab_ros.core.base.records import Field, Record
@@ -56,7 +57,7 @@ def _check_section(name: object, content: object) -> None:
             mistakes.append(records.unknown_field(str(name), key, known))
         for field in known.get(key, ()):
             try:
-                records.checked(f"{name}: {key}", value, field.check)
+                checked(f"{name}: {key}", value, field.check)
             except BadInput as error:
                 mistakes.append(error.diagnostic)
                 break

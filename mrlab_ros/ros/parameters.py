@@ -23,9 +23,10 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 from mrlab_ros.core.base import records
+from mrlab_ros.core.base.checks import Integer, Number, Range, Words, checked
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.names import PARAMETERS_OF_RCLPY
-from mrlab_ros.core.base.records import Field, Range
+from mrlab_ros.core.base.records import Field
 from mrlab_ros.ros.diagnostics import PARAMETER_FIXED, PARAMETERS_REFUSED
 
 if TYPE_CHECKING:
@@ -116,7 +117,7 @@ class ParameterNode(Node, Generic[P]):
         """
         by_name = {f.name: (attribute, f) for attribute, f in self._records.items()}
         changes: dict[str, Any] = {}
-        mistakes: list[records.Words] = []
+        mistakes: list[Words] = []
         accepted = []
         for parameter in parameter_list:
             name = parameter.name
@@ -130,7 +131,7 @@ class ParameterNode(Node, Generic[P]):
                 mistakes.append(PARAMETER_FIXED(parameter=name, node=self.get_name()))
                 continue
             try:
-                value = records.checked(name, plain(parameter.value), record.check)
+                value = checked(name, plain(parameter.value), record.check)
             except BadInput as error:
                 mistakes.append(error.diagnostic)
                 continue
@@ -168,11 +169,11 @@ def descriptor(record: Field) -> ParameterDescriptor:
         + ("a change takes effect at once" if record.changeable else "read at the start only"),
         read_only=not record.changeable,
     )
-    if isinstance(limits, Range) and isinstance(record.check, records.Integer):
+    if isinstance(limits, Range) and isinstance(record.check, Integer):
         low = -LARGEST_INTEGER if math.isinf(limits.low) else int(limits.low)
         high = LARGEST_INTEGER if math.isinf(limits.high) else int(limits.high)
         result.integer_range = [IntegerRange(from_value=low, to_value=high)]
-    elif isinstance(limits, Range) and isinstance(record.check, records.Number):
+    elif isinstance(limits, Range) and isinstance(record.check, Number):
         result.floating_point_range = [
             FloatingPointRange(
                 # rosidl sends another number where a whole one stands here.

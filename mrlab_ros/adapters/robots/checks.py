@@ -22,11 +22,11 @@ from mrlab_ros.adapters.robots.diagnostics import (
     URDF_LINK,
 )
 from mrlab_ros.adapters.robots.mesh_files import Look
+from mrlab_ros.core.base.checks import bad_value
 from mrlab_ros.core.base.diagnostic import Code, Diagnostic, Severity, from_plain
 from mrlab_ros.core.base.diagnostics import FIELD
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.foreign_text import for_table
-from mrlab_ros.core.base.records import bad_value
 
 MOST_JOINTS = 16
 MOST_LINKS = 300

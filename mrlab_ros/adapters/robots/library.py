@@ -37,10 +37,10 @@ from mrlab_ros.adapters.robots.diagnostics import (
 )
 from mrlab_ros.adapters.robots.places import imported_folder
 from mrlab_ros.adapters.yaml_files import read_yaml
+from mrlab_ros.core.base.checks import bad_value
 from mrlab_ros.core.base.diagnostics import FIELD, ONE_OF
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.names import close_to
-from mrlab_ros.core.base.records import bad_value
 from mrlab_ros.core.physics.grasp.load import Tool
 from mrlab_ros.core.physics.grasp.states import Gripper
 from mrlab_ros.core.robots.model import RobotModel

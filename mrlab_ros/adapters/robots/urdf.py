@@ -29,10 +29,10 @@ from mrlab_ros.adapters.robots.diagnostics import (
     STILL_XACRO,
     URDF_JOINT,
 )
+from mrlab_ros.core.base.checks import Words, bad_value
 from mrlab_ros.core.base.diagnostics import FIELD
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.geometry import Pose, quaternion_from_rpy, transform_from_xyz_rpy
-from mrlab_ros.core.base.records import Words, bad_value
 from mrlab_ros.core.robots.frames import FixedFrame, LinkFrames, MovingFrame
 from mrlab_ros.core.robots.model import Joint, KinematicChain, Segment
 

@@ -13,22 +13,19 @@ from enum import Enum
 from functools import cached_property
 from typing import Generic, TypeVar
 
-from mrlab_ros.core.base.errors import BadInput
-from mrlab_ros.core.base.records import (
+from mrlab_ros.core.base.checks import (
     FLAG,
     TEXT,
     Integer,
     Number,
-    Record,
     Text,
     between,
     checked,
     enum_values,
-    every,
-    field,
-    read,
     shown,
 )
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.records import Record, every, field, read
 from mrlab_ros.core.bridge.diagnostics import RULE_GOES_OUT, RULE_WITHOUT_NAME
 
 SECOND = 1_000_000_000

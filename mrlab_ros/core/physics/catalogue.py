@@ -10,6 +10,17 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from mrlab_ros.core.base.checks import (
+    FLAG,
+    NAME,
+    TEXT,
+    Choice,
+    Number,
+    Numbers,
+    Words,
+    between,
+    checked,
+)
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.geometry import (
     Array,
@@ -21,19 +32,7 @@ from mrlab_ros.core.base.geometry import (
     subtract,
 )
 from mrlab_ros.core.base.names import close_to
-from mrlab_ros.core.base.records import (
-    FLAG,
-    NAME,
-    TEXT,
-    Choice,
-    Number,
-    Numbers,
-    Record,
-    Words,
-    between,
-    checked,
-    every,
-)
+from mrlab_ros.core.base.records import Record, every
 from mrlab_ros.core.physics.diagnostics import (
     CATALOGUE,
     FIXED_WITH_MASS,

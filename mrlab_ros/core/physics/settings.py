@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from mrlab_ros.core.base import records
-from mrlab_ros.core.base.records import Choice, Integer, Number, above, between, field
+from mrlab_ros.core.base.checks import Choice, Integer, Number, above, between
+from mrlab_ros.core.base.records import field
 
 PLACE = "config/physics.yaml"
 

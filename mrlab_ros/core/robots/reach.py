@@ -6,10 +6,10 @@ from collections.abc import Callable
 
 import numpy as np
 
+from mrlab_ros.core.base.checks import bad_value
 from mrlab_ros.core.base.diagnostics import ONE_OF
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.geometry import Array
-from mrlab_ros.core.base.records import bad_value
 from mrlab_ros.core.robots.diagnostics import NO_SPHERICAL_WRIST
 from mrlab_ros.core.robots.model import KinematicChain, RobotModel
 

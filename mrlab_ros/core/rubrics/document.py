@@ -6,24 +6,23 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from mrlab_ros.core.base.diagnostic import Fix
-from mrlab_ros.core.base.diagnostics import IN_PLACE
-from mrlab_ros.core.base.errors import BadInput, LabError
-from mrlab_ros.core.base.geometry import Pose, Vector, normalized, quaternion_from_rpy
-from mrlab_ros.core.base.records import (
+from mrlab_ros.core.base.checks import (
     FILLED_TEXT,
     FLAG,
     TEXT,
     Number,
     Numbers,
-    Record,
     Words,
     above,
     between,
     checked,
-    every,
     shown,
 )
+from mrlab_ros.core.base.diagnostic import Fix
+from mrlab_ros.core.base.diagnostics import IN_PLACE
+from mrlab_ros.core.base.errors import BadInput, LabError
+from mrlab_ros.core.base.geometry import Pose, Vector, normalized, quaternion_from_rpy
+from mrlab_ros.core.base.records import Record, every
 from mrlab_ros.core.checking.evidence import CLOSE
 from mrlab_ros.core.checking.rehearsal import FARTHEST
 from mrlab_ros.core.rubrics.diagnostics import (

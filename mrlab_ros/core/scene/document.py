@@ -13,25 +13,22 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from mrlab_ros.core.base.diagnostics import A_MAPPING
-from mrlab_ros.core.base.errors import BadInput
-from mrlab_ros.core.base.geometry import WORLD_SIZE, Pose
-from mrlab_ros.core.base.names import checked_name
-from mrlab_ros.core.base.records import (
+from mrlab_ros.core.base.checks import (
     FILLED_TEXT,
     FLAG,
     NAME,
     TEXT,
     Matrix,
     Numbers,
-    Record,
     Words,
     bad_value,
     between,
-    entry_place,
-    raise_all,
-    unknown_field,
 )
+from mrlab_ros.core.base.diagnostics import A_MAPPING
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.geometry import WORLD_SIZE, Pose
+from mrlab_ros.core.base.names import checked_name
+from mrlab_ros.core.base.records import Record, entry_place, raise_all, unknown_field
 from mrlab_ros.core.scene.diagnostics import (
     CELL_NOT_SCENE,
     HELD_IN_PART,

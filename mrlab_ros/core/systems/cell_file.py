@@ -26,10 +26,7 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Any
 
-from mrlab_ros.core.base.clock import RATE_RANGE
-from mrlab_ros.core.base.diagnostics import ONE_OF
-from mrlab_ros.core.base.errors import BadInput
-from mrlab_ros.core.base.records import (
+from mrlab_ros.core.base.checks import (
     FILLED_TEXT,
     FLAG,
     TEXT,
@@ -38,14 +35,15 @@ from mrlab_ros.core.base.records import (
     Integer,
     Number,
     Range,
-    Record,
     Texts,
     Words,
     at_least,
     between,
-    entry_place,
-    every,
 )
+from mrlab_ros.core.base.clock import RATE_RANGE
+from mrlab_ros.core.base.diagnostics import ONE_OF
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.records import Record, entry_place, every
 from mrlab_ros.core.systems import diagnostics as say
 from mrlab_ros.core.systems.robot_system import Policy
 from mrlab_ros.core.systems.timeline import Mode

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrlab_ros.core.base import records
-from mrlab_ros.core.base.records import Number, Numbers, above, at_least, field
+from mrlab_ros.core.base.checks import Number, Numbers, above, at_least
+from mrlab_ros.core.base.records import field
 from mrlab_ros.core.trajectory.trajectory import Channels
 
 Array = NDArray[np.float64]

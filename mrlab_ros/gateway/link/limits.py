@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mrlab_ros.adapters.yaml_files import read_yaml
-from mrlab_ros.core.base.records import Integer, Number, between, field, read
+from mrlab_ros.core.base.checks import Integer, Number, between
+from mrlab_ros.core.base.records import field, read
 from mrlab_ros.core.runtime.bucket import Bucket
 
 # Numbers have 32 bits and begin anew.

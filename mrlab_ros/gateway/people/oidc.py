@@ -25,9 +25,10 @@ with warnings.catch_warnings():
     from authlib.integrations.httpx_client import AsyncOAuth2Client, OAuthError
 
 from mrlab_ros.adapters.yaml_files import read_yaml
+from mrlab_ros.core.base.checks import TEXT, Text
+from mrlab_ros.core.base.checks import enum_values as one_of
 from mrlab_ros.core.base.errors import BadInput, LabError, Unavailable
-from mrlab_ros.core.base.records import TEXT, Text, field, read
-from mrlab_ros.core.base.records import enum_values as one_of
+from mrlab_ros.core.base.records import field, read
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.gateway.errors import NotAllowed
 from mrlab_ros.gateway.people.accounts import Account, Accounts, check_name

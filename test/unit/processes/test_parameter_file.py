@@ -7,8 +7,9 @@ from pathlib import Path
 import pytest
 import yaml
 
+from mrlab_ros.core.base.checks import checked
 from mrlab_ros.core.base.errors import BadInput
-from mrlab_ros.core.base.records import checked, fields_of
+from mrlab_ros.core.base.records import fields_of
 from mrlab_ros.nodes.parameters import NODES
 from mrlab_ros.processes.parameter_file import check_parameter_file
 

@@ -16,8 +16,7 @@ from rclpy.parameter import Parameter
 from rclpy.serialization import deserialize_message, serialize_message
 
 from mrlab_ros.core.base import records
-from mrlab_ros.core.base.diagnostic import plain as as_json
-from mrlab_ros.core.base.records import (
+from mrlab_ros.core.base.checks import (
     FLAG,
     TEXT,
     Choice,
@@ -27,8 +26,10 @@ from mrlab_ros.core.base.records import (
     Texts,
     above,
     between,
-    field,
+    checked,
 )
+from mrlab_ros.core.base.diagnostic import plain as as_json
+from mrlab_ros.core.base.records import field
 from mrlab_ros.nodes.parameters import NODES
 from mrlab_ros.ros.parameters import (
     LARGEST_DOUBLE,
@@ -213,6 +214,6 @@ def test_a_range_without_an_end_reaches_as_far_as_the_type(low: float, high: flo
 @pytest.mark.parametrize("node", NODES)
 def test_every_default_of_the_lab_passes_its_own_check(node: str) -> None:
     for record in records.fields_of(NODES[node]).values():
-        value = records.checked(record.name, plain(to_ros(record.default)), record.check)
+        value = checked(record.name, plain(to_ros(record.default)), record.check)
         assert value == record.default, record.name
         assert record.about.endswith("."), record.name

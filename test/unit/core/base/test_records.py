@@ -12,24 +12,29 @@ from refusals import refused
 
 from mrlab_ros.core.base import diagnostics as codes
 from mrlab_ros.core.base import records
-from mrlab_ros.core.base.errors import BadInput
-from mrlab_ros.core.base.names import close_to
-from mrlab_ros.core.base.records import (
+from mrlab_ros.core.base.checks import (
     FILLED_TEXT,
     FLAG,
     NAME,
     TEXT,
     TEXTS,
+    Choice,
     Integer,
     Matrix,
     Number,
     Numbers,
     Range,
-    Record,
+    Texts,
     above,
     at_least,
     between,
+    checked,
+    enum_values,
+    shown,
 )
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.names import close_to
+from mrlab_ros.core.base.records import Record
 
 JSON = st.recursive(
     st.none() | st.booleans() | st.integers() | st.floats() | st.text(),
@@ -52,12 +57,12 @@ CHECKS = [
     NAME,
     FILLED_TEXT,
     TEXTS,
-    records.Texts(single=True),
+    Texts(single=True),
     Numbers(),
     Numbers(3, between(-5, 5)),
     Matrix(3),
     Matrix(3, whole=True),
-    records.enum_values(Colour),
+    enum_values(Colour),
 ]
 
 
@@ -98,7 +103,7 @@ def test_a_range_holds_what_lies_between_its_ends(low, high, value, low_open, hi
 def test_any_value_is_read_or_refused_in_words(check, value):
     text = ""
     try:
-        result = records.checked("x", value, check)
+        result = checked("x", value, check)
     except BadInput as error:
         text = str(error)
     if text:
@@ -117,10 +122,10 @@ def test_any_value_is_read_or_refused_in_words(check, value):
         (Integer(), 5.0, 5),
         (Integer(), 2**60 + 1, 2**60 + 1),
         (NAME, "cube_1", "cube_1"),
-        (records.Texts(single=True), "a", ("a",)),
+        (Texts(single=True), "a", ("a",)),
         (Numbers(2), [1, 2.5], (1.0, 2.5)),
-        (records.enum_values(Colour), "g", Colour.GREEN),
-        (records.Choice({0: "zero", 1: "one"}), 1, "one"),
+        (enum_values(Colour), "g", Colour.GREEN),
+        (Choice({0: "zero", 1: "one"}), 1, "one"),
     ],
 )
 def test_a_value_has_the_type_of_its_check(check, value, result):
@@ -146,7 +151,7 @@ def test_a_value_has_the_type_of_its_check(check, value, result):
         (FILLED_TEXT, "", codes.A_FILLED_TEXT, None),
         (NAME, "Cube", codes.A_NAME, None),
         (TEXTS, "a", codes.SOME_TEXTS, codes.IN_BRACKETS),
-        (records.Texts(single=True), 5, codes.TEXT_OR_TEXTS, None),
+        (Texts(single=True), 5, codes.TEXT_OR_TEXTS, None),
         (Numbers(3, unit="m"), [1, 2], codes.COUNTED_NUMBERS, None),
         (Numbers(), [], codes.SOME_NUMBERS, None),
         (Numbers(2), "12", codes.COUNTED_NUMBERS, None),
@@ -154,12 +159,12 @@ def test_a_value_has_the_type_of_its_check(check, value, result):
         (Matrix(3), [[1, 2, math.nan]], codes.ROWS_OF_NUMBERS, None),
         (Matrix(3, whole=True), [[0, 1, 2.5]], codes.ROWS_OF_NUMBERS, None),
         (Matrix(3, whole=True), [[0, 1, 2**40]], codes.ROWS_OF_NUMBERS, None),
-        (records.Choice({0: 0, 1: 1, 2: 2}), True, codes.ONE_OF, None),
+        (Choice({0: 0, 1: 1, 2: 2}), True, codes.ONE_OF, None),
     ],
 )
 def test_a_mistake_says_what_was_expected(check, value, expected, hint):
-    with refused(codes.BAD_VALUE, BadInput, what="x", found=records.shown(value)) as caught:
-        records.checked("x", value, check)
+    with refused(codes.BAD_VALUE, BadInput, what="x", found=shown(value)) as caught:
+        checked("x", value, check)
     values = caught.value.diagnostic.values
     assert values["expected"].code == expected.code
     assert (values["hint"].code if "hint" in values else None) == (hint and hint.code)
@@ -170,9 +175,9 @@ def test_what_is_expected_has_values():
     assert Number(between(0.1, 4), mirrored=True).expected.values["sign"] == "either"
     assert Numbers(3).expected.values["count"] == 3
     assert Matrix(3, whole=True).expected.values == {"columns": 3, "numbers": "whole"}
-    assert records.enum_values(Colour).expected.values == {"choices": ["r", "g"]}
+    assert enum_values(Colour).expected.values == {"choices": ["r", "g"]}
     with refused(codes.WITHOUT_QUOTES, number=1024):
-        records.checked("x", "1024", Integer())
+        checked("x", "1024", Integer())
 
 
 def test_a_matrix_has_the_right_kind_even_where_it_is_empty():
