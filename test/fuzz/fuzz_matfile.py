@@ -30,7 +30,7 @@ from rosbags.typesys import Stores, get_typestore
 
 from mrlab_ros.adapters.workspaces import joint_trajectories, worker
 from mrlab_ros.adapters.workspaces.matlab import mat5, mat73
-from mrlab_ros.adapters.workspaces.matlab.mat5 import Damaged, NotAWorkspace, TooLarge
+from mrlab_ros.adapters.workspaces.matlab.elements import Damaged, NotAWorkspace, TooLarge
 from mrlab_ros.adapters.workspaces.sinks import Found
 from mrlab_ros.adapters.workspaces.tables import table
 from mrlab_ros.core.conversion.workspace import JOINT_TRAJECTORY

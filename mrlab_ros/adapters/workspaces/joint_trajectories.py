@@ -17,7 +17,7 @@ import numpy as np
 
 from mrlab_ros.adapters.inflate import ZSTD, inflate_zstd
 from mrlab_ros.adapters.workspaces.diagnostics import LIBRARY_FAILED
-from mrlab_ros.adapters.workspaces.matlab.mat5 import Damaged, NotAWorkspace, TooLarge
+from mrlab_ros.adapters.workspaces.matlab.elements import Damaged, NotAWorkspace, TooLarge
 from mrlab_ros.adapters.workspaces.sinks import Found, Sink
 from mrlab_ros.core.conversion.diagnostics import SHORT_POINT
 from mrlab_ros.core.conversion.named_columns import GRIPPER

@@ -58,7 +58,14 @@ from mrlab_ros.adapters.workspaces.diagnostics import (
     UNSUPPORTED_FORMAT,
 )
 from mrlab_ros.adapters.workspaces.matlab import mat5, objects, second_reader
+from mrlab_ros.adapters.workspaces.matlab.elements import (
+    Damaged,
+    NotATable,
+    NotAWorkspace,
+    TooLarge,
+)
 from mrlab_ros.adapters.workspaces.matlab.mat73 import read_hdf5
+from mrlab_ros.adapters.workspaces.matlab.recognition import recognise
 from mrlab_ros.adapters.workspaces.sinks import Found, ObjectSink, Sink, View
 from mrlab_ros.adapters.workspaces.tables import table
 from mrlab_ros.core.base.diagnostic import Diagnostic, plain
@@ -105,7 +112,7 @@ class OutputFile:
         offset = -1
         if data is not None and _is_kept(shape) and len(data):
             if self.at + len(data) > self.limit:
-                raise mat5.TooLarge("numbers", self.limit)
+                raise TooLarge("numbers", self.limit)
             offset = self.at
             self.file.write(data)
             padding = -len(data) % 8
@@ -140,11 +147,11 @@ def inflate(data: memoryview, form: str, limit: int) -> memoryview:
             with gzip.open(View(data)) as file:
                 inflated = file.read(limit + 1)
     except (OSError, EOFError, zlib.error, ValueError) as error:
-        raise mat5.Damaged(NOT_INFLATED(form=form, why=str(error))) from error
+        raise Damaged(NOT_INFLATED(form=form, why=str(error))) from error
     except Incomplete as error:
-        raise mat5.Damaged(NOT_INFLATED(form=form, why=error)) from error
+        raise Damaged(NOT_INFLATED(form=form, why=error)) from error
     if inflated is None or len(inflated) > limit:
-        raise mat5.TooLarge("inflated", limit)
+        raise TooLarge("inflated", limit)
     return memoryview(inflated)
 
 
@@ -159,10 +166,10 @@ def read(
 
     needs: is told the modules that this file needs beside those of all files.
     """
-    form = mat5.recognise(data)
+    form = recognise(data)
     if form in COMPRESSED:
         data = inflate(data, form, limit)
-        form = mat5.recognise(data)
+        form = recognise(data)
         for suffix in (".gz", ".zst", ".zstd"):
             name = name.removesuffix(suffix)
     if form in ("mat5", "hdf5"):
@@ -195,7 +202,7 @@ def read(
     if form in TEXTS and (name.lower().endswith(TABLES) or ascii_table):
         table.read_csv(data, sink)
         return "CSV"
-    raise mat5.NotAWorkspace(form)
+    raise NotAWorkspace(form)
 
 
 def read_again(
@@ -206,7 +213,7 @@ def read_again(
     numbers: what `read` filled. places: path, shape, offset and numpy type of
     each matrix. Returns the path of the first that differs and what differs, or neither.
     """
-    form = mat5.recognise(data)
+    form = recognise(data)
     if form in COMPRESSED:
         data = inflate(data, form, len(data) * COMPRESSED[form] + (1 << 20))
     loaded: dict[str, Any] = {}
@@ -255,14 +262,14 @@ def serve(source: int, target: int, numbers: int | None, request: dict[str, Any]
 
 def _refusal(name: str, error: Exception) -> Diagnostic:
     """Return what is said of a file on which a reader raised an error."""
-    if isinstance(error, mat5.NotAWorkspace):
+    if isinstance(error, NotAWorkspace):
         form, *details = error.args
         return UNSUPPORTED_FORMAT(file=name, form=form, detail="".join(details))
-    if isinstance(error, mat5.NotATable):
+    if isinstance(error, NotATable):
         return BAD_TABLE(file=name, why=error.args[0])
-    if isinstance(error, mat5.Damaged):
+    if isinstance(error, Damaged):
         return UNREADABLE(file=name, why=error.args[0])
-    if isinstance(error, mat5.TooLarge):
+    if isinstance(error, TooLarge):
         return TOO_LARGE(file=name, part=error.part, limit=error.limit, size=error.size)
     return UNREADABLE(file=name, why=READER_FAILED(error=repr(error)))
 

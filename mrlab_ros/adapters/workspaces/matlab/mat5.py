@@ -6,13 +6,10 @@ checked against what there is. The format is that of MathWorks' "MAT-File Format
 
 from __future__ import annotations
 
-import math
 import struct
 import zlib
 
 from mrlab_ros.adapters.workspaces.diagnostics import (
-    BAD_DIMENSIONS,
-    BAD_NAME_BYTES,
     CUT_BEFORE_CHECKSUM,
     EMPTY_SUBSYSTEM,
     ENDS_EARLY,
@@ -28,45 +25,27 @@ from mrlab_ros.adapters.workspaces.diagnostics import (
     WRONG_INFLATED_SIZE,
     WRONG_TYPE,
 )
+from mrlab_ros.adapters.workspaces.matlab.elements import (
+    ELEMENTS,
+    MI_COMPRESSED,
+    MI_INT8,
+    MI_MATRIX,
+    MI_UINT32,
+    MI_UTF8,
+    TEXT_SIZES,
+    Cursor,
+    Damaged,
+    TooLarge,
+    _misshapen,
+    characters,
+    index,
+    is_vector,
+    name_of,
+    product,
+)
+from mrlab_ros.adapters.workspaces.matlab.recognition import MAT4_NUMBERS, mat4_order
 from mrlab_ros.adapters.workspaces.sinks import Found, Sink
 
-
-class Damaged(Exception):
-    """The bytes contradict the format; its argument is the diagnostic that says why."""
-
-
-class NotATable(Damaged):
-    """A text is no table of numbers; its argument is the diagnostic that says why."""
-
-
-class NotAWorkspace(Exception):
-    """The bytes are something else: a form of diagnostics.UNSUPPORTED_FORMAT, and a detail."""
-
-
-class TooLarge(Exception):
-    """The bytes declare more than the limit; see diagnostics.TOO_LARGE for `part`."""
-
-    def __init__(self, part: str, limit: float, size: float | None = None) -> None:
-        super().__init__(part, limit, size)
-        self.part, self.limit, self.size = part, limit, size
-
-
-# data types of the elements: numpy code of the numbers they hold
-ELEMENTS = {
-    1: "i1",
-    2: "u1",
-    3: "i2",
-    4: "u2",
-    5: "i4",
-    6: "u4",
-    7: "f4",
-    9: "f8",
-    12: "i8",
-    13: "u8",
-}
-# data types of the elements that hold text: bytes of a code unit
-TEXT_SIZES = {1: 1, 2: 1, 4: 2, 16: 1, 17: 2, 18: 4}
-MI_INT8, MI_INT32, MI_UINT32, MI_MATRIX, MI_COMPRESSED, MI_UTF8 = 1, 5, 6, 14, 15, 16
 CELL, STRUCT, OBJECT, CHAR, SPARSE, DOUBLE, SINGLE = 1, 2, 3, 4, 5, 6, 7
 FUNCTION, OPAQUE = 16, 17
 CLASSES = {
@@ -89,91 +68,6 @@ UNREAD = (OBJECT, SPARSE, FUNCTION)  # classes whose contents are not read to th
 COMPLEX_FLAG, LOGICAL_FLAG = 0x08, 0x02
 DEEPEST = 32
 LONGEST_TEXT = 200  # characters of a line of text that is kept
-
-
-def is_vector(shape: tuple[int, ...]) -> bool:
-    """Say whether an array is a scalar or a vector; of integers, such are rates and times."""
-    return len(shape) == 2 and 1 in shape and 0 not in shape
-
-
-MOST_AXES = 32  # of an array, as HDF5 has it; NumPy has 64
-
-
-def index(shape: tuple[int, ...], number: int) -> str:
-    """Return the subscripts of the `number`th element (from 0), such as '3' or '2,1'."""
-    if len([n for n in shape if n != 1]) <= 1:
-        return str(number + 1)
-    subscripts = []
-    for length in shape:
-        number, rest = divmod(number, length)
-        subscripts.append(str(rest + 1))
-    return ",".join(subscripts)
-
-
-def product(shape: tuple[int, ...]) -> int:
-    """Return the number of elements of an array of this shape; raise Damaged where it is none."""
-    if len(shape) > MOST_AXES:
-        raise _misshapen(shape)
-    if any(n < 0 for n in shape):
-        raise _misshapen(shape)
-    return math.prod(shape)
-
-
-def _misshapen(shape: tuple[int, ...]) -> Damaged:
-    size = "x".join(map(str, shape))
-    return Damaged(BAD_DIMENSIONS(size=size, least=2, most=MOST_AXES))
-
-
-def name_of(text: bytes) -> str:
-    """Return the name of a variable, field or class; raise Damaged where it is not ASCII text."""
-    if not all(32 <= character < 127 for character in text):
-        raise Damaged(BAD_NAME_BYTES(found=repr(text[:40])))
-    return text.decode("ascii")
-
-
-class Cursor:
-    """Walks over the elements of a stretch of a v5 to v7 file."""
-
-    def __init__(self, data: memoryview, order: str) -> None:
-        self.data = data
-        self.order = order
-        self.at = 0
-
-    def __bool__(self) -> bool:
-        return self.at < len(self.data)
-
-    def next(self) -> tuple[int, memoryview]:
-        """Return the next element's data type and bytes, and step over it and its padding."""
-        if len(self.data) - self.at < 8:
-            raise Damaged(ENDS_EARLY())
-        kind, size = struct.unpack_from(self.order + "II", self.data, self.at)
-        if kind >> 16:
-            kind, size = kind & 0xFFFF, kind >> 16
-            if size > 4:
-                raise Damaged(TOO_FEW_BYTES(element="any", left=4, needed=size))
-            begin, self.at = self.at + 4, self.at + 8
-        else:
-            begin = self.at + 8
-            left = len(self.data) - begin
-            if size > left:
-                raise Damaged(TOO_FEW_BYTES(element="any", left=left, needed=size))
-            self.at = begin + size
-            if kind != MI_COMPRESSED:
-                self.at = min(self.at + -size % 8, len(self.data))
-        return kind, self.data[begin : begin + size]
-
-    def text(self) -> str:
-        kind, data = self.next()
-        if kind not in (MI_INT8, MI_UTF8):
-            raise Damaged(WRONG_TYPE(part="name", found=kind))
-        return name_of(bytes(data).rstrip(b"\0"))
-
-    def integers(self) -> tuple[int, ...]:
-        kind, data = self.next()
-        if kind not in (MI_INT32, MI_UINT32):
-            raise Damaged(WRONG_TYPE(part="dimensions", found=kind))
-        letter = "i" if kind == MI_INT32 else "I"
-        return struct.unpack(f"{self.order}{len(data) // 4}{letter}", data[: len(data) // 4 * 4])
 
 
 class Mat5Reader:
@@ -424,40 +318,6 @@ class Mat5Reader:
         return bytes(data).decode(f"utf-{8 * size}{suffix}", "replace")
 
 
-MAT4_NUMBERS = {0: ("f8", 8), 1: ("f4", 4), 2: ("i4", 4), 3: ("i2", 2), 4: ("u2", 2), 5: ("u1", 1)}
-
-
-def mat4_order(data: memoryview | bytes) -> str | None:
-    """Return '<' or '>' where `data` begins like a v4 workspace, else None."""
-    if len(data) < 20:
-        return None
-    for order, machine in (("<", 0), (">", 1)):
-        kind, rows, columns, imaginary, length = struct.unpack_from(order + "5i", data)
-        digits = kind // 1000, kind // 100 % 10, kind // 10 % 10, kind % 10
-        name = bytes(data[20 : 20 + max(length, 0)])
-        if (
-            0 <= kind < 5000
-            and digits[0] == machine
-            and digits[1] == 0
-            and digits[2] in MAT4_NUMBERS
-            and digits[3] <= 2
-            and min(rows, columns) >= 0
-            and imaginary in (0, 1)
-            and 1 <= length <= 1024
-            and (name[:1].isalpha())
-            and name.rstrip(b"\0").replace(b"_", b"a").isalnum()
-        ):
-            return order
-    return None
-
-
-def characters(codes: memoryview, order: str, number: str) -> str:
-    """Return the text that a v4 file keeps as numbers of the numpy type `number`."""
-    letter = {"f8": "d", "f4": "f", "i4": "i", "i2": "h", "u2": "H", "u1": "B"}[number]
-    values = struct.unpack(f"{order}{len(codes) // int(number[1])}{letter}", codes)
-    return "".join(chr(int(v)) if 0 <= v < 0x110000 else "\ufffd" for v in values)
-
-
 def read_mat4(data: memoryview, sink: Sink) -> None:
     """Hand every variable of a v4 workspace to the sink; raise Damaged."""
     at = 0
@@ -492,83 +352,3 @@ def read_mat4(data: memoryview, sink: Sink) -> None:
             sink.add(
                 Found(name, "double", (rows, columns), data[begin : begin + one], order + number)
             )
-
-
-ARCHIVE = b"PK\x03\x04"
-SIGNATURES: tuple[tuple[bytes, str], ...] = (
-    (ARCHIVE, "zip"),
-    (b"\x93NUMPY", "numpy"),
-    (b"\x89PNG", "png"),
-    (b"\xff\xd8\xff", "jpeg"),
-    (b"GIF8", "gif"),
-    (b"%PDF", "pdf"),
-    (b"version https://git-lfs", "lfs"),
-    (b"Octave-1-", "octave"),
-    (b"7z\xbc\xaf", "seven_zip"),
-    (b"Rar!", "rar"),
-    (b"\x7fELF", "elf"),
-    (b"MZ", "exe"),
-    (b"SQLite format 3", "sqlite3"),
-    (b"BZh", "bzip"),
-    (b"\xfd7zXZ", "xz"),
-    (b"\x89MCAP", "mcap"),
-    (b"\x28\xb5\x2f\xfd", "zstd"),
-)
-SPREADSHEET = "spreadsheet"
-# A workbook's archive has one of these at its beginning or in the directory at its end.
-SPREADSHEET_ENTRIES = (b"xl/workbook.", b"application/vnd.oasis.opendocument.spreadsheet")
-ARCHIVE_END = 1 << 16
-HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
-
-
-def recognise(data: memoryview) -> str:
-    """Return mat4, mat5, hdf5, gzip, zstd, mcap, sqlite3, or what else the bytes are,
-    a form of diagnostics.UNSUPPORTED_FORMAT."""
-    head = bytes(data[:4096])
-    if not head:
-        return "empty"
-    if head[:2] == b"\x1f\x8b":
-        return "gzip"
-    for offset in (0, 512, 1024, 2048):
-        if head[offset : offset + 8] == HDF5_SIGNATURE:
-            return "hdf5"
-    if head[:6] == b"MATLAB" and len(head) >= 128:
-        version = head[124:126] if head[126:128] == b"IM" else head[125:123:-1]
-        if head[126:128] in (b"IM", b"MI"):
-            return "mat5" if version == b"\x00\x01" else "version"
-        return "header"
-    readable = b"\0" not in head[:4]  # else v4, by the format's definition
-    if (
-        readable
-        and head[126:128] in (b"IM", b"MI")
-        and head[124:126] in (b"\x00\x01", b"\x01\x00")
-    ):
-        return "mat5"
-    if mat4_order(head):
-        return "mat4"
-    if head.startswith(ARCHIVE) and _is_spreadsheet(data):
-        return SPREADSHEET
-    for signature, form in SIGNATURES:
-        if head.startswith(signature):
-            return form
-    return _text(head)
-
-
-def _is_spreadsheet(archive: memoryview) -> bool:
-    """Return whether an archive is a workbook of Excel or LibreOffice."""
-    ends = bytes(archive[:4096]), bytes(archive[-ARCHIVE_END:])
-    return any(entry in end for entry in SPREADSHEET_ENTRIES for end in ends)
-
-
-def _text(head: bytes) -> str:
-    try:
-        text = head.decode("utf-8", "strict" if len(head) < 4096 else "ignore").lstrip()
-    except UnicodeDecodeError:
-        return "unknown"
-    if any(ord(c) < 32 and c not in "\t\r\n\f" for c in text):
-        return "unknown"
-    if "Created by Octave" in text[:200]:
-        return "octave"
-    if text[:200].lower().startswith(("<!doctype html", "<html")):
-        return "html"
-    return "text"

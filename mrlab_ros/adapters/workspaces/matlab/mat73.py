@@ -23,16 +23,14 @@ from mrlab_ros.adapters.workspaces.diagnostics import (
     POINTS_NOWHERE,
     VALUES_ELSEWHERE,
 )
-from mrlab_ros.adapters.workspaces.matlab.mat5 import (
-    DEEPEST,
-    INTEGERS,
-    LONGEST_TEXT,
+from mrlab_ros.adapters.workspaces.matlab.elements import (
     Damaged,
     NotAWorkspace,
     TooLarge,
     index,
     is_vector,
 )
+from mrlab_ros.adapters.workspaces.matlab.mat5 import DEEPEST, INTEGERS, LONGEST_TEXT
 from mrlab_ros.adapters.workspaces.sinks import Found, Sink
 
 MOST_ATTRIBUTE = 4096  # bytes of an attribute that is read: MATLAB writes names and flags there

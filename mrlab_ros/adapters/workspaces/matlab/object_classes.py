@@ -18,7 +18,8 @@ from mrlab_ros.adapters.workspaces.diagnostics import (
     NUMBERS_DIFFER,
     TOO_MANY_PARTS,
 )
-from mrlab_ros.adapters.workspaces.matlab.mat5 import DEEPEST, LONGEST_TEXT, index
+from mrlab_ros.adapters.workspaces.matlab.elements import index
+from mrlab_ros.adapters.workspaces.matlab.mat5 import DEEPEST, LONGEST_TEXT
 from mrlab_ros.adapters.workspaces.matlab.object_values import (
     as_rows,
     cells,

@@ -17,9 +17,11 @@ from collections.abc import Callable
 from typing import Any
 
 from mrlab_ros.adapters.workspaces.diagnostics import OBJECT_UNREADABLE
-from mrlab_ros.adapters.workspaces.matlab.mat5 import Damaged, Mat5Reader, recognise
+from mrlab_ros.adapters.workspaces.matlab.elements import Damaged
+from mrlab_ros.adapters.workspaces.matlab.mat5 import Mat5Reader
 from mrlab_ros.adapters.workspaces.matlab.mat73 import read_contents_of_objects
 from mrlab_ros.adapters.workspaces.matlab.object_classes import Opener
+from mrlab_ros.adapters.workspaces.matlab.recognition import recognise
 from mrlab_ros.adapters.workspaces.sinks import Digests, Found, ObjectSink, View
 from mrlab_ros.core.base.diagnostic import Diagnostic
 

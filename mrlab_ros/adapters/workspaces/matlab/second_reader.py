@@ -23,8 +23,8 @@ from mrlab_ros.adapters.workspaces.diagnostics import (
     SECOND_FINDS_SIZE,
     SECOND_FINDS_TYPE,
 )
-from mrlab_ros.adapters.workspaces.matlab.mat5 import recognise
 from mrlab_ros.adapters.workspaces.matlab.mat73 import values_of
+from mrlab_ros.adapters.workspaces.matlab.recognition import recognise
 from mrlab_ros.adapters.workspaces.sinks import View
 from mrlab_ros.core.base.diagnostic import Diagnostic
 

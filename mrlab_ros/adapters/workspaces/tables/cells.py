@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from datetime import datetime
 
 from mrlab_ros.adapters.workspaces.diagnostics import CELLS_UNREADABLE, NO_TEXT
-from mrlab_ros.adapters.workspaces.matlab.mat5 import NotATable
+from mrlab_ros.adapters.workspaces.matlab.elements import NotATable
 
 CLOCK = r"(?P<hour>\d{1,2}):(?P<minute>\d\d):(?P<second>\d\d)(?:[.,](?P<fraction>\d{1,9}))?"
 ZONE = r"(?:\s*(?:Z|UTC|[+-]\d\d:?\d\d))?"

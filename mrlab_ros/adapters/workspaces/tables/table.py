@@ -10,7 +10,8 @@ import numpy as np
 import orjson
 
 from mrlab_ros.adapters.workspaces.diagnostics import LIBRARY_FAILED, NO_JSON_OBJECT, NO_MATRIX_Q
-from mrlab_ros.adapters.workspaces.matlab.mat5 import INTEGERS, Damaged, TooLarge, is_vector
+from mrlab_ros.adapters.workspaces.matlab.elements import Damaged, TooLarge, is_vector
+from mrlab_ros.adapters.workspaces.matlab.mat5 import INTEGERS
 from mrlab_ros.adapters.workspaces.sinks import Found, Sink, View
 from mrlab_ros.adapters.workspaces.tables import text
 from mrlab_ros.core.conversion.named_columns import GRIPPER

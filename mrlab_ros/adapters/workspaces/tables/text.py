@@ -25,7 +25,7 @@ from mrlab_ros.adapters.workspaces.diagnostics import (
     UNITS_UNKNOWN,
     WRONG_CELL,
 )
-from mrlab_ros.adapters.workspaces.matlab.mat5 import NotATable
+from mrlab_ros.adapters.workspaces.matlab.elements import NotATable
 from mrlab_ros.adapters.workspaces.tables.cells import (
     SEPARATORS,
     cells_of,

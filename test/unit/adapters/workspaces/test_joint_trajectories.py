@@ -16,7 +16,7 @@ from mrlab_ros.adapters.trajectories import formats
 from mrlab_ros.adapters.trajectories.files import load_coefficients
 from mrlab_ros.adapters.workspaces import worker
 from mrlab_ros.adapters.workspaces.joint_trajectories import serialized
-from mrlab_ros.adapters.workspaces.matlab.mat5 import Damaged, NotAWorkspace, TooLarge
+from mrlab_ros.adapters.workspaces.matlab.elements import Damaged, NotAWorkspace, TooLarge
 from mrlab_ros.core.conversion.convert import MOST_FRAMES, Outcome, convert
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.conversion.workspace import JOINT_TRAJECTORY, Variable, Workspace

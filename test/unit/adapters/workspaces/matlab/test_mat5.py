@@ -32,7 +32,8 @@ from mrlab_ros.adapters.workspaces.diagnostics import (
     WRONG_INFLATED_SIZE,
     WRONG_TYPE,
 )
-from mrlab_ros.adapters.workspaces.matlab.mat5 import Damaged, Mat5Reader, NotAWorkspace, TooLarge
+from mrlab_ros.adapters.workspaces.matlab.elements import Damaged, NotAWorkspace, TooLarge
+from mrlab_ros.adapters.workspaces.matlab.mat5 import Mat5Reader
 
 LIMIT = 1 << 26
 EXAMPLES = [

@@ -11,7 +11,7 @@ import pytest
 from mrlab_ros.adapters import wall
 from mrlab_ros.adapters.workspaces import worker
 from mrlab_ros.adapters.workspaces.matlab import mat73
-from mrlab_ros.adapters.workspaces.matlab.mat5 import Damaged, TooLarge
+from mrlab_ros.adapters.workspaces.matlab.elements import Damaged, TooLarge
 from mrlab_ros.adapters.workspaces.reader import WorkspaceReader
 from mrlab_ros.core.base.errors import BadInput
 

@@ -11,7 +11,7 @@ from mrlab_ros.adapters.trajectories.files import load_coefficients
 from mrlab_ros.adapters.workspaces import worker
 from mrlab_ros.adapters.workspaces.diagnostics import CATEGORIES, NUMBERS_DIFFER, TOO_MANY_PARTS
 from mrlab_ros.adapters.workspaces.matlab import object_classes, objects
-from mrlab_ros.adapters.workspaces.matlab.mat5 import Damaged, TooLarge
+from mrlab_ros.adapters.workspaces.matlab.elements import Damaged, TooLarge
 from mrlab_ros.adapters.workspaces.matlab.object_values import decoded_strings
 from mrlab_ros.adapters.workspaces.reader import WorkspaceReader
 from mrlab_ros.adapters.workspaces.sinks import Digests, ObjectSink

@@ -15,7 +15,7 @@ from mrlab_ros.adapters.workspaces.diagnostics import (
     UNITS_UNKNOWN,
     WRONG_CELL,
 )
-from mrlab_ros.adapters.workspaces.matlab.mat5 import NotATable
+from mrlab_ros.adapters.workspaces.matlab.elements import NotATable
 from mrlab_ros.adapters.workspaces.tables.cells import is_instant, seconds
 from mrlab_ros.adapters.workspaces.tables.text import parsed
 
