@@ -56,7 +56,7 @@ is yours, 3 an error of MR-Lab itself, or a missing package, 130 interrupted
 # A negative number is no option of these.
 TAKE_NEGATIVE = ("rate", "seek")
 NEGATIVE = {"ignore_unknown_options": True}
-PANELS = {"robot": "One robot of the running lab"}
+PANELS = {"lab.robot": "One robot of the running lab"}
 # Modules of the commands, and of a group its Typer, in the order of the help.
 COMMANDS = {
     "up": "up.command:up",
@@ -66,29 +66,29 @@ COMMANDS = {
     "check": "check.command:check",
     "class": "classroom.command:grade",
     "rubric": "rubric.command:app",
-    "play": "play:play",
-    "spawn": "robot:spawn",
-    "remove": "robot:remove",
-    "place": "robot:place",
-    "tool": "robot:tool",
-    "load": "robot:load",
-    "pause": "robot:pause",
-    "resume": "robot:resume",
-    "stop": "robot:stop",
-    "seek": "robot:seek",
-    "rate": "robot:rate",
-    "loop": "robot:loop",
-    "record": "record:record",
-    "replay": "replay:replay",
+    "play": "lab.play:play",
+    "spawn": "lab.robot:spawn",
+    "remove": "lab.robot:remove",
+    "place": "lab.robot:place",
+    "tool": "lab.robot:tool",
+    "load": "lab.robot:load",
+    "pause": "lab.robot:pause",
+    "resume": "lab.robot:resume",
+    "stop": "lab.robot:stop",
+    "seek": "lab.robot:seek",
+    "rate": "lab.robot:rate",
+    "loop": "lab.robot:loop",
+    "record": "lab.record:record",
+    "replay": "lab.replay:replay",
     "status": "status.command:status",
     "doctor": "doctor:doctor",
     "open": "open:open_pages",
     "bag": "bag:app",
     "keys": "keys:app",
     "robots": "robots:app",
-    "system": "system:app",
-    "scene": "scene:scene",
-    "objects": "scene:objects",
+    "system": "lab.system:app",
+    "scene": "lab.scene:scene",
+    "objects": "lab.scene:objects",
     "users": "users:app",
 }
 

@@ -193,7 +193,7 @@ def report(
     path = path_of(bag)
     compared = None
     if reference is not None:
-        from mrlab_ros.commands.reference import reference_of
+        from mrlab_ros.commands.lab.reference import reference_of
 
         known = reference_of(reference, _walled(model_of, path))
         course = known.course

@@ -34,7 +34,7 @@ from mrlab_ros.adapters.diagnostics import COMPRESSED_CUT_SHORT
 from mrlab_ros.cli import make_app
 from mrlab_ros.commands.diagnostics import REFERENCE_REFUSED
 from mrlab_ros.commands.foreign import import_of
-from mrlab_ros.commands.replay import Keyboard, next_rate
+from mrlab_ros.commands.lab.replay import Keyboard, next_rate
 from mrlab_ros.commands.status.table import recorder_line
 from mrlab_ros.commands.status.view import recorder_facts
 from mrlab_ros.core.base.errors import BadInput

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import pytest
 from refusals import refused
 
-from mrlab_ros.commands import system
+from mrlab_ros.commands.lab import system
 from mrlab_ros.core.base.diagnostics import NAME_TAKEN, NO_ROBOT_IN_SCENE
 from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.playback.diagnostics import MEMBER_OF_SYSTEM

@@ -228,7 +228,7 @@ def test_only_ros_touches_the_insides_of_rclpy() -> None:
 
 def test_only_messages_builds_messages() -> None:
     """ros/parameters.py fills in rclpy's own descriptors of parameters."""
-    others = ("mrlab_ros.ros.parameters", "mrlab_ros.commands.system", "mrlab_ros.nodes.lab")
+    others = ("mrlab_ros.ros.parameters", "mrlab_ros.commands.lab.system", "mrlab_ros.nodes.lab")
     builders = ("mrlab_ros.messages", *others)
     rest = [
         path for module, path in MODULES.items() if not any(within(module, b) for b in builders)

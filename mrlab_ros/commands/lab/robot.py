@@ -107,7 +107,7 @@ def load(
 
     def load_it(lab: Lab, found: LabRobot) -> str:
 
-        from mrlab_ros.commands.play import in_catalogue
+        from mrlab_ros.commands.lab.play import in_catalogue
 
         given = ["mrlab", "load", robot, trajectory]
         console = output.console(stderr=as_json)

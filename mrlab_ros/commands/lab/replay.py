@@ -19,8 +19,8 @@ import typer
 
 from mrlab_ros.commands import output
 from mrlab_ros.commands.diagnostics import RECORDER_SILENT, ROBOT_WITHOUT_PATH
+from mrlab_ros.commands.lab.record import SILENCE
 from mrlab_ros.commands.output import say
-from mrlab_ros.commands.record import SILENCE
 from mrlab_ros.core.base.diagnostic import Fix, heard
 from mrlab_ros.core.base.errors import LabError, Misuse
 from mrlab_ros.core.recording.diagnostics import REPLAY_OVER

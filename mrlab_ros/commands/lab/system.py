@@ -134,7 +134,7 @@ def _trajectory(graph: GraphClient, cell: Path, member: MemberEntry) -> str:
     """Return the id of the member's trajectory; convert it where `cell` names a workspace."""
 
     from mrlab_ros.client.lab import Lab
-    from mrlab_ros.commands.play import in_catalogue, is_file
+    from mrlab_ros.commands.lab.play import in_catalogue, is_file
     from mrlab_ros.core.conversion.options import Options
 
     name = member.trajectory

@@ -11,7 +11,6 @@ import pytest
 import typer
 from refusals import refused
 
-from mrlab_ros.commands import record as command
 from mrlab_ros.commands.diagnostics import (
     BAG_CLOSED,
     ENDED_BY_ANOTHER,
@@ -24,7 +23,8 @@ from mrlab_ros.commands.diagnostics import (
     RECORDING_CONTINUES,
     RECORDING_GONE,
 )
-from mrlab_ros.commands.record import record
+from mrlab_ros.commands.lab import record as command
+from mrlab_ros.commands.lab.record import record
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.errors import LabError, Misuse
 from mrlab_ros.core.recording.diagnostics import RECORDING_GAP

@@ -1,0 +1,1 @@
+"""Commands that act on a running lab: play, robots, systems, scenes, recording, replay."""
