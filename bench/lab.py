@@ -17,6 +17,7 @@ from partner import Failed, free_endpoint
 from rclpy.client import Client
 from rclpy.node import Node
 
+from mrlab_ros.adapters import share
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.store.objects import open_store
 from mrlab_ros.adapters.trajectories.catalogue_writer import CatalogueWriter
@@ -25,7 +26,6 @@ from mrlab_ros.messages import qos
 from mrlab_ros.processes.lab import PROCESSES, LabProcess, parameter_file
 from mrlab_ros.processes.options import LabOptions, new_lab_id
 from mrlab_ros.processes.supervisor import Supervisor
-from mrlab_ros.ros import share
 from mrlab_ros.ros.calls import call
 from mrlab_ros.ros.spinning import SpunNode
 

@@ -24,7 +24,7 @@ from launch.events.process import ShutdownProcess
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 
-from mrlab_ros.adapters import python_process
+from mrlab_ros.adapters import python_process, share
 from mrlab_ros.adapters.bullet.support import missing
 from mrlab_ros.adapters.launcher import LAUNCHER
 from mrlab_ros.commands.up.keys import free_endpoint
@@ -43,7 +43,6 @@ from mrlab_ros.processes.lab import (
     robot_models,
 )
 from mrlab_ros.processes.options import LabOptions, new_lab_id
-from mrlab_ros.ros import share
 
 # A process that ends is started again after this time, s, and at most so many times; one that
 # refuses its configuration is not, see refused().

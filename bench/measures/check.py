@@ -15,6 +15,7 @@ import numpy as np
 from lab import ROOT
 from size import Size
 
+from mrlab_ros.adapters import share
 from mrlab_ros.adapters.checking.stage import Stage, first_link
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.commands.convert import batch
@@ -23,7 +24,6 @@ from mrlab_ros.core.checking import motion
 from mrlab_ros.core.checking.rehearsal import Actor
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.scene.document import ObjectEntry, SceneDocument
-from mrlab_ros.ros import share
 
 NEEDS = ()
 Value = TypeVar("Value")

@@ -34,6 +34,7 @@ from partner import Failed
 from sensor_msgs.msg import JointState
 from size import Size
 
+from mrlab_ros.adapters import share
 from mrlab_ros.adapters.trajectories import formats
 from mrlab_ros.adapters.trajectories.catalogue_writer import CatalogueWriter
 from mrlab_ros.adapters.trajectories.files import TrajectoryFiles, load_coefficients
@@ -52,7 +53,6 @@ from mrlab_ros.core.trajectory.catalogue import TrajectoryName
 from mrlab_ros.core.trajectory.document import document
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.messages import qos
-from mrlab_ros.ros import share
 
 NEEDS = ()
 CLASS = 150

@@ -27,6 +27,7 @@ from partner import cpu_s, in_process, until
 from sensor_msgs.msg import JointState
 from size import Size
 
+from mrlab_ros.adapters import share
 from mrlab_ros.adapters.bullet.engine import BulletEngine
 from mrlab_ros.adapters.yaml_files import read_yaml
 from mrlab_ros.core.base.clock import SECOND, PlaybackClock
@@ -41,7 +42,6 @@ from mrlab_ros.core.playback.states import State
 from mrlab_ros.core.scene.surfaces import Surface
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.time import time_from_message
-from mrlab_ros.ros import share
 
 NEEDS = ()
 KINDS = ("cube", "block", "cylinder", "sphere", "cup", "can", "bottle", "carton")

@@ -243,8 +243,8 @@ def reported(
     print(facts if as_json else text, end="")
     out = Path(folder)
     if form:
+        from mrlab_ros.adapters import share
         from mrlab_ros.adapters.pages.session import session_page
-        from mrlab_ros.ros import share
 
         page = session_page(found, share.directory(), session)
         (out / "report.html").write_text(page, encoding="utf-8")

@@ -16,9 +16,8 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from mrlab_ros.adapters import installed, walled
-from mrlab_ros.adapters.robots.places import imported_folder
-from mrlab_ros.ros import share
+from mrlab_ros.adapters import installed, share, walled
+from mrlab_ros.adapters.share import imported_folder
 
 # Of a bag: a session of hours is decoded whole, and inflated on the way.
 MOST_MEMORY, MOST_TIME, MOST_FILE = 8 << 30, 3600.0, 1 << 40  # bytes, s, bytes

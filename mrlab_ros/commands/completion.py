@@ -54,8 +54,8 @@ def _beginning(incomplete: str, names: Any) -> list[str]:
 
 
 def _library(pattern: str) -> list[Path]:
-    from mrlab_ros.adapters.robots.places import imported_folder
-    from mrlab_ros.ros import share
+    from mrlab_ros.adapters import share
+    from mrlab_ros.adapters.share import imported_folder
 
     folders = (share.directory() / "robots", imported_folder())
     return [path for folder in folders for path in folder.glob(pattern)]

@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from mrlab_ros.adapters import share
 from mrlab_ros.adapters.bags.diagnostics import BAG_EXISTS, NO_BAG
 from mrlab_ros.adapters.bags.foreign import Imported, import_bag
 from mrlab_ros.adapters.bags.other import OtherBag, open_bag
@@ -17,7 +18,6 @@ from mrlab_ros.commands import behind_wall
 from mrlab_ros.core.base.diagnostic import from_plain, plain
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.messages.definitions import definition
-from mrlab_ros.ros import share
 
 
 def imported(source: Path, folder: Path, models: Sequence[str]) -> Imported:

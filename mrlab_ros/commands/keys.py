@@ -250,10 +250,10 @@ def router(
     The names under which people reach that machine must be the lab's: mrlab keys init --host, or
     renew --host.
     """
+    from mrlab_ros.adapters import share
     from mrlab_ros.adapters.keys.folder import Keys, now
     from mrlab_ros.adapters.zenoh.configuration import limits
     from mrlab_ros.core.bridge.rules import checked_prefix
-    from mrlab_ros.ros import share
 
     keys = Keys(folder)
     shipped = limits(share.directory() / "config" / "zenoh" / "lab.json5")
@@ -281,9 +281,9 @@ def rules_of(allow_list: Path | None) -> Rules:
     """Read an allow-list, the shipped one if none is named; raise BadInput where it is none."""
     import yaml
 
+    from mrlab_ros.adapters import share
     from mrlab_ros.adapters.yaml_files import Loader
     from mrlab_ros.core.bridge.rules import parse
-    from mrlab_ros.ros import share
 
     path = allow_list or share.directory() / "config" / "bridge.yaml"
     try:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from mrlab_ros.adapters import share
 from mrlab_ros.commands import output
 from mrlab_ros.commands.diagnostics import (
     BAD_ANGLES,
@@ -28,7 +29,6 @@ from mrlab_ros.commands.output import AsJson, say
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, Severity, plain
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.foreign_text import for_shell
-from mrlab_ros.ros import share
 
 if TYPE_CHECKING:
     from mrlab_ros.adapters.robots.library import RobotLibrary

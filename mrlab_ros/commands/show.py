@@ -85,10 +85,10 @@ def _page(
     file: Path, robot: str, end_effector: str, options: Options
 ) -> tuple[str, ConversionResult | None]:
     """Return the page, and what became of the file; None for a recorded session."""
+    from mrlab_ros.adapters import share
     from mrlab_ros.adapters.pages.motion import motion_page
     from mrlab_ros.adapters.robots.library import RobotLibrary
     from mrlab_ros.commands.convert.one_file import converted
-    from mrlab_ros.ros import share
 
     folder = share.directory()
     recorded = _recorded(file)
@@ -120,9 +120,9 @@ def _recorded(file: Path) -> str | None:
 
 def session_of(bag: str, page: str) -> bool:
     """Write the page of a session; return whether the bag holds one, not a mere trajectory."""
+    from mrlab_ros.adapters import share
     from mrlab_ros.adapters.pages.session import session_page
     from mrlab_ros.commands.bag import opened
-    from mrlab_ros.ros import share
 
     found = opened(bag)
     lab = any(topic.type == "mrlab_msgs/msg/Robots" for topic in found.topics.values())

@@ -11,6 +11,7 @@ from fastapi import APIRouter, Depends, FastAPI
 
 import mrlab_ros
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.share import directory
 from mrlab_ros.adapters.store.objects import open_store
 from mrlab_ros.gateway import authority, errors, pages
 from mrlab_ros.gateway.assets import routes as asset_routes
@@ -31,7 +32,6 @@ from mrlab_ros.gateway.people.people import People
 from mrlab_ros.gateway.policy import authorise, read_policy
 from mrlab_ros.gateway.ports import Ports
 from mrlab_ros.gateway.settings import Settings
-from mrlab_ros.gateway.share import directory
 from mrlab_ros.gateway.store import routes as trajectory_routes
 from mrlab_ros.gateway.store.shelf import Shelf
 from mrlab_ros.gateway.uploads import routes as upload_routes

@@ -12,12 +12,12 @@ from anyio import to_thread
 from fastapi import APIRouter, Request, Response
 from fastapi.responses import RedirectResponse
 
+from mrlab_ros.adapters.share import directory
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.gateway.diagnostics import NOTHING_AT
 from mrlab_ros.gateway.errors import NotFound
 from mrlab_ros.gateway.people.people import People, ThePeople, address_of
 from mrlab_ros.gateway.people.person import LOCAL
-from mrlab_ros.gateway.share import directory
 
 # Set here: what the machine's own table says differs between machines.
 MIME_TYPES = {

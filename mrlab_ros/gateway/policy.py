@@ -15,6 +15,7 @@ import yaml
 from fastapi import Depends
 from fastapi.requests import HTTPConnection
 
+from mrlab_ros.adapters.share import directory
 from mrlab_ros.adapters.yaml_files import Loader
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.access import Policy, Verb
@@ -28,7 +29,6 @@ from mrlab_ros.gateway.diagnostics import (
 )
 from mrlab_ros.gateway.errors import NotAllowed, NotSignedIn
 from mrlab_ros.gateway.people.person import KnownPerson, Person
-from mrlab_ros.gateway.share import directory
 
 
 class Everybody(Enum):

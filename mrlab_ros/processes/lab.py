@@ -164,7 +164,7 @@ def parameter_file(chosen: Path | None) -> Path:
     Raises BadInput where there is none, or names all its mistakes.
     """
     if chosen is None:
-        from mrlab_ros.ros import share
+        from mrlab_ros.adapters import share
 
         chosen = share.directory() / "config" / "lab.yaml"
     if not chosen.is_file():
@@ -179,8 +179,8 @@ def robot_models(text: str) -> tuple[str, ...]:
     """Return the models in a list such as 'ur5e,kuka_kr3_r540'; raise BadInput for an unknown."""
     models = tuple(model for model in (part.strip() for part in text.split(",")) if model)
     if models:
+        from mrlab_ros.adapters import share
         from mrlab_ros.adapters.robots.library import RobotLibrary
-        from mrlab_ros.ros import share
 
         library = RobotLibrary(share.directory() / "robots")
         for model in models:

@@ -27,8 +27,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+from mrlab_ros.adapters import share
 from mrlab_ros.core.base.errors import Misuse
-from mrlab_ros.ros import share
 from mrlab_ros.ros.diagnostics import BAD_DOMAIN
 
 FOLDER = Path("/dev/shm")

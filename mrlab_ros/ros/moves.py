@@ -7,8 +7,8 @@ from typing import Any
 
 import yaml
 
+from mrlab_ros.adapters import share
 from mrlab_ros.core.bridge.rules import Rules, parse
-from mrlab_ros.ros import share
 
 
 @cache

@@ -21,6 +21,7 @@ import pytest
 import scipy.io
 from typer.testing import CliRunner
 
+from mrlab_ros.adapters import share
 from mrlab_ros.adapters.pages.motion import motion_page
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.trajectories import formats
@@ -30,7 +31,6 @@ from mrlab_ros.commands.convert import report
 from mrlab_ros.commands.convert.batch import Wanted, convert_files
 from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.conversion.options import Options
-from mrlab_ros.ros import share
 
 FILES = 240
 FOLDER = share.directory()

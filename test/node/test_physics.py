@@ -13,6 +13,7 @@ from mrlab_msgs.srv import Trigger
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
 
+from mrlab_ros.adapters import share
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.scenes.diagnostics import BAD_SCENE_NAME, NO_SCENE
 from mrlab_ros.adapters.scenes.files import read
@@ -25,7 +26,6 @@ from mrlab_ros.nodes.coordinator.node import CoordinatorNode
 from mrlab_ros.nodes.lab.node import LabNode
 from mrlab_ros.nodes.physics.node import PhysicsNode
 from mrlab_ros.nodes.playback.host import PlaybackHostNode
-from mrlab_ros.ros import share
 
 LIBRARY = RobotLibrary(share.directory() / "robots")
 MODEL = LIBRARY.model("ur5e")

@@ -11,6 +11,7 @@ from graph import Graph, wait_for
 from mrlab_msgs import msg, srv
 from mrlab_msgs.srv import Trigger
 
+from mrlab_ros.adapters import share
 from mrlab_ros.adapters.robots import diagnostics as robots
 from mrlab_ros.core.base import diagnostics as base
 from mrlab_ros.core.physics import diagnostics as physics
@@ -22,7 +23,6 @@ from mrlab_ros.nodes.lab.node import LabNode
 from mrlab_ros.nodes.physics.diagnostics import CANNOT_HOLD_FIXED, TOO_MANY_OBJECTS
 from mrlab_ros.nodes.physics.node import PhysicsNode
 from mrlab_ros.nodes.playback.host import PlaybackHostNode
-from mrlab_ros.ros import share
 
 EXAMPLES = share.directory() / "examples"
 GIVER, TAKER = "ur5e_1", "kuka_kr6_r900_sixx_1"

@@ -42,6 +42,7 @@ from mrlab_ros.adapters.bags.reader import Bag
 from mrlab_ros.adapters.bags.repair import repair
 from mrlab_ros.adapters.bags.writer import BagWriter
 from mrlab_ros.adapters.journal import Journal
+from mrlab_ros.adapters.share import directory
 from mrlab_ros.adapters.trajectories.formats import chunks, parse
 from mrlab_ros.core.base.diagnostics import BAD_POSITION
 from mrlab_ros.core.recording import recorder as entries
@@ -72,7 +73,6 @@ from mrlab_ros.nodes.recorder.diagnostics import (
 )
 from mrlab_ros.nodes.recorder.node import RecorderNode
 from mrlab_ros.ros.raw_streams import Received
-from mrlab_ros.ros.share import directory
 
 State = msg.RecorderState
 START_NS = 1_700_000_000_000_000_000

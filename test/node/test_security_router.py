@@ -17,6 +17,7 @@ from sensor_msgs.msg import JointState
 from zenoh import ext
 from zenoh_side import JOINTS, tokens
 
+from mrlab_ros.adapters import share
 from mrlab_ros.adapters.keys.folder import Keys, now
 from mrlab_ros.adapters.zenoh.configuration import limits
 from mrlab_ros.core.base.errors import BadInput, Misuse
@@ -24,7 +25,6 @@ from mrlab_ros.core.bridge.access import Login
 from mrlab_ros.core.bridge.rules import Role, parse
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes.bridge.node import BridgeNode
-from mrlab_ros.ros import share
 
 CONFIG = share.directory() / "config"
 PREFIX = "campus/lab_1/"

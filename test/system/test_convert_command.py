@@ -12,9 +12,9 @@ from builtin_interfaces.msg import Duration
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.share import directory
 from mrlab_ros.adapters.trajectories.formats import parse
 from mrlab_ros.messages import qos
-from mrlab_ros.ros.share import directory
 
 
 def motion(rows=200):

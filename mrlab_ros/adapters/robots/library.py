@@ -35,7 +35,7 @@ from mrlab_ros.adapters.robots.diagnostics import (
     ROOT_LINKS,
     SAME_NAMES,
 )
-from mrlab_ros.adapters.robots.places import imported_folder
+from mrlab_ros.adapters.share import imported_folder
 from mrlab_ros.adapters.yaml_files import read_yaml
 from mrlab_ros.core.base.checks import bad_value
 from mrlab_ros.core.base.diagnostics import FIELD, ONE_OF

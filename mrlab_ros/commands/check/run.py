@@ -16,6 +16,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from mrlab_ros.adapters import share
 from mrlab_ros.adapters.checking.stage import Stage
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.commands import output
@@ -43,7 +44,6 @@ from mrlab_ros.core.conversion.convert import ConversionResult
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.rubrics.marking import Marks
 from mrlab_ros.core.runtime.colours import OUTCOME_STYLES, SEVERITY_STYLES
-from mrlab_ros.ros import share
 
 READY, REFUSED, COULD_NOT = 0, 1, 2
 

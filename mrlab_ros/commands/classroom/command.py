@@ -59,11 +59,11 @@ def grade(
     Names stay on this machine. What is checked is kept: after an interruption the same command
     goes on where it was. Ends with 0: all are checked, 1: a check failed, 2: nothing was done.
     """
+    from mrlab_ros.adapters import share
     from mrlab_ros.adapters.rubrics import files
     from mrlab_ros.commands.check.one import scene_of
     from mrlab_ros.commands.classroom import run
     from mrlab_ros.commands.classroom.setup import Bounds, MiB
-    from mrlab_ros.ros import share
 
     try:
         for option, value, least, most in (

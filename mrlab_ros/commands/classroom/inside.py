@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 from pathlib import Path
 
+from mrlab_ros.adapters import share
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.trajectories.files import load_coefficients
 from mrlab_ros.adapters.workspaces import content, worker
@@ -16,7 +17,6 @@ from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.conversion.convert import ConversionResult, id_from
 from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE, Options
 from mrlab_ros.core.conversion.workspace import Workspace
-from mrlab_ros.ros import share
 
 
 class Inside:

@@ -16,6 +16,7 @@ from typing import Any
 import orjson
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
+from mrlab_ros.adapters import share
 from mrlab_ros.adapters.classroom import parallel
 from mrlab_ros.adapters.classroom.export_files import Export
 from mrlab_ros.adapters.classroom.results_folder import (
@@ -55,7 +56,6 @@ from mrlab_ros.core.classroom.result import FAILED, NO_FILE, Result, without_mar
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.rubrics.rubric import Rubric
 from mrlab_ros.core.scene.document import SceneDocument
-from mrlab_ros.ros import share
 
 MOST_CANDIDATES = 8  # files of one student that are tried
 ATTEMPTS = 3  # where processes that check were killed

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import mrlab_ros
+from mrlab_ros.adapters import share
 from mrlab_ros.adapters.checking.stage import Stage
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.commands.check.one import Setting, entry_of
@@ -18,7 +19,6 @@ from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.rubrics.rubric import Rubric
 from mrlab_ros.core.scene import document as scene_document
 from mrlab_ros.core.scene.document import SceneDocument
-from mrlab_ros.ros import share
 
 MiB = 1 << 20
 

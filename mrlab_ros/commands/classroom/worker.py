@@ -26,7 +26,7 @@ from typing import Any
 import numpy as np
 import orjson
 
-from mrlab_ros.adapters import installed, wall
+from mrlab_ros.adapters import installed, share, wall
 from mrlab_ros.adapters.guarded_streams import guard
 from mrlab_ros.adapters.trajectories import formats
 from mrlab_ros.adapters.workspaces.reader import Limits
@@ -51,7 +51,6 @@ from mrlab_ros.core.classroom.similarity import signature
 from mrlab_ros.core.rubrics.checked import Checked
 from mrlab_ros.core.rubrics.marking import Marks, mark
 from mrlab_ros.core.show.page import packed
-from mrlab_ros.ros import share
 
 MiB = 1 << 20
 MOST_WRITTEN = 512 * MiB  # bytes of one file that a check may write

@@ -22,6 +22,7 @@ from pathlib import Path
 import orjson
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 
+from mrlab_ros.adapters import share
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.trajectories import formats, npz_file
 from mrlab_ros.adapters.trajectories.files import load_coefficients
@@ -60,7 +61,6 @@ from mrlab_ros.core.conversion.convert import (
 )
 from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE, Options
 from mrlab_ros.core.robots.model import RobotModel
-from mrlab_ros.ros import share
 
 PICTURES = (".png", ".svg", ".html")
 

@@ -42,6 +42,7 @@ def demo(
     Ends with 0 when every frame arrived, 1 when anything failed, 130 when interrupted before.
     """
 
+    from mrlab_ros.adapters import share
     from mrlab_ros.commands.demo.lab import running_lab
     from mrlab_ros.commands.demo.report import (
         facts,
@@ -55,7 +56,6 @@ def demo(
         Stopped,
         handover,
     )
-    from mrlab_ros.ros import share
 
     parts = handover(share.directory() / "examples")
     if file is not None:

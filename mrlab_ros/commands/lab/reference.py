@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from mrlab_ros.adapters import share
 from mrlab_ros.adapters.bags.courses import Reference
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.commands.convert.batch import convert_file
@@ -13,7 +14,6 @@ from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.foreign_text import for_shell
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.recording.report import ReferenceTrajectory
-from mrlab_ros.ros import share
 
 
 def reference_of(file: Path, model: str) -> Reference:

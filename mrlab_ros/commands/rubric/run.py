@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+from mrlab_ros.adapters import share
 from mrlab_ros.adapters.checking.stage import Stage
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.rubrics import files
@@ -25,7 +26,6 @@ from mrlab_ros.core.rubrics import document
 from mrlab_ros.core.rubrics.forms import FAMILIES
 from mrlab_ros.core.rubrics.lint import Flaw, flaws_of, flaws_of_reference
 from mrlab_ros.core.rubrics.marking import mark as marks_of
-from mrlab_ros.ros import share
 
 SCHEMA = "mrlab.marks.1"
 FULL, LOST = 0, 1

@@ -10,6 +10,7 @@ from fastapi import APIRouter, Depends, Query, Request
 from fastapi.concurrency import run_in_threadpool
 
 from mrlab_ros.adapters.checking.in_lab import Task
+from mrlab_ros.adapters.share import directory
 from mrlab_ros.core.base.errors import LabError, Unavailable
 from mrlab_ros.core.trajectory.catalogue import Record, Version
 from mrlab_ros.gateway.checks import desk
@@ -17,7 +18,6 @@ from mrlab_ros.gateway.checks.desk import CheckDesk, Key, answer
 from mrlab_ros.gateway.checks.scene import SceneWatch
 from mrlab_ros.gateway.diagnostics import GATEWAY_WITHOUT_LAB
 from mrlab_ros.gateway.people.person import CurrentPerson, Limit, Person, RateLimit
-from mrlab_ros.gateway.share import directory
 from mrlab_ros.gateway.store.shelf import Shelf, shelf_of
 
 # Of one person; that of everybody is bounded by the queue.

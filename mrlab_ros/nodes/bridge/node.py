@@ -17,6 +17,7 @@ import yaml
 from diagnostic_msgs.msg import DiagnosticArray  # type: ignore[import-untyped]
 from mrlab_msgs.msg import Latency, Robots, RobotSystems
 
+from mrlab_ros.adapters import share
 from mrlab_ros.adapters.yaml_files import Loader
 from mrlab_ros.adapters.zenoh.configuration import LOOPBACK, configuration, log_logins
 from mrlab_ros.adapters.zenoh.port import Query, Session
@@ -50,7 +51,6 @@ from mrlab_ros.nodes.bridge.outward import Outward
 from mrlab_ros.nodes.bridge.routes import BridgeContext, Kept
 from mrlab_ros.nodes.bridge.services import Services
 from mrlab_ros.nodes.parameters import AUTOMATIC, BridgeParameters
-from mrlab_ros.ros import share
 from mrlab_ros.ros.clock import LabClock, every
 from mrlab_ros.ros.graph_changes import GraphChanges
 from mrlab_ros.ros.parameters import NodeArguments, ParameterNode

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 from mrlab_msgs import srv
 from rclpy.callback_groups import ReentrantCallbackGroup
 
-from mrlab_ros.adapters import private_folder
+from mrlab_ros.adapters import private_folder, share
 from mrlab_ros.adapters.robots.diagnostics import NO_END_EFFECTOR
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.store import keys
@@ -44,7 +44,6 @@ from mrlab_ros.messages.trajectories import candidate_to_message, info_from_head
 from mrlab_ros.nodes import parameters
 from mrlab_ros.nodes.converter.catalogue import TrajectoryServices
 from mrlab_ros.nodes.parameters import ConverterParameters
-from mrlab_ros.ros import share
 from mrlab_ros.ros.clock import every
 from mrlab_ros.ros.diagnostics import FAULT
 from mrlab_ros.ros.parameters import NodeArguments, ParameterNode

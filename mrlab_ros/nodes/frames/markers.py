@@ -11,13 +11,13 @@ from mrlab_msgs import msg
 from rclpy.node import Node
 from visualization_msgs.msg import Marker, MarkerArray
 
+from mrlab_ros.adapters import share
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.robots.frames import frame_name
 from mrlab_ros.core.runtime.identity import Identity
 from mrlab_ros.messages import markers, qos
 from mrlab_ros.nodes.converter.catalogue import CatalogueClient
-from mrlab_ros.ros import share
 from mrlab_ros.ros.spinning import Caller
 from mrlab_ros.ros.worker import Worker
 

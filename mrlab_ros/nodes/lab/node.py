@@ -11,6 +11,7 @@ from mrlab_msgs import msg, srv
 from rclpy.publisher import Publisher
 from std_msgs.msg import String
 
+from mrlab_ros.adapters import share
 from mrlab_ros.adapters.robots.exporting import published
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.scenes.files import SCENE_FILE, SceneFiles, StateFile
@@ -45,7 +46,6 @@ from mrlab_ros.nodes.lab.observer import Observer
 from mrlab_ros.nodes.lab.restore import LabRestore, Return
 from mrlab_ros.nodes.lab.scenes import Scenes
 from mrlab_ros.nodes.parameters import LabParameters
-from mrlab_ros.ros import share
 from mrlab_ros.ros.clock import LabClock, every
 from mrlab_ros.ros.parameters import NodeArguments, ParameterNode
 from mrlab_ros.ros.services import answered, create_service

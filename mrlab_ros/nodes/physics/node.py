@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from mrlab_msgs import srv
 from mrlab_msgs.srv import Trigger
 
+from mrlab_ros.adapters import share
 from mrlab_ros.adapters.bullet import support
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.scenes.files import StateFile
@@ -42,7 +43,6 @@ from mrlab_ros.nodes.physics.diagnostics import (
 )
 from mrlab_ros.nodes.physics.listener import GraphListener
 from mrlab_ros.nodes.physics.publishers import WorldPublishers
-from mrlab_ros.ros import share
 from mrlab_ros.ros.clock import LabClock, every
 from mrlab_ros.ros.deadlines import SWITCH_INTERVAL_S
 from mrlab_ros.ros.parameters import NodeArguments, ParameterNode

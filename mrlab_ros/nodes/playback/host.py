@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from mrlab_msgs import msg, srv
 
+from mrlab_ros.adapters import share
 from mrlab_ros.adapters.journal import Journal
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.robots.ruckig_planner import RuckigPlanner, StagingLimits
@@ -29,7 +30,6 @@ from mrlab_ros.nodes import parameters
 from mrlab_ros.nodes.converter.catalogue import CatalogueClient
 from mrlab_ros.nodes.parameters import PlaybackParameters
 from mrlab_ros.nodes.playback.node import PlaybackNode
-from mrlab_ros.ros import share
 from mrlab_ros.ros.clock import LabClock, every
 from mrlab_ros.ros.deadlines import REALTIME, Scheduler, take_precedence
 from mrlab_ros.ros.parameters import NodeArguments, ParameterNode

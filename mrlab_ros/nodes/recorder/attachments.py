@@ -20,6 +20,7 @@ from rclpy.parameter import parameter_value_to_python
 from rclpy.serialization import deserialize_message
 from std_msgs.msg import String
 
+from mrlab_ros.adapters import share
 from mrlab_ros.adapters.robots.library import MESH_PREFIX, RobotLibrary
 from mrlab_ros.adapters.trajectories.formats import chunks
 from mrlab_ros.core.base.diagnostic import Diagnostic
@@ -30,7 +31,6 @@ from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.messages import qos, trajectories
 from mrlab_ros.nodes.converter.catalogue import CatalogueClient
 from mrlab_ros.nodes.recorder.diagnostics import NOT_ATTACHED, PARAMETERS_NOT_ATTACHED
-from mrlab_ros.ros import share
 from mrlab_ros.ros.calls import call
 from mrlab_ros.ros.raw_streams import Received
 from mrlab_ros.ros.spinning import Caller

@@ -9,6 +9,7 @@ from graph import Graph
 from mrlab_msgs import msg, srv
 from rclpy.node import Node
 
+from mrlab_ros.adapters import share
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.core.trajectory.diagnostics import NO_TRAJECTORY_OF_NAME
 from mrlab_ros.core.trajectory.trajectory import Channels, Source, Trajectory
@@ -17,7 +18,6 @@ from mrlab_ros.messages.texts import tell
 from mrlab_ros.nodes.coordinator.node import CoordinatorNode
 from mrlab_ros.nodes.lab.node import LabNode
 from mrlab_ros.nodes.playback.host import PlaybackHostNode
-from mrlab_ros.ros import share
 
 LIBRARY = RobotLibrary(share.directory() / "robots")
 

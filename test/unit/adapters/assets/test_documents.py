@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import json
 
+from mrlab_ros.adapters import share
 from mrlab_ros.adapters.assets import documents
 from mrlab_ros.adapters.assets.files import AssetFiles
 from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.ros import share
 
 
 def test_every_shipped_robot_and_end_effector_is_in_the_document() -> None:
