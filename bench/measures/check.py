@@ -18,7 +18,7 @@ from size import Size
 from mrlab_ros.adapters import share
 from mrlab_ros.adapters.checking.stage import Stage, first_link
 from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.commands.convert import batch
+from mrlab_ros.app.convert import convert_file
 from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.checking import motion
 from mrlab_ros.core.checking.rehearsal import Actor
@@ -81,7 +81,7 @@ def checks(size: Size) -> list[dict[str, Any]]:
         nonlocal length
         result = times.of(
             "convert",
-            lambda: batch.convert_file(FILE, robot.model, Options(), "parallel_gripper"),
+            lambda: convert_file(FILE, robot.model, Options(), "parallel_gripper"),
         )
         trajectory = result.trajectory
         assert trajectory is not None

@@ -1,27 +1,13 @@
-"""Runs what a command does with a file from outside in a process behind the wall.
-
-The function prints as any other; its output comes back as text, and is printed here.
-"""
+"""Prints what a function prints that reads a file from outside, in a process behind the wall."""
 
 from __future__ import annotations
 
-import io
-import os
-import shutil
 import sys
-import tempfile
 from collections.abc import Callable, Iterable
-from contextlib import redirect_stderr, redirect_stdout
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from mrlab_ros.adapters import installed, share, walled
-from mrlab_ros.adapters.share import imported_folder
-
-# Of a bag: a session of hours is decoded whole, and inflated on the way.
-MOST_MEMORY, MOST_TIME, MOST_FILE = 8 << 30, 3600.0, 1 << 40  # bytes, s, bytes
-KEPT = ("HOME", "TZ", "MRLAB_ROBOTS")
+from mrlab_ros.adapters import behind_wall
 
 
 def run(
@@ -31,30 +17,8 @@ def run(
     read: Iterable[Path],
     write: Iterable[Path] = (),
 ) -> Any:
-    """Print what a function of a module prints, and return what it returns; all of it JSON.
-
-    name: the file's, for errors. read, write: files and folders that it reaches, besides Python,
-    the packages and the lab's own files. Raises BadInput where it does.
-    """
-    kept = {key: os.environ[key] for key in KEPT if key in os.environ}
-    known = [*share.folders(), imported_folder(), *installed.packages(), *installed.indices()]
-    with tempfile.TemporaryDirectory(prefix="mrlab-") as scratch:
-        places = {"TMPDIR": scratch, "MPLCONFIGDIR": scratch}
-        width = {"COLUMNS": str(shutil.get_terminal_size().columns)}
-        said = walled.call(
-            printed, function.__module__, function.__qualname__, arguments, name=name,
-            read=[path for path in (*known, *read) if path.exists()],
-            write=[Path(scratch), *write], memory=MOST_MEMORY, seconds=MOST_TIME,
-            file_size=MOST_FILE, environment=kept | places | width, folder=Path.cwd(),
-        )  # fmt: skip
-    sys.stdout.write(said["out"])
-    sys.stderr.write(said["err"])
-    return said["value"]
-
-
-def printed(module: str, function: str, arguments: list[Any]) -> dict[str, Any]:
-    """Call a function; return what it printed and what it returned."""
-    out, err = io.StringIO(), io.StringIO()
-    with redirect_stdout(out), redirect_stderr(err):
-        value = getattr(import_module(module), function)(*arguments)
-    return {"out": out.getvalue(), "err": err.getvalue(), "value": value}
+    """Print what `adapters.behind_wall.call` brings back, and return the value; it says more."""
+    called = behind_wall.call(function, *arguments, name=name, read=read, write=write)
+    sys.stdout.write(called.out)
+    sys.stderr.write(called.err)
+    return called.value

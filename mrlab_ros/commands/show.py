@@ -88,7 +88,7 @@ def _page(
     from mrlab_ros.adapters import share
     from mrlab_ros.adapters.pages.motion import motion_page
     from mrlab_ros.adapters.robots.library import RobotLibrary
-    from mrlab_ros.commands.convert.one_file import converted
+    from mrlab_ros.app.convert import converted
 
     folder = share.directory()
     recorded = _recorded(file)

@@ -16,6 +16,7 @@ PACKAGE = Path(__file__).parents[2] / "mrlab_ros"
 TESTS = Path(__file__).parent
 CORE = sorted((PACKAGE / "core").rglob("*.py"))
 ADAPTERS = sorted((PACKAGE / "adapters").rglob("*.py"))
+APP = sorted((PACKAGE / "app").rglob("*.py"))
 GATEWAY = sorted((PACKAGE / "gateway").rglob("*.py"))
 SOURCES = sorted(PACKAGE.rglob("*.py"))
 # From the bottom to the top; below each stands what it may import. docs/architecture.md has the
@@ -23,15 +24,18 @@ SOURCES = sorted(PACKAGE.rglob("*.py"))
 LAYERS = {
     "core": (),
     "adapters": ("core",),
+    "app": ("core", "adapters"),
     "messages": ("core",),
-    "ros": ("core", "messages"),
-    "nodes": ("core", "adapters", "messages", "ros"),
+    "ros": ("core", "adapters", "messages"),
+    "nodes": ("core", "adapters", "app", "messages", "ros"),
     "processes": ("core", "adapters", "messages", "ros", "nodes"),
-    "gateway": ("core", "adapters"),
+    "gateway": ("core", "adapters", "app"),
     "client": ("core", "adapters", "messages", "ros", "processes"),
-    "commands": ("core", "adapters", "messages", "ros", "processes", "gateway", "client"),
+    "commands": ("core", "adapters", "app", "messages", "ros", "processes", "gateway", "client"),
     "cli": ("core", "adapters", "commands"),
 }
+# Packages of one door: commands print, the gateway answers HTTP.
+DOORS = {"rich", "starlette", "typer", "uvicorn"}
 # Parts of rclpy that may change with any release.
 INSIDES = re.compile(r"rclpy\.impl|rclpy\.experimental|\.handle\b")
 # The graph. Not ament_index_python: it finds installed files and knows no node.
@@ -195,6 +199,22 @@ def test_adapters_know_no_node_and_nothing_above_them() -> None:
     assert found_in(ADAPTERS, above) == {}
 
 
+def test_use_cases_know_no_node_and_no_door() -> None:
+    def of_doors(path: Path) -> set[str]:
+        return {name for name in imports_of(path) if name.split(".")[0] in DOORS}
+
+    assert found_in(APP, of_graph) == {}
+    assert found_in(APP, of_doors) == {}
+
+
+def test_use_cases_print_nothing() -> None:
+    def printed(path: Path) -> list[str]:
+        calls = [node for node in ast.walk(ast.parse(path.read_text())) if type(node) is ast.Call]
+        return [name for name in map(ast.unparse, (c.func for c in calls)) if name == "print"]
+
+    assert found_in(APP, printed) == {}
+
+
 def test_the_gateway_is_no_node() -> None:
     assert found_in(GATEWAY, of_graph) == {}
 
@@ -245,6 +265,7 @@ def test_unit_tests_lie_where_what_they_test_lies() -> None:
 def test_every_layer_has_sources() -> None:
     assert len(CORE) > 5
     assert len(ADAPTERS) > 1
+    assert len(APP) > 1
     assert len(GATEWAY) > 1
 
 

@@ -11,6 +11,7 @@ from mrlab_ros.adapters.checking.apart import smallest_waits
 from mrlab_ros.adapters.checking.stage import Played, Stage, first_link
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.scenes import files as scene_files
+from mrlab_ros.app.convert import Wanted, convert_files, converted, of_trajectory_file
 from mrlab_ros.commands.check.diagnostics import (
     MEMBER_FILE_MISSING,
     MEMBER_NOT_IN_SCENE,
@@ -21,8 +22,6 @@ from mrlab_ros.commands.check.diagnostics import (
     PLAYS_BACKWARDS,
     ROBOTS_TWICE,
 )
-from mrlab_ros.commands.convert import batch
-from mrlab_ros.commands.convert.one_file import converted, of_trajectory_file
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, of_text, plain
 from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.base.foreign_text import for_shell
@@ -173,7 +172,7 @@ def _converted(
     motions: Sequence[Motion], stage: Stage, options: Options
 ) -> dict[Motion, ConversionResult]:
     """Convert motions in processes of their own, several at once."""
-    wanted: dict[Motion, batch.Wanted] = {}
+    wanted: dict[Motion, Wanted] = {}
     results: dict[Motion, ConversionResult] = {}
     for key in motions:
         path, model, end_effector = key
@@ -182,8 +181,8 @@ def _converted(
             results[key] = given
         else:
             robot = stage.library.model(model)
-            wanted[key] = batch.Wanted(path, robot, options, end_effector or None)
-    return results | dict(zip(wanted, batch.convert_files(list(wanted.values())), strict=True))
+            wanted[key] = Wanted(path, robot, options, end_effector or None)
+    return results | dict(zip(wanted, convert_files(list(wanted.values())), strict=True))
 
 
 def _path(file: Path, member: MemberEntry, loaded: str) -> Path:

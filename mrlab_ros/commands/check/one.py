@@ -9,9 +9,9 @@ from pathlib import Path
 from mrlab_ros.adapters.checking.stage import Played, Stage, first_link
 from mrlab_ros.adapters.scenes import files as scene_files
 from mrlab_ros.adapters.scenes.files import SceneFiles
+from mrlab_ros.app.convert import converted
 from mrlab_ros.commands.check import cell
 from mrlab_ros.commands.check.diagnostics import MODEL_NOT_IN_SCENE, MOTION_OF_ANOTHER_ROBOT
-from mrlab_ros.commands.convert.one_file import converted
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
 from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.base.foreign_text import file_name

@@ -11,8 +11,8 @@ from mrlab_ros.adapters.trajectories.files import load_coefficients
 from mrlab_ros.adapters.workspaces import content, worker
 from mrlab_ros.adapters.workspaces.reader import Limits, opened
 from mrlab_ros.adapters.workspaces.results import Task, converted, refused
+from mrlab_ros.app.convert import of_trajectory_file_here
 from mrlab_ros.commands.classroom.diagnostics import NO_ROBOT_IN_RUBRIC
-from mrlab_ros.commands.convert.one_file import of_trajectory_file_here
 from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.conversion.convert import ConversionResult, id_from
 from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE, Options
@@ -20,7 +20,7 @@ from mrlab_ros.core.conversion.workspace import Workspace
 
 
 class Inside:
-    """Converts files here; callable as `commands.convert.one_file.converted` is.
+    """Converts files here; callable as `app.convert.converted` is.
 
     limits: of time, s, for what the second reader says; memory: bytes, for words and buffers.
     """

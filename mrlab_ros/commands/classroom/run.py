@@ -29,6 +29,7 @@ from mrlab_ros.adapters.classroom.results_folder import (
     TRAJECTORIES,
     ResultsFolder,
 )
+from mrlab_ros.app.convert import SUFFIXES
 from mrlab_ros.commands import output
 from mrlab_ros.commands.check.one import CELLS
 from mrlab_ros.commands.classroom import grader, words, worker
@@ -44,7 +45,6 @@ from mrlab_ros.commands.classroom.diagnostics import (
     WORKSHEET_WRITTEN,
 )
 from mrlab_ros.commands.classroom.setup import Bounds, Setup, Task
-from mrlab_ros.commands.convert.batch import SUFFIXES
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.classroom import gradebook

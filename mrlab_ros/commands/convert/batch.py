@@ -11,11 +11,10 @@ import os
 import sys
 import tempfile
 import time
-from collections import Counter, deque
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor
-from contextlib import AbstractContextManager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
@@ -24,20 +23,11 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 
 from mrlab_ros.adapters import share
 from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.adapters.trajectories import formats, npz_file
+from mrlab_ros.adapters.trajectories import formats
 from mrlab_ros.adapters.trajectories.files import load_coefficients
-from mrlab_ros.adapters.workspaces.diagnostics import MISSING
-from mrlab_ros.adapters.workspaces.reader import (
-    ConversionPool,
-    Limits,
-    MiB,
-    TooSlow,
-    WorkspaceReader,
-    in_memory,
-    opened,
-)
+from mrlab_ros.adapters.workspaces.reader import Limits, MiB, in_memory
 from mrlab_ros.adapters.workspaces.results import Task, refused, unexpected
-from mrlab_ros.adapters.yaml_files import close_file
+from mrlab_ros.app.convert import SUFFIXES, Input, convert_all, input_of
 from mrlab_ros.commands import output
 from mrlab_ros.commands.convert import report
 from mrlab_ros.commands.convert.diagnostics import (
@@ -54,11 +44,7 @@ from mrlab_ros.commands.convert.options import convert_words
 from mrlab_ros.commands.convert.outcomes import EXIT_CODES
 from mrlab_ros.core.base.errors import BadInput, LabError, Misuse
 from mrlab_ros.core.base.foreign_text import file_name
-from mrlab_ros.core.conversion.convert import (
-    ConversionResult,
-    Outcome,
-    id_from,
-)
+from mrlab_ros.core.conversion.convert import ConversionResult, Outcome, id_from
 from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE, Options
 from mrlab_ros.core.robots.model import RobotModel
 
@@ -125,13 +111,8 @@ def _make(option: str, folder: Path) -> None:
 
 # the worst of a batch: a refusal, then a choice that is open
 BADNESS = (0, 2, 1)
-AHEAD = 64  # files that may be converted before the first of them is reported
 MANY_PLOTS = 8  # from so many on, processes that draw are worth their start
 LEAST_MEMORY, LEAST_TIME, MOST_LIMIT = 64, 0.1, 1_000_000  # MiB, s, either
-SUFFIXES = (
-    *(".mat", ".mat.gz", ".csv", ".lvm", ".npz", ".json", ".mcap", ".db3"),
-    *(".mcap.zst", ".mcap.zstd", ".db3.zst", ".db3.zstd"),
-)
 
 
 @dataclass(frozen=True)
@@ -155,19 +136,6 @@ class Request:
     memory: int
     time_limit: float
     row_limit: int
-
-
-@dataclass(frozen=True)
-class Input:
-    """Something to convert. given: what the person wrote; name: of the file, without folder.
-
-    read_as: the name whose ending says what it is; open: yields a descriptor of the file.
-    """
-
-    given: str
-    name: str
-    read_as: str
-    open: Callable[[], AbstractContextManager[int]]
 
 
 def run(request: Request) -> int:
@@ -209,7 +177,7 @@ def run(request: Request) -> int:
     ]
     check_free(written_later, _files(request.files), force=request.force)
     with _plotter(len(inputs) if request.plot else 0, targets) as plot:
-        converted = _converted(inputs, tasks, limits)
+        converted = convert_all(inputs, tasks, limits)
         for source, task, result in _with_progress(converted, len(inputs), request):
             written = None
             try:
@@ -255,94 +223,6 @@ def _check(request: Request) -> None:
                     option=option, value=float(value), least=least, most=MOST_LIMIT, unit=unit
                 )
             )
-
-
-@dataclass(frozen=True)
-class Wanted:
-    """A file to convert for a robot. end_effector: None: a bare flange."""
-
-    path: Path
-    robot: RobotModel
-    options: Options
-    end_effector: str | None
-
-
-def convert_file(
-    path: Path, robot: RobotModel, options: Options, end_effector: str | None
-) -> ConversionResult:
-    """Convert one file in a walled-off process; a refusal is a result."""
-    return convert_files([Wanted(path, robot, options, end_effector)])[0]
-
-
-def convert_files(wanted: Sequence[Wanted]) -> list[ConversionResult]:
-    """Convert files in walled-off processes, in order; raise BadInput where one is missing."""
-    coefficients = load_coefficients(share.directory() / "config" / "torque_proxy.yaml")
-    inputs, tasks = [], []
-    for each in wanted:
-        path = each.path
-        if not path.is_file():
-            raise BadInput(MISSING(file=str(path), close=close_file(path)))
-        name = file_name(path.name)
-        inputs.append(_input(path))
-        tasks.append(
-            Task(
-                file=name,
-                options=each.options,
-                robot=each.robot,
-                coefficients=coefficients,
-                end_effector=each.end_effector,
-                trajectory_id=id_from(name),
-                created_ns=time.time_ns(),
-                default_frame_rate=DEFAULT_FRAME_RATE,
-                read_as=name,
-            )
-        )
-    return [result for _, _, result in _converted(inputs, tasks, Limits())]
-
-
-def _converted(
-    inputs: list[Input], tasks: list[Task], limits: Limits
-) -> Iterator[tuple[Input, Task, ConversionResult]]:
-    """Convert in several walled-off processes; yield the results in the order of the inputs."""
-    waiting: deque[tuple[Input, Task, Future[ConversionResult]]] = deque()
-    workers = 1 if len(inputs) == 1 else 0
-    with tempfile.TemporaryDirectory() as folder, ConversionPool(limits, workers) as pool:
-        for number, (source, task) in enumerate(zip(inputs, tasks, strict=True)):
-            work = partial(_convert, source, task, Path(folder) / f"{number}.npz")
-            waiting.append((source, task, pool.submit(work, 0)))
-            if len(waiting) > AHEAD:
-                yield _awaited(*waiting.popleft())
-        while waiting:
-            yield _awaited(*waiting.popleft())
-
-
-def _convert(source: Input, task: Task, path: Path, reader: WorkspaceReader) -> ConversionResult:
-    """Convert behind the wall; path: of a file for the trajectory in between."""
-    try:
-        with source.open() as file, path.open("w+b") as stored:
-            converted = reader.convert(file, task, stored)
-        if converted.head is None:
-            return converted.result
-        return replace(converted.result, trajectory=npz_file.read(path))
-    except TooSlow:
-        raise  # the pool decides whether it has more time
-    except BadInput as error:
-        return refused(task.file, error.diagnostic)
-    finally:
-        path.unlink(missing_ok=True)
-
-
-def _awaited(
-    source: Input, task: Task, future: Future[ConversionResult]
-) -> tuple[Input, Task, ConversionResult]:
-    try:
-        return source, task, future.result()
-    except TooSlow as error:
-        return source, task, refused(task.file, error.diagnostic)
-    except (BadInput, Misuse):
-        raise
-    except Exception as error:
-        return source, task, refused(task.file, unexpected(task.file, error))
 
 
 Plotter = Callable[[ConversionResult, RobotModel, Path], None]
@@ -393,26 +273,12 @@ def _inputs(request: Request) -> list[Input]:
     if bool(request.files) is bool(request.topic):
         raise Misuse(FILES_OR_TOPIC())
     if not request.topic:
-        return [_input(path) for path in _files(request.files)]
+        return [input_of(path) for path in _files(request.files)]
     from mrlab_ros.commands.convert.topic import receive  # rclpy, which files do not need
 
     message = receive(request.topic, request.timeout)
     read_as = f"{request.topic}.cdr"
     return [Input(request.topic, request.topic, read_as, partial(in_memory, message))]
-
-
-def _input(path: Path) -> Input:
-    name = file_name(path.name)
-    return Input(str(path), name, name, partial(_opened, path))
-
-
-@contextlib.contextmanager
-def _opened(path: Path) -> Iterator[int]:
-    """Open a file; where there is none, name the one that may have been meant."""
-    if not path.exists():
-        raise BadInput(MISSING(file=str(path), close=close_file(path)))
-    with opened(path) as source:
-        yield source
 
 
 def _files(given: Iterable[Path]) -> list[Path]:

@@ -4,11 +4,6 @@ from __future__ import annotations
 
 from mrlab_ros.core.base.diagnostic import Code
 
-ROBOT_NOT_NAMED = Code(
-    "robot_not_named",
-    "'{file}' does not say which robot it is for.",
-    "Add --robot, one of {known:list}.",
-)
 LIMIT_OUT_OF_RANGE = Code(
     "limit_out_of_range",
     "--{option} is {value:number}; expected {least:number} to {most:number} {unit}.",

@@ -7,7 +7,7 @@ from pathlib import Path
 from mrlab_ros.adapters import share
 from mrlab_ros.adapters.bags.courses import Reference
 from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.commands.convert.batch import convert_file
+from mrlab_ros.app.convert import convert_file
 from mrlab_ros.commands.diagnostics import REFERENCE_REFUSED
 from mrlab_ros.core.base.diagnostic import Fix
 from mrlab_ros.core.base.errors import BadInput

@@ -3010,6 +3010,10 @@ export const diagnostics: Templates = {
   robot_not_among: [
     "{place:problem}: {name} nennt den Roboter '{robot}', den die Szene nicht hat[; ihre Roboter: {known:list}].",
   ],
+  robot_not_named: [
+    "'{file}' nennt nicht den Roboter, für den die Datei ist.",
+    'Nenne den Roboter, einen von {known:list}.',
+  ],
   robot_nowhere: ['Den Roboter gibt es weder hier noch im Labor: {here:problem}; {lab:problem}.'],
   robot_placed: ['{robot} hat seinen Platz.'],
   robot_removed: ['{robot} ist entfernt.'],
