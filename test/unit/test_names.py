@@ -20,12 +20,12 @@ def test_a_module_has_a_test_of_its_name() -> None:
         for path in sorted(PACKAGE.rglob("*.py"))
         if path.stem not in NAMELESS
         and len(path.read_text().splitlines()) > SMALL
-        and not test_of(path).exists()
+        and not own_test(path).exists()
     ]
     assert len(without) <= ELSEWHERE, "\n".join(without)
 
 
-def test_of(module: Path) -> Path:
+def own_test(module: Path) -> Path:
     """Return where the unit tests of a module lie."""
     folder = ROOT / "test" / "unit" / module.parent.relative_to(PACKAGE)
     return folder / f"test_{module.name}"

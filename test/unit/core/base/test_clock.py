@@ -200,3 +200,7 @@ def test_the_wall_clock_takes_over_where_use_sim_time_is_switched_off() -> None:
     assert time.follow_wall(9 * SECOND, WALL + 9 * SECOND) == WALL + 9 * SECOND
     assert not time.simulated
     assert time.shifted_ns == 9 * SECOND
+
+
+def test_a_clock_that_nobody_has_set_stands_at_the_start() -> None:
+    assert PlaybackClock().at(5 * SECOND) == 0.0

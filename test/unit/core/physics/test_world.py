@@ -164,6 +164,8 @@ def test_a_halt_that_another_world_began_is_ended_here(x, told):
     lab.go(0.3, 100 * MS)
     lab.go(0.3, 400 * MS)
     assert [event.colliding for event in lab.of(CollisionChanged)] == told
+    # From now on only what the arm touches itself counts.
+    assert not lab.world.robot("a").inherited
 
 
 def test_a_silent_arm_is_waited_for_a_while_and_a_foreign_clock_is_not():
