@@ -64,7 +64,7 @@ const KINDS = {
   uint8: Uint8Array,
 } as const
 
-/** Return the numbers of a packed array, row by row. Throws a RangeError where the bytes and the
+/** Return the numbers of a packed array, row by row. Throws a RangeError if the bytes and the
  * shape contradict each other. */
 export function unpack(packed: PackedArray): NumericArray {
   const text = atob(packed.data)

@@ -118,18 +118,18 @@ export class Room {
   trajectories: readonly TrajectoryInfo[] = []
   private readonly targets: Targets
   private readonly meshes = new MeshLibrary()
-  readonly overlays: Overlays
+  private readonly overlays: Overlays
   readonly objects: ObjectHandles
   readonly drawings: Drawings
   readonly stats: Stats
-  readonly spawning: Spawning
+  private readonly spawning: Spawning
   readonly alignment: Alignment
-  readonly mouse: Mouse
-  readonly boardPlace: BoardPlace
+  private readonly mouse: Mouse
+  private readonly boardPlace: BoardPlace
   private readonly sound: ReturnType<typeof soundFeedback>
   private readonly undo: readonly (() => void)[]
 
-  /** Throws NoWebGL where the browser has none. */
+  /** Throws NoWebGL if the browser has none. */
   constructor(parts: RoomParts) {
     const { link, words } = parts
     this.stage = new RoomStage(parts.container, words.room.picture)

@@ -69,7 +69,7 @@ export class RoomStage implements SceneHost {
   private cost = 0
   private pause = 0
 
-  /** Throws NoWebGL where the browser has none. label: for screen readers. */
+  /** Throws NoWebGL if the browser has none. label: for screen readers. */
   constructor(
     private readonly container: HTMLElement,
     label: string,

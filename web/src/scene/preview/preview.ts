@@ -37,7 +37,7 @@ export interface MotionPreview {
   dispose(): void
 }
 
-/** Show a motion in `container`. Throws an Error where the document cannot be read. */
+/** Show a motion in `container`. Throws an Error if the document cannot be read. */
 export function createMotionPreview(
   container: HTMLElement,
   motion: MotionDocument,
