@@ -57,14 +57,14 @@ export function followedScene(parts: FollowedParts): FollowedScene {
     },
     setContacts: (contacts) => scene.setContacts(contacts),
     setSurfaces: (surfaces) => parts.setSurfaces(surfaces),
-    // cubes between the fingers mark them here
+    // In the room, cubes between the fingers mark them.
     setTargets: () => undefined,
     frame: () => undefined,
     robot: (name) => scene.robot(name),
   }
 }
 
-/** s between two looks at a lab that says nothing: silence is no message. */
+/** s between two checks of the link: a silent lab sends no message. */
 const PERIOD_S = 1
 
 /** The parts that show the state of the lab. */
@@ -80,7 +80,7 @@ export interface Listeners {
   halt(): void
 }
 
-/** Keep the panels as the lab is; returns how to end it. */
+/** Keep the panels up to date with the lab; returns a function that ends it. */
 export function listen({
   ports,
   follower,

@@ -24,7 +24,7 @@ export class Stats {
   private closedAt = 0
   private frames = 0
   private rate = 0
-  /** Of the slowest frame of the window, ms, and of the window before. */
+  /** Duration of the slowest frame of this window and of the one before, ms. */
   private slowest = 0
   private slowestBefore = 0
 

@@ -35,7 +35,7 @@ function picture(url: string | null): HTMLImageElement | null {
   return image
 }
 
-/** Return whether a hop is no more than worth knowing: it covers nothing of the room. */
+/** Return whether a hop is only a note, which covers nothing of the room. */
 function isAside({ id, severity }: Hop): boolean {
   return id === 'headset' && severity === 'info'
 }
@@ -101,7 +101,7 @@ function RoomView({ link, extra }: { link: Link; extra: RoomExtra }) {
           tabs: tab === null ? [] : [tab],
         })
         room.value = made
-        // for tests and the curious
+        // For tests, and for the console.
         if (new URLSearchParams(location.search).has('inspect'))
           Object.assign(window, { room: made })
       })

@@ -112,7 +112,7 @@ export class Room {
   frameMs = 0
   /** s, of the frame before. */
   private drawnAt = 0
-  /** Of the room, those that have an end. */
+  /** The bounded surfaces of the room. */
   surfaces: readonly ShownSurface[] = []
   supports: readonly Support[] = supportsOf([])
   trajectories: readonly TrajectoryInfo[] = []
@@ -283,7 +283,7 @@ export class Room {
     this.meshes.dispose()
   }
 
-  /** Draw the room's surfaces where the room itself is not seen. */
+  /** Draw the room's surfaces, unless the real room is visible. */
   private showSurfaces(): void {
     this.scene.setSurfaces(this.visit.passthrough ? [] : this.surfaces)
   }

@@ -12,9 +12,9 @@ export const EDGE = 26
 export const TOP = 112
 export const BOTTOM = BOARD_HEIGHT - 62
 const NOTICE_S = 10
-/** s between two questions to the tab that is shown whether it says something else. */
+/** s between two checks whether the text of the shown tab has changed. */
 const ASK_PERIOD = 1
-/** mm between two tabs; and letters that a tab's margins take. */
+/** mm between two tabs; and the width of a tab's margins, in letters. */
 const TAB_GAP = 8
 const TAB_MARGIN = 2.5
 
@@ -22,13 +22,12 @@ const TAB_MARGIN = 2.5
 export interface Tab {
   readonly id: string
   readonly words: string
-  /** Return the text that changes by itself, for example with time; the tab is repainted when it
-   * differs. */
+  /** Return the text that changes with time; the tab is repainted when it differs. */
   says?(): string
   draw(pen: Pen): void
 }
 
-/** Everything that a tab with a list of the lab's needs of the room. */
+/** The ports of a tab that lists something of the lab. */
 export interface TabPorts extends Speech, Lab {
   repaintBoard(): void
 }
@@ -70,7 +69,7 @@ export class Board {
     this.panel.repaint()
   }
 
-  /** Say a sentence at the bottom for a while. */
+  /** Show a sentence at the bottom for a while. */
   say(text: string, warns = true): void {
     this.notice = text
     this.warns = warns
@@ -94,7 +93,7 @@ export class Board {
   }
 
   private draw(pen: Pen): void {
-    // each as wide as its word needs, in any language
+    // A tab is as wide as its word in the reader's language.
     const room = BOARD_WIDTH - 2 * EDGE - (this.tabs.length - 1) * TAB_GAP
     const letters = this.tabs.reduce((sum, { words }) => sum + words.length + TAB_MARGIN, 0)
     let x = EDGE

@@ -25,7 +25,8 @@ function sceneName(date: Date): string {
   return `room_${day}_${two(date.getHours())}${two(date.getMinutes())}${two(date.getSeconds())}`
 }
 
-/** Scenes to save and load, sessions to record and replay, and how well the link does. */
+/** The tab with scenes to save and load, sessions to record and replay, and the figures of the
+ * link. */
 export function labTab(ports: TabPorts, follower: LabFollower, stats: Stats): Tab {
   const { link } = ports
   const w = ports.words.room

@@ -80,7 +80,7 @@ export interface RoomSwitches {
   readonly scan: (() => void) | null
   /** Bring the scene's origin to the floor before the person. */
   bringHere(): void
-  /** Have the lab forget the surfaces of all headsets, of those too that left. */
+  /** Have the lab forget the surfaces of all headsets, also of those that left. */
   forgetSurfaces(): void
   leave(): void
 }

@@ -127,7 +127,7 @@ function directionOf(first: Hold, second: Hold): number {
   return Math.atan2(second.place.y - first.place.y, second.place.x - first.place.x)
 }
 
-/** Write where a pointer lands; false: nowhere. */
+/** Write the landing of a pointer; false: there is none. */
 function lands({ near, ray, place }: Hold, supports: readonly Support[], into: Place): boolean {
   if (!near) return landing(supports, ray.origin, ray.direction, FARTHEST, into)
   origin.copy(place).setZ(place.z + ABOVE)

@@ -1,7 +1,7 @@
 import { Line3, type Object3D, type Ray, Vector3 } from 'three'
 import type { Hit } from '../input/pointer'
 
-/** m: how thick an arm counts around the line through its links. */
+/** m: radius of an arm about the line through its links. */
 const RADIUS = 0.07
 
 const segment = new Line3()
@@ -28,7 +28,7 @@ export class ArmShape {
     })
   }
 
-  /** Return how far a place of the scene is from the arm's skin, m; negative: inside. */
+  /** Return the distance of a place of the scene from the arm's surface, m; negative: inside. */
   distance(point: Vector3): number {
     let least = Number.POSITIVE_INFINITY
     for (const bone of this.bones) {

@@ -19,7 +19,7 @@ import { Moves } from './moves'
 const REACH = 0.06
 /** s between two poses that are sent to physics. */
 const PERIOD = 1 / 30
-/** s for which an object that went with a hand is in that hand: hands are never quite still. */
+/** s for which a moved object counts as held by that hand: a hand is never quite still. */
 const IN_HAND = 0.5
 
 const STILL = { x: 0, y: 0, z: 0 } as const
@@ -28,7 +28,7 @@ const centre = new Vector3()
 const at = new Vector3()
 const inverse = new Matrix4()
 
-/** Everything that an object's handle needs of the room. */
+/** The ports of an object's handle. */
 export type ObjectPorts = Speech & Lab & Frames & Surroundings
 
 interface Move {
@@ -65,7 +65,7 @@ export class ObjectHandle implements Target {
     return this.object.held_by === ''
   }
 
-  /** Return how far its surface is from a place of the scene, about, m. */
+  /** Return the approximate distance of its surface from a place of the scene, m. */
   distanceTo(place: Vector3): number {
     const { x, y, z } = this.object.size
     return Math.max(this.centre(centre).distanceTo(place) - Math.min(x, y, z) / 2, 0)

@@ -29,7 +29,7 @@ const inverse = new Matrix4()
 const local = new Ray()
 const meets = new Vector3()
 
-/** Everything that a robot's handle needs of the room. */
+/** The ports of a robot's handle. */
 export type HandlePorts = Speech & Lab & Frames & Ground & Surroundings
 
 interface Holder {

@@ -42,7 +42,7 @@ export interface Target {
   cast(ray: Ray, hit: Hit): boolean
   /** Return whether a hand at `point` can take hold of it. */
   reaches?(point: Vector3): boolean
-  /** Return how far a fingertip is in front of its face, m, and fill u and v; NaN: not before
+  /** Return the distance of a fingertip in front of its face, m, and fill u and v; NaN: not before
    * it. */
   face?(point: Vector3, hit: Hit): number
   on(signal: Signal): void

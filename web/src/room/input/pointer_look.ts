@@ -11,7 +11,7 @@ import {
 } from 'three'
 import type { RayPointer } from './pointer'
 
-/** Of the cursor, as a part of the distance to it. */
+/** Size of the cursor, as a part of the distance to it. */
 const CURSOR = 0.008
 const FARTHEST = 10
 

@@ -3,7 +3,7 @@ import { InputModel } from './models'
 import { type Hand, type Pointer, RayPointer, type Target, TouchPointer } from './pointer'
 import { PointerLook } from './pointer_look'
 
-/** A stick this far out counts. */
+/** Least deflection of a stick. */
 const DEAD_ZONE = 0.2
 
 interface Source {
@@ -55,7 +55,7 @@ export class XrInputs {
       const start = ({ inputSource }: XRInputSourceEvent) => {
         const source = this.sources.get(inputSource)
         if (source === undefined) return
-        // over a panel a press is the panel's; elsewhere it may mark a point of the room
+        // Over a panel a press belongs to the panel; elsewhere it may mark a point of the room.
         const free = source.ray.hovered === null && source.touch.hovered === null
         if (free && this.marked(source.touch.place)) return
         source.ray.press(button)
@@ -86,7 +86,7 @@ export class XrInputs {
     return false
   }
 
-  /** Return where a hand or its controller is, in the floor space; null: it is not tracked. */
+  /** Return the place of a hand or its controller in the floor space; null: it is not tracked. */
   hand(side: 'left' | 'right'): Vector3 | null {
     for (const { source, ray } of this.sources.values()) {
       if (source.handedness === side && ray.tracked) return ray.place
@@ -132,7 +132,7 @@ export class XrInputs {
     return joint(at, 'index-finger-tip', touch.place)
   }
 
-  /** Move where a pointer holds things: between thumb and finger, or the grip. */
+  /** Move the place at which a pointer holds things: between thumb and finger, or the grip. */
   private moveHold(at: Tracked, ray: RayPointer, model: InputModel | null): void {
     const { frame, space, source } = at
     if (source.hand !== undefined) {
@@ -158,7 +158,7 @@ export class XrInputs {
     return 0
   }
 
-  /** Let a controller be felt; hands have nothing to feel with. ms. */
+  /** Pulse a controller for some ms; hands have no actuator. */
   pulse(pointer: Pointer, strength: number, duration: number): void {
     for (const { source, ray, touch } of this.sources.values()) {
       if (ray === pointer || touch === pointer)
@@ -205,7 +205,7 @@ function setPlace(into: Vector3, { x, y, z }: DOMPointReadOnly): void {
   into.set(x, y, z)
 }
 
-/** Write where a joint of a hand is; false: it is not seen. */
+/** Write the place of a joint of a hand; false: it is not visible. */
 function joint({ frame, space, source }: Tracked, name: XRHandJoint, into: Vector3): boolean {
   const found = source.hand?.get(name)
   const pose = found === undefined ? undefined : frame.getJointPose?.(found, space)

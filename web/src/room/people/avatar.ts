@@ -83,7 +83,7 @@ class Moved {
   }
 }
 
-/** Somebody else in the room: a head that looks somewhere, hands, and a name above. */
+/** Another person in the room: a head with its gaze, hands, and a name above. */
 export class Avatar {
   readonly group = new Group()
   private readonly head = new Moved()

@@ -131,7 +131,7 @@ export class People {
       this.world.add(avatar.group)
       this.changed()
     }
-    // not the last frame's time: where software draws, frames are seconds apart
+    // Not the time of the last frame: a software renderer may take seconds for one.
     person.seenAt = performance.now() / 1000
     person.avatar.take(message)
   }

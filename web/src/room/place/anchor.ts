@@ -5,7 +5,7 @@ import { Matrix4, type Object3D, type Quaternion, Vector3 } from 'three'
 export type Hold = 'kept' | 'session' | 'none'
 
 const KEY = 'mrlab.room.anchor'
-/** ms in which a place of an earlier session is found again, or it is another room. */
+/** ms within which the place of an earlier session is found again; otherwise it is another room. */
 const FOUND_MS = 4000
 const UP = new Vector3(0, 1, 0)
 const matrix = new Matrix4()
@@ -13,19 +13,19 @@ const scale = new Vector3()
 const forward = new Vector3()
 const offset = new Vector3()
 
-/** Holds the one group that all of the lab is below. World poses are stored nowhere: after a
- * recentre the anchor's own pose says where the group is now. */
+/** Holds the group that contains the whole lab. World poses are stored nowhere: after a recentre
+ * the anchor's own pose gives the place of the group. */
 export class SceneAnchor {
   hold: Hold = 'none'
   private session: XRSession | null = null
   private anchor: XRAnchor | null = null
   private wanted = false
-  /** Each place counts one: an answer about an older one is about nothing. */
+  /** Number of the newest place: an answer about an older one is ignored. */
   private placing = 0
-  /** Until when a restored anchor may be looked for, ms; NaN: it was found, or there is none. */
+  /** End of the search for a restored anchor, ms; NaN: it was found, or there is none. */
   private waitsUntil = Number.NaN
 
-  /** refused: the headset does not keep the place, or keeps it for this session alone. */
+  /** refused: called if the headset does not keep the place, or only for this session. */
   constructor(
     private readonly group: Object3D,
     private readonly refused: (hold: Hold) => void,
@@ -116,7 +116,7 @@ export class SceneAnchor {
     anchor?.delete()
   }
 
-  /** Give the kept place back: a headset has few for all pages and apps, and takes none away. */
+  /** Delete the kept place: a headset has few for all pages and apps, and deletes none itself. */
   private async forget(): Promise<void> {
     const handle = localStorage.getItem(KEY)
     if (handle === null) return
@@ -154,7 +154,7 @@ export class SceneAnchor {
       localStorage.setItem(KEY, handle)
       this.hold = 'kept'
     } catch {
-      // as where the headset's places are all taken
+      // As if all places of the headset were taken.
       if (place === this.placing) this.refused(this.hold)
     }
   }

@@ -8,12 +8,12 @@ import { poseInWorld, vectorToRos } from '../scene/frames'
 /** s between two looks, and for which the room must be still before it is published. */
 const PERIOD = 0.5
 const STILL = 0.8
-/** m, and of a quaternion's numbers: smaller changes are the tracking's. */
+/** m, and of a quaternion's numbers: smaller changes are noise of the tracking. */
 const MOVED = 0.015
 const TURNED = 0.012
 const MOST_SURFACES = 64
 const MOST_TRIANGLES = 1500
-/** Of the whole room: too much for physics, and the planes say the same. */
+/** Label of the mesh of the whole room: too large for physics, which has the planes. */
 const WHOLE = 'global mesh'
 const FLOOR = 'floor'
 
@@ -52,7 +52,7 @@ export class RoomScan {
     return this.known.size
   }
 
-  /** Tell all once more: the lab has forgotten them. */
+  /** Report all surfaces again: the lab has forgotten them. */
   tellAgain(): void {
     if (this.known.size > 0) this.changedAt = this.lookedAt
   }
@@ -127,7 +127,7 @@ export class RoomScan {
       before?.changed === found.lastChangedTime
         ? { ...before.surface, pose: now }
         : surfaceOf(found, name, label, now)
-    // devices mark planes as changed that are as they were, some in every frame
+    // Devices mark unchanged planes as changed, some in every frame.
     const same = stays && sameShape(before.surface, surface)
     this.known.set(found, {
       name,
@@ -184,7 +184,7 @@ function ros(x: number, y: number, z: number): { x: number; y: number; z: number
   return { x: corner.x, y: corner.y, z: corner.z }
 }
 
-/** Give physics the surfaces that a headset measured: those of others stay. */
+/** Send physics the surfaces that a headset measured; those of others stay. */
 export function orderSurfaces(lab: Lab, source: string, surfaces: Surface[]): void {
   order(lab, 'physics/set_surfaces', setSurfacesType, { source, surfaces })
 }
@@ -200,7 +200,7 @@ interface Point {
   readonly y: number
 }
 
-/** Return the corners of an outline without those that say nothing, 32 at most. */
+/** Return the corners of an outline without redundant ones, 32 at most. */
 export function simplifyOutline<P extends Point>(outline: readonly P[]): P[] {
   const kept = [...outline]
   for (let tolerance = STRAIGHT; ; tolerance *= 2) {

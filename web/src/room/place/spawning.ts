@@ -47,7 +47,7 @@ export class Spawning {
     if (answer !== null) ports.say(ports.words.room.placed(answer.robot.name), false)
   }
 
-  /** Return a place so far before the eyes, m, a little below them. */
+  /** Return the place at a distance before the eyes, m, a little below them. */
   before(distance: number): Pose {
     const { head, look } = this.ports
     at.set(0, 0, -distance).applyQuaternion(look).add(head)

@@ -1,6 +1,6 @@
 import type { Pose } from '../../protocol/geometry_msgs'
 
-/** A surface is horizontal where its normal is this near to the vertical: cos of 10 degrees. */
+/** Least vertical part of the normal of a horizontal surface: cos of 10 degrees. */
 const LEVEL = 0.985
 const FLOOR = 'floor'
 

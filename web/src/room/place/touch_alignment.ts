@@ -118,7 +118,7 @@ export class TouchAlignment {
   }
 }
 
-/** m: points that are nearer say too little of a direction. */
+/** m: nearer points define no reliable direction. */
 export const NEAREST = 0.4
 
 /** The lab's origin in the floor space, and its heading about the vertical. */

@@ -27,15 +27,16 @@ const WIDTH = 640
 const HEIGHT = 516
 const EDGE = 26
 const TRACK: Track = { x: EDGE, y: 200, width: WIDTH - 2 * EDGE, height: HIT }
-/** s between two paintings of how far a robot is from its ghost. */
+/** s between two paintings of a robot's deviation from its ghost. */
 const COMPARE_PERIOD = 0.5
 
-/** Everything that a robot's panel needs of the room. */
+/** The ports of a robot's panel. */
 type ControlPorts = Speech & Lab & Catalogue & Surroundings & Checks
 
 type View = 'control' | 'motions' | 'end_effectors' | 'show' | 'compare' | 'check'
 
-/** The panel at a robot: its motions, play, timeline, rate, end effector, and why it halted. */
+/** The panel at a robot: its motions, play, timeline, rate, end effector, and the reason for a
+ * halt. */
 export class ControlPanel {
   readonly panel: Panel
   telemetry = false
@@ -217,7 +218,7 @@ export class ControlPanel {
     ]
   }
 
-  /** Say which row of the motion is at a position, s. */
+  /** Return the text of the row of the motion at a position, s. */
   private rowAt(position: number): string {
     const { playback } = this.robot
     const row = Math.round(position * (playback?.frame_rate ?? 0)) + 1

@@ -51,8 +51,8 @@ export class RobotPanels {
     return this.entries.get(name)?.control
   }
 
-  /** Take over the robots there are; return whether one has begun to halt. The members of a system
-   * have no panels of their own: the system's has all of them. */
+  /** Take over the present robots; return whether one has begun to halt. Members of a system have
+   * no panels of their own: the system has one for all. */
   show(views: readonly RobotView[]): boolean {
     let halts = false
     const wanted = new Set<string>()

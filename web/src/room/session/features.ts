@@ -10,13 +10,13 @@ export const WANTED = [
 
 /** Optional features that improve the picture. */
 export const EXTRA = ['light-estimation'] as const
-/** Asked for in passthrough where a person wants robots hidden behind real things. */
+/** Requested in passthrough if robots are to be hidden behind real things. */
 export const DEPTH = 'depth-sensing'
 
 export type Feature = (typeof WANTED)[number] | typeof DEPTH
 export type Mode = 'immersive-ar' | 'immersive-vr'
 
-/** Why there is no way into the room from here; empty: there is one. */
+/** The reason for which this browser cannot enter the room; empty: it can. */
 type Hindrance = '' | 'no_https' | 'no_webxr' | 'no_device' | 'blocked'
 
 /** The parts of a browser that tell its abilities. */
@@ -30,7 +30,7 @@ export interface Ability {
   readonly hindrance: Hindrance
 }
 
-/** Find out how the room can be entered: passthrough before a room of its own. */
+/** Return the way into the room: passthrough if possible, else a virtual room. */
 export async function abilityOf({ secure, xr }: XrPlatform): Promise<Ability> {
   if (!secure) return { mode: null, hindrance: 'no_https' }
   if (xr === undefined) return { mode: null, hindrance: 'no_webxr' }
@@ -39,7 +39,7 @@ export async function abilityOf({ secure, xr }: XrPlatform): Promise<Ability> {
       if (await xr.isSessionSupported(mode)) return { mode, hindrance: '' }
     }
   } catch {
-    // a permissions policy, or a person, said no
+    // A permissions policy or the person refused.
     return { mode: null, hindrance: 'blocked' }
   }
   return { mode: null, hindrance: 'no_device' }

@@ -27,7 +27,7 @@ export async function enter(
   }
   if (asked) {
     wanted.optionalFeatures?.push(DEPTH)
-    // the format is the device's choice: each is read as a number
+    // The device chooses the format: each is read as a number.
     wanted.depthSensing = { usagePreference: ['gpu-optimized'], dataFormatPreference: [] }
   }
   const session = await xr.requestSession(mode, wanted)
@@ -37,13 +37,13 @@ export async function enter(
   return { session, mode, missing: missingOf(session.enabledFeatures, asked) }
 }
 
-/** Run at 72 Hz where the device offers that: each picture then has 13.9 ms. */
+/** Run at 72 Hz if the device offers it: each picture then has 13.9 ms. */
 async function settle(session: XRSession): Promise<void> {
   const { supportedFrameRates } = session
   if (supportedFrameRates === undefined || ![...supportedFrameRates].includes(FRAME_RATE)) return
   try {
     await session.updateTargetFrameRate(FRAME_RATE)
   } catch {
-    // the device keeps its own
+    // The device keeps its own rate.
   }
 }

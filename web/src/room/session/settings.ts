@@ -43,7 +43,7 @@ export class Settings {
   readonly toured = new Switch('toured')
 }
 
-/** Return the id of this headset or browser, the same each time; other pages of it have it too. */
+/** Return the persistent id of this headset or browser, which its other pages share. */
 export function deviceId(): string {
   const key = `${PREFIX}device`
   const kept = localStorage.getItem(key)

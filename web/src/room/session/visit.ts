@@ -7,7 +7,7 @@ import type { RoomStage } from '../scene/stage'
 import type { Feature, Mode } from './features'
 import { enter, type RoomSession } from './session'
 
-/** m by which standing eyes are above sitting ones. */
+/** Height of standing eyes above sitting ones, m. */
 const LIFT = 0.4
 
 /** A person's stay in the room with a headset: the session and its pointers. */

@@ -25,7 +25,7 @@ const TRACK: Track = { x: EDGE, y: 248, width: WIDE, height: HIT }
 const ROW = 340
 const MOVING: ReadonlySet<number> = new Set([RobotSystem.STAGING, RobotSystem.PLAYING])
 
-/** Everything that a system's panel needs of the room. */
+/** The ports of a system's panel. */
 export type SystemPorts = Speech & Lab & Surroundings
 
 type View = 'control' | 'members' | 'confirm'

@@ -12,7 +12,7 @@ import type { Settings } from '../session/settings'
 import { type Seen, Tour } from './tour'
 import { TourPanel } from './tour_panel'
 
-/** mm that the figures of time take below the board. */
+/** Height of the figures of time below the board, mm. */
 const STATS = 172
 
 /** The parts of a room that the guide observes, or is placed at. */
@@ -51,13 +51,13 @@ export class Guide {
 
   /** Before each picture. inputs: of a headset; null: there is none. */
   update(inputs: XrInputs | null): void {
-    // before the lab has said which robots there are, none is new
+    // Before the lab has published its robots, none is new.
     const watches = this.tour.step !== null && this.room.follower.known.value
     if (watches && this.tour.see(this.seen())) this.panel.panel.repaint()
     const side = this.ports.leftHanded ? 'left' : 'right'
     const hand: Vector3 | null = inputs?.hand(side) ?? null
     const means = inputs === null ? 'mouse' : inputs.hasHands ? 'hand' : 'controller'
-    // below the figures, where those are shown
+    // Below the figures, if those are shown.
     this.panel.hang(this.room.stats.panel.group.visible ? STATS : 0)
     this.panel.update(means, hand)
   }

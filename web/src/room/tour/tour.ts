@@ -12,7 +12,7 @@ export interface Seen {
   readonly halted: boolean
 }
 
-/** A first walk through the room: a step ends when it is done, or is skipped. */
+/** A tour of the room: a step ends when it is done or skipped. */
 export class Tour {
   private index: number
   private scrubs = 0
@@ -44,7 +44,7 @@ export class Tour {
     this.halted = false
   }
 
-  /** Go on without having done it. */
+  /** Skip the step. */
   next(): void {
     if (this.step === null) return
     this.index++
@@ -84,7 +84,7 @@ export class Tour {
       case 'scrub':
         return seen.scrubs > this.scrubs
       case 'halt':
-        // it halted, and has been freed
+        // It halted, and was cleared.
         this.halted ||= seen.halted
         return this.halted && !seen.halted
       default:

@@ -36,12 +36,12 @@ export class TourPanel {
     board.add(this.panel.group)
   }
 
-  /** Hang so far below the board, mm, beside the usual. */
+  /** Set the additional distance below the board, mm. */
   hang(lower: number): void {
     this.panel.group.position.y = -(BOARD_HEIGHT / 2 + BELOW + HEIGHT / 2 + lower) * MM
   }
 
-  /** Before each picture. hand: where the working one is; null: there is none. */
+  /** Before each picture. hand: place of the working hand; null: there is none. */
   update(means: Means, hand: Vector3 | null): void {
     const { step } = this.tour
     this.panel.group.visible = step !== null
