@@ -233,7 +233,7 @@ export const en = {
     onlyFirst: (name: string) => `One file at a time: ${name} was taken.`,
     kept: (name: string) => `${name} and your choices are kept.`,
     stages: {
-      sending: (percent: number) => `Sending, ${percent} %`,
+      sending: (percent: number) => `Sending, ${percent}%`,
       converting: 'Reading and checking…',
       loading: 'Loading the motion…',
     },
@@ -650,7 +650,7 @@ export const en = {
     noBags: 'The lab has no recording yet.',
     stats: 'Latency and frame time',
     statsFrame: (ms: string, rate: string) => `${ms} ms a frame, ${rate} frames a second`,
-    statsAge: (p50: string, p95: string) => `Joint states are ${p50} ms old, 95 % under ${p95} ms`,
+    statsAge: (p50: string, p95: string) => `Joint states are ${p50} ms old, 95% under ${p95} ms`,
     statsTrip: (ms: string) => `Round trip to the gateway: ${ms} ms`,
     statsNone: 'No joint states came in the last second.',
     holdsNow: (object: string, mass: string, payload: string) =>
