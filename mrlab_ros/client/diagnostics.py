@@ -24,7 +24,7 @@ PLAYBACK_GONE = Code(
     "The playback of {robot} was restarted, or stood aside for a replay.",
     "Look where the robot stands, and play on from there.",
     meaning="A run was interrupted by the end of its process.",
-    commands=("status", "resume {robot}"),
+    commands=("mrlab status", "mrlab resume {robot}"),
 )
 ENDED_EARLY = Code(
     "ended_early",
@@ -35,14 +35,14 @@ DOES_NOT_MOVE = Code(
     "does_not_move",
     "{robot} accepted play but does not move after {timeout:time}.",
     meaning="Nothing was heard of a run that was begun.",
-    commands=("status",),
+    commands=("mrlab status",),
 )
 RUN_SILENT = Code(
     "run_silent",
     "{robot} moved and has said nothing for {silent:integer} s: it was removed, or its part of "
     "the lab has ended.",
     meaning="A robot that moves reports several times a second.",
-    commands=("status",),
+    commands=("mrlab status",),
 )
 BAD_BASE_PLACE = Code(
     "bad_base_place",

@@ -92,15 +92,18 @@ def halted(robot: str, why: Diagnostic, objects: Collection[str] = ()) -> Diagno
 
     why: what its state says. objects: the names of those in the scene, which can be removed.
     """
-    place, resume = Fix(command=f"place {robot} --at X,Y"), Fix(command=f"resume {robot}")
+    place, resume = (
+        Fix(command=f"mrlab place {robot} --at X,Y"),
+        Fix(command=f"mrlab resume {robot}"),
+    )
     reason = why if why.message else None
     if why.message and why.code != HALTED_BY_CONTACT.code:
         # It was taken elsewhere already; what it touches there is not said.
-        fixes = (Fix(command="objects list"), place, resume)
+        fixes = (Fix(command="mrlab objects list"), place, resume)
         return say.STILL_HALTED(robot=robot, why=reason, fixes=fixes)
     other = why.values.get("other", "")
-    remove = (Fix(command=f"objects remove {other}"),) if other in objects else ()
-    fixes = (Fix(command=f"stop {robot}"), *remove, place, resume)
+    remove = (Fix(command=f"mrlab objects remove {other}"),) if other in objects else ()
+    fixes = (Fix(command=f"mrlab stop {robot}"), *remove, place, resume)
     return say.HALTED(robot=robot, why=reason, fixes=fixes)
 
 

@@ -58,7 +58,7 @@ def doctor(
     else:
         for finding in findings:
             print(f"{'FAIL' if finding.refuses else 'ok  '} {finding.message}")
-            fixes = [f"try: mrlab {fix.command}" for fix in finding.fixes if fix.command]
+            fixes = [f"try: {fix.command}" for fix in finding.fixes if fix.command]
             for line in filter(None, (finding.remedy, *fixes)):
                 print(f"     {line}")
     if any(finding.refuses for finding in findings):

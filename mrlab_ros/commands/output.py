@@ -54,7 +54,7 @@ def with_fixes(found: Diagnostic) -> str:
 def _tries(found: Diagnostic) -> list[str]:
     # A name of a file in a command may have a line end.
     commands = dict.fromkeys(fix.command for fix in all_fixes(found) if fix.command)
-    return [f"  try: mrlab {visible(command)}" for command in commands]
+    return [f"  try: {visible(command)}" for command in commands]
 
 
 def all_fixes(found: object) -> Iterator[Fix]:

@@ -314,7 +314,7 @@ def import_robot(
         options = ["--id", robot_id] * bool(robot_id)
         options += [word for pair in package or () for word in ("--package", pair)]
         again = for_shell([*source, *options, "--tip", str(found.values["tip"])])
-        fix = Fix(command=f"robots import {again}")
+        fix = Fix(command=f"mrlab robots import {again}")
         raise BadInput(replace(found, fixes=(fix,))) from None
     if not as_json:
         _print(imported.findings)

@@ -159,7 +159,7 @@ def opened(folder: Path | None, url: str) -> Iterator[Users]:
     elif running is not None:
         raise Misuse(ONE_LOCAL_USER(fixes=WITH_KEYS))
     else:
-        raise BadInput(NO_USERS_HERE(fixes=(Fix(command="keys init"),)))
+        raise BadInput(NO_USERS_HERE(fixes=(Fix(command="mrlab keys init"),)))
     database = Database(file)
     try:
         yield Users(Accounts(database), (url or address).rstrip("/"))

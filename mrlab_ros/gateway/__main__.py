@@ -54,7 +54,7 @@ def main() -> None:
     except LabError as error:
         logging.error("%s", error)
         for fix in error.diagnostic.fixes:
-            logging.error("try: mrlab %s", fix.command)
+            logging.error("try: %s", fix.command)
         lasting = isinstance(error, BadInput) and not isinstance(error, Unavailable)
         sys.exit(WRONG_CONFIGURATION if lasting else 1)
 
@@ -150,7 +150,7 @@ def listen(settings: Settings) -> socket.socket:
     except OSError as error:
         listening.close()
         why = os.strerror(error.errno or 0)
-        fixes = (Fix(command="up --http HOST:PORT"),)
+        fixes = (Fix(command="mrlab up --http HOST:PORT"),)
         raise Unavailable(
             PORT_TAKEN(host=settings.host, port=settings.port, why=why, fixes=fixes)
         ) from error

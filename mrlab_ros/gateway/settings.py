@@ -87,17 +87,17 @@ class Settings:
         if (self.certificate is None) != (self.certificate_key is None):
             raise BadInput(CERTIFICATE_WITHOUT_KEY())
         if not (self.https or self.insecure or is_loopback(self.host)):
-            ways = ("keys init", "up --keys keys", "up --insecure")
+            ways = ("mrlab keys init", "mrlab up --keys keys", "mrlab up --insecure")
             fixes = tuple(Fix(command=way) for way in ways)
             raise BadInput(OPEN_TO_NETWORK(host=self.host, port=self.port, fixes=fixes))
         if self.classroom is not None and not (self.classroom / CLASS_FILE).is_file():
-            make = Fix(command="class SUBMISSIONS --rubric RUBRIC.yaml --out FOLDER")
+            make = Fix(command="mrlab class SUBMISSIONS --rubric RUBRIC.yaml --out FOLDER")
             folder = str(self.classroom)
             raise BadInput(NO_CLASS_FILE(file=CLASS_FILE, folder=folder, fixes=(make,)))
         if self.https:
             for file in (self.certificate_file, self.certificate_key_file):
                 if not file.is_file():
-                    make = Fix(command="keys init")
+                    make = Fix(command="mrlab keys init")
                     raise BadInput(NO_HTTPS_FILE(path=str(file), fixes=(make,)))
             people.check(self.certificate_key_file)
 

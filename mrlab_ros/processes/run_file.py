@@ -130,7 +130,7 @@ def nobody(domain: int, labs: Sequence[int]) -> Diagnostic:
     """Return what to say of an empty domain; labs: the domains on which this user runs labs."""
     if labs:
         return LABS_ELSEWHERE(domain=domain, labs=list(labs))
-    return NO_LAB_ANSWERS(domain=domain, fixes=(Fix(command="up"),))
+    return NO_LAB_ANSWERS(domain=domain, fixes=(Fix(command="mrlab up"),))
 
 
 def _locked(file: IO[bytes], kind: int) -> bool:

@@ -13,7 +13,7 @@ NOT_OFFERED = Code(
     "not_offered",
     "Nobody offers {service}[ on ROS domain {domain:integer}]; that part of the lab may not run.",
     meaning="A service of the graph is not there.",
-    commands=("status",),
+    commands=("mrlab status",),
 )
 SERVICE_ENDED = Code(
     "service_ended",
@@ -37,13 +37,13 @@ NOTHING_CAME = Code(
     "nothing_came",
     "Nothing came on {topic} within {timeout:time}; that part of the lab may not run.",
     meaning="A topic was waited for.",
-    commands=("status",),
+    commands=("mrlab status",),
 )
 NOT_AS_AWAITED = Code(
     "not_as_awaited",
     "What was waited for did not come on {topic} within {timeout:time}.",
     meaning="A topic was waited for until it says something.",
-    commands=("status",),
+    commands=("mrlab status",),
 )
 NO_LAB_ANSWERS = Code(
     "no_lab_answers",

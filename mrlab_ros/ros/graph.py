@@ -152,7 +152,7 @@ class GraphClient(ABC):
                 robot=name,
                 known=known,
                 close=close_to(name, known),
-                fixes=() if known else (Fix(command="spawn ur5e"),),
+                fixes=() if known else (Fix(command="mrlab spawn ur5e"),),
             )
         )
 
@@ -166,4 +166,4 @@ class GraphClient(ABC):
 
     def advice(self) -> tuple[Fix, ...]:
         """Return what to do where a part of the lab does not answer."""
-        return (Fix(command="status" if "lab" in self.node_names() else "up"),)
+        return (Fix(command="mrlab status" if "lab" in self.node_names() else "up"),)

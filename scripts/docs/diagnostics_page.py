@@ -86,9 +86,10 @@ def current(root: Path) -> str:
         "Whatever a person is told has a stable code and typed values beside its text: in the",
         "JSON of the commands and of the gateway, in every service response, state and",
         "diagnostic of the graph. Programs read code and values; texts may change with any",
-        "release. An ERROR refuses, a WARNING doubts, an INFO informs; a line beside that says when",
-        "a code is raised, where its text does not. Angles are rad, lengths m, times s on the wire;",
-        "the texts show degrees and mm. This page is generated from the tables beside the code.",
+        "release. An ERROR refuses, a WARNING doubts, an INFO informs; a line beside that says",
+        "when a code is raised, where its text does not. Angles are rad, lengths m, times s on",
+        "the wire; the texts show degrees and mm. This page is generated from the tables beside",
+        "the code.",
     ]
     for module, codes in tables(root).items():
         room = module.removeprefix("mrlab_ros.").removesuffix(".diagnostics").replace(".", "/")
@@ -114,4 +115,4 @@ def _entry(code: Code) -> Iterator[str]:
         ]
         yield from ("", f"Fix: {', or '.join(filter(None, ways))}")
     for words in code.commands:
-        yield from ("", f"Fix: `mrlab {words}`")
+        yield from ("", f"Fix: `{words}`")

@@ -192,7 +192,7 @@ def test_a_bag_without_a_session_says_what_it_has(tmp_path: Path) -> None:
     assert trouble["code"] == "bag_without_robots"
     assert trouble["values"]["topics"] == ["/joint_states", "/secret"]
     assert trouble["values"]["types"][0] == "sensor_msgs/msg/JointState"
-    assert trouble["fixes"][0]["command"].startswith("bag import ")
+    assert trouble["fixes"][0]["command"].startswith("mrlab bag import ")
 
 
 def troubles(bag: Path, *options: object) -> list[dict[str, Any]]:
@@ -310,7 +310,7 @@ def test_a_foreign_bag_is_refused_with_what_it_holds(tmp_path: Path) -> None:
         run("bag", "import", source, tmp_path / "mine", "--robot", "kuka_kr3_r540")
     with refused(BAG_WITHOUT_FILES, BadInput) as caught:
         run("bag", "repair", source)
-    assert caught.value.diagnostic.fixes[0].command == f"bag import '{source}' NEW_FOLDER"
+    assert caught.value.diagnostic.fixes[0].command == f"mrlab bag import '{source}' NEW_FOLDER"
     (tmp_path / "no.db3").write_bytes(b"no database")
     (tmp_path / "cut.db3").write_bytes(b"SQLite format 3\0" + bytes(99))
     (tmp_path / "lone.mcap.zst").write_bytes(zstandard.compress(b"\x89MCAP0\r\n"))

@@ -128,9 +128,8 @@ NOT_ROS_BAG = Code(
 DATABASE_DAMAGED = Code(
     "database_damaged",
     "{path} is damaged ({problem}).",
-    "Bring back a copy, or read on with what is left: {rescue}",
-    meaning="A database of sqlite3 is damaged; `rescue` is a line for the shell that copies what "
-    "can be read.",
+    "Bring back a copy, or read on with what is left.",
+    meaning="A database of sqlite3 is damaged.",
 )
 MESSAGE_TOO_LARGE = Code(
     "message_too_large", "A message of {topic} holds more than {limit:bytes}."

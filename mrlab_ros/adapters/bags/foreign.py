@@ -73,7 +73,7 @@ class Imported:
     def said(self, name: str) -> Diagnostic:
         """Return what is said of it; name: of the bag."""
         notes = [JOINTS_MOVE(robot=name, model=model) for name, model in self.robots.items()]
-        adding = (Fix(command="robots import URDF"),)
+        adding = (Fix(command="mrlab robots import URDF"),)
         notes += [
             MOVES_NO_ROBOT(topic=topic, joints=joints, fixes=adding)
             for topic, joints in self.strange.items()

@@ -190,7 +190,9 @@ def readable(path: Path) -> Iterator[None]:
         found = _lacking(path) or NOT_ROS_BAG(path=str(path), why=str(error))
         # Of apsw's errors, which rosbags may wrap; the lower byte is the kind.
         if getattr(error.__cause__ or error, "extendedresult", 0) & 0xFF == SQLITE_CORRUPT:
-            found = DATABASE_DAMAGED(path=str(path), problem=str(error), rescue=_rescue(path))
+            found = DATABASE_DAMAGED(
+                path=str(path), problem=str(error), fixes=(Fix(command=_rescue(path)),)
+            )
         raise BadInput(found) from None
 
 
@@ -205,7 +207,7 @@ def _lacking(path: Path) -> Diagnostic | None:
     if not missing:
         return None
     others = [f for f in sorted(path.glob("*.db3"), key=number_of) if f.name not in listed]
-    alone = tuple(Fix(command=f"bag info {for_shell([str(other)])}") for other in others[:1])
+    alone = tuple(Fix(command=f"mrlab bag info {for_shell([str(other)])}") for other in others[:1])
     return BAG_LACKS_FILES(path=str(path), files=missing, fixes=alone)
 
 

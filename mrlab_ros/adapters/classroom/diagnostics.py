@@ -54,10 +54,12 @@ SCHEDULER_NEEDS_CLUSTER = Code(
 )
 SCHEDULER_NOT_REACHED = Code(
     "scheduler_not_reached",
-    "The dask scheduler {address} is not reached ({why:problem}); start one: dask scheduler",
+    "The dask scheduler {address} is not reached ({why:problem}).",
+    "Start one.",
+    commands=("dask scheduler",),
 )
 BACKEND_NOT_INSTALLED = Code(
     "backend_not_installed",
     "The backend {backend} needs packages that are not installed ({missing}).",
-    "Run: pip install {packages}",
+    "Install them.",
 )

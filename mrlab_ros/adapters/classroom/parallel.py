@@ -15,6 +15,7 @@ from mrlab_ros.adapters.classroom.diagnostics import (
     SCHEDULER_NOT_REACHED,
     UNKNOWN_BACKEND,
 )
+from mrlab_ros.core.base.diagnostic import Fix
 from mrlab_ros.core.base.errors import BadInput, Misuse
 
 Task = TypeVar("Task")
@@ -116,7 +117,7 @@ def _backend(backend: str, jobs: int, scheduler: str) -> Iterator[None]:
             finally:
                 get_reusable_executor().shutdown(wait=False, kill_workers=True)
     except ImportError as error:
-        packages = EXTRAS.get(backend, "joblib")
+        install = Fix(command=f"pip install {EXTRAS.get(backend, 'joblib')}")
         raise BadInput(
-            BACKEND_NOT_INSTALLED(backend=backend, missing=str(error.name), packages=packages)
+            BACKEND_NOT_INSTALLED(backend=backend, missing=str(error.name), fixes=(install,))
         ) from None

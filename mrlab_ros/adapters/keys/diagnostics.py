@@ -10,7 +10,8 @@ KEY_FILE_UNREADABLE = Code("key_file_unreadable", "{path} cannot be read: {why:p
 KEY_FILE_OPEN = Code(
     "key_file_open",
     "{path} can be read by others on this machine (mode {mode}).",
-    "Take that away with: chmod 600 {path}",
+    "Take that right away.",
+    commands=("chmod 600 {path}",),
 )
 FOLDER_NOT_EMPTY = Code(
     "keys_folder_not_empty",

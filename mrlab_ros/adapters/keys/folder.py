@@ -77,7 +77,7 @@ class Keys:
         """Make a folder with an authority and the lab's certificate; Misuse where one exists."""
         folder = folder.expanduser().resolve()
         if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
-            fixes = (Fix(command="keys init --dir FOLDER"),)
+            fixes = (Fix(command="mrlab keys init --dir FOLDER"),)
             raise Misuse(FOLDER_NOT_EMPTY(folder=str(folder), fixes=fixes))
         mark = secrets.token_hex(3)
         authority = certificates.authority(f"MR-Lab authority {mark}", now, AUTHORITY_LIFETIME)
@@ -217,7 +217,7 @@ class Keys:
         try:
             certificates.check(authority, authority, now, self.folder / "ca.pem")
         except BadInput as error:
-            make = Fix(command="keys init --dir FOLDER")
+            make = Fix(command="mrlab keys init --dir FOLDER")
             raise BadInput(NEW_KEYS_NEEDED(why=error, fixes=(make,))) from error
         try:
             path = self.folder / "server.pem"
@@ -254,7 +254,7 @@ class Keys:
         file of its own.
         """
         if self.login.by_password:
-            fixes = (Fix(command="keys init --login certificate"),)
+            fixes = (Fix(command="mrlab keys init --login certificate"),)
             folder, login = str(self.folder), self.login.value
             raise Misuse(ROUTER_TAKES_CERTIFICATES(folder=folder, login=login, fixes=fixes))
         with self._alone():
@@ -302,7 +302,7 @@ class Keys:
         return found
 
     def _fix(self, command: str) -> Fix:
-        return Fix(command=for_shell(["keys", command, "--dir", str(self.folder)]))
+        return Fix(command=for_shell(["mrlab", "keys", command, "--dir", str(self.folder)]))
 
     @classmethod
     @contextmanager

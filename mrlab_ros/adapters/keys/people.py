@@ -57,7 +57,9 @@ def check(path: Path) -> None:
     try:
         mode = stat.S_IMODE(path.stat().st_mode)
     except FileNotFoundError as error:
-        raise BadInput(NO_KEY_FILE(path=str(path), fixes=(Fix(command="keys init"),))) from error
+        raise BadInput(
+            NO_KEY_FILE(path=str(path), fixes=(Fix(command="mrlab keys init"),))
+        ) from error
     except OSError as error:
         why = os.strerror(error.errno or 0)
         raise BadInput(KEY_FILE_UNREADABLE(path=str(path), why=why)) from error
@@ -120,13 +122,13 @@ class People:
             )
         except FileNotFoundError as error:
             folder = str(path.parent)
-            make = Fix(command=for_shell(["keys", "init", "--dir", folder]))
+            make = Fix(command=for_shell(["mrlab", "keys", "init", "--dir", folder]))
             raise BadInput(NO_KEYS(folder=folder, fixes=(make,))) from error
         except OSError as error:
             why = os.strerror(error.errno or 0)
             raise BadInput(KEY_FILE_UNREADABLE(path=str(path), why=why)) from error
         except (ValueError, KeyError, TypeError) as error:
-            why, fixes = f"{type(error).__name__}: {error}", (Fix(command="keys init"),)
+            why, fixes = f"{type(error).__name__}: {error}", (Fix(command="mrlab keys init"),)
             raise BadInput(KEYS_DAMAGED(path=str(path), why=why, fixes=fixes)) from error
 
     def write(self, path: Path) -> None:
@@ -157,7 +159,7 @@ class People:
         if not NAME.fullmatch(name) or name in (NOBODY, GATEWAY):
             raise BadInput(BAD_KEY_NAME(name=name, reserved=[NOBODY, GATEWAY]))
         if name in self.by_name:
-            role, revoke = self.by_name[name].person.role.value, f"keys revoke {name}"
+            role, revoke = self.by_name[name].person.role.value, f"mrlab keys revoke {name}"
             raise Misuse(HAS_KEY(name=name, role=role, fixes=(Fix(command=revoke),)))
 
 

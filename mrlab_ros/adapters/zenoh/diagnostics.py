@@ -34,11 +34,11 @@ NO_LAB_AT = Code(
     "no_lab_at",
     "No lab answers at {endpoint}: {why:problem}.",
     meaning="A client of zenoh finds nobody at an endpoint.",
-    commands=("status",),
+    commands=("mrlab status",),
 )
 NOTHING_ANSWERS = Code(
     "nothing_answers",
     "Nothing answers {key}.",
     meaning="A query of zenoh got no reply.",
-    commands=("status",),
+    commands=("mrlab status",),
 )

@@ -108,7 +108,7 @@ def read(file: Path, scene: SceneDocument, named: str) -> tuple[SystemEntry, Sce
     else:
         systems = scene_document.parse_cell(content, file.name)
         if not named:
-            command = f"check {for_shell([str(file)])} --scene handover"
+            command = f"mrlab check {for_shell([str(file)])} --scene handover"
             raise Misuse(PLACES_NOT_KNOWN(file=file.name, fixes=(Fix(command=command),)))
     if len(systems) != 1:
         names = [system.name for system in systems]
@@ -158,7 +158,7 @@ def load(
         if result.trajectory is None:
             why = next((d for d in result.diagnostics if d.refuses), of_text(result.message))
             path, model, _ = keys[name]
-            command = f"check {for_shell([str(path)])} --robot {model}"
+            command = f"mrlab check {for_shell([str(path)])} --robot {model}"
             raise BadInput(
                 MEMBER_REFUSED(
                     robot=name, file=result.file, why=why, fixes=(Fix(command=command),)

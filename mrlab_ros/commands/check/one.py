@@ -146,7 +146,7 @@ def _converted(file: Path, entry: RobotEntry, setting: Setting) -> ConversionRes
 
 def _of_another_robot(t: Trajectory, file: str, model: str) -> ConversionResult:
     """Return the refusal of a trajectory file that is for another robot than is checked."""
-    fixes = (Fix(command=f"convert FILE --robot {model}"),)
+    fixes = (Fix(command=f"mrlab convert FILE --robot {model}"),)
     return _refused(
         file, MOTION_OF_ANOTHER_ROBOT(file=file, found=t.robot_model, model=model, fixes=fixes)
     )

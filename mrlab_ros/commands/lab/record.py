@@ -42,14 +42,14 @@ SILENCE = 5.0
 # A recorder that died is back by then: the supervisor starts it again, s.
 RETURN = 20.0
 # A bag of such a name is a command that was meant otherwise.
-COMMANDS = {"stop": "record --stop", "start": "record"}
+COMMANDS = {"stop": "mrlab record --stop", "start": "mrlab record"}
 # A recorder answers by then, but where it closes a bag of hours or is frozen, s.
 ANSWER_S = 3.5
 # A process gives a sign of life once a second; one without any for this long is frozen, s.
 FROZEN_S = 2.5
 # A bag of hours is closed by then, s.
 STOP_TIMEOUT_S = 30.0
-TO_END = (*ENDING, Fix(command="status"))
+TO_END = (*ENDING, Fix(command="mrlab status"))
 
 
 def record(
@@ -163,7 +163,7 @@ def _end(bag: Path | None, *, as_json: bool) -> None:
     with open_graph() as graph:
         state = graph.watch(msg.RecorderState, "/recorder/state").wait(lambda _: True, SILENCE)
         if state.state != msg.RecorderState.RECORDING:
-            raise Misuse(NO_RECORDING(fixes=(Fix(command="record"),)))
+            raise Misuse(NO_RECORDING(fixes=(Fix(command="mrlab record"),)))
         said = _stop(graph, lambda: size_of(state.bag))
     say(said, as_json=as_json, bag=state.bag)
 
@@ -185,7 +185,7 @@ def _follow(
     said: Diagnostic | None = None
     received_at, began, waiting = time.monotonic(), False, False
     grown_at, known = received_at, 0
-    looking = (Fix(command=f"bag info {for_shell([bag])}"),)
+    looking = (Fix(command=f"mrlab bag info {for_shell([bag])}"),)
     while True:
         state = watch.value
         if state is not None and state is not last:

@@ -21,7 +21,7 @@ def reference_of(file: Path, model: str) -> Reference:
     library = RobotLibrary(share.directory() / "robots")
     result = convert_file(file, library.model(model), Options(), None)
     if result.trajectory is None:
-        converting = f"convert {for_shell([str(file)])} --robot {model} --out ."
+        converting = f"mrlab convert {for_shell([str(file)])} --robot {model} --out ."
         raise BadInput(
             REFERENCE_REFUSED(
                 file=file.name,

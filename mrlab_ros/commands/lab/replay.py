@@ -149,7 +149,7 @@ def _follow(watch: Watch[Any], keyboard: Keyboard | None, show: Callable[[Any], 
         if state is not last:
             last, received_at = state, time.monotonic()
         elif time.monotonic() - received_at > SILENCE:
-            raise LabError(RECORDER_SILENT(silent=SILENCE, fixes=(Fix(command="status"),)))
+            raise LabError(RECORDER_SILENT(silent=SILENCE, fixes=(Fix(command="mrlab status"),)))
         show(state)
         if keyboard is None:
             time.sleep(REFRESH)

@@ -183,7 +183,7 @@ def _graph() -> GraphClient:
     try:
         graph.robots()
         if not graph.is_offered(CATALOGUE):
-            raise Misuse(NO_PHYSICS_HERE(fixes=(Fix(command="up --physics"),)))
+            raise Misuse(NO_PHYSICS_HERE(fixes=(Fix(command="mrlab up --physics"),)))
     except BaseException:
         graph.close()
         raise

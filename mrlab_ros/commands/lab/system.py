@@ -342,7 +342,7 @@ def _system(graph: GraphClient, name: str) -> Any:
         if system.name == name:
             return system
     known = [system.name for system in systems]
-    fixes = () if known else (Fix(command="system create cell.yaml"),)
+    fixes = () if known else (Fix(command="mrlab system create cell.yaml"),)
     close = close_to(name, known)
     raise Misuse(NO_SYSTEM(system=name, known=known, close=close, fixes=fixes))
 

@@ -84,7 +84,7 @@ def tell_when_keys_expire(
     left = (Keys(folder).server_expires(router=router) - now()).days
     if left < EXPIRES_SOON:
         commands = ("keys renew", *(("keys router",) if router else ()))
-        fixes = tuple(Fix(command=f"{each} --dir {folder}") for each in commands)
+        fixes = tuple(Fix(command=f"mrlab {each} --dir {folder}") for each in commands)
         say(SELF, with_fixes(KEYS_EXPIRE(days=left, fixes=fixes)))
 
 

@@ -52,7 +52,7 @@ class Fix:
     """One way to mend what was found; every field may be empty.
 
     option: a field of ConvertTrajectory. value: what to set it to, as text. matlab: statements
-    that do the same in MATLAB. command: the words of an `mrlab` command line, without `mrlab`.
+    that do the same in MATLAB. command: a command line of a shell.
     """
 
     option: str = ""
@@ -167,8 +167,8 @@ class Code:
 
     text, remedy: templates (`phrase.py`) of one or more sentences. meaning: one sentence for the
     generated page of codes. fixes: each (option, value, MATLAB); templates of `str.format`, in
-    which `{name:matlab}` is a variable as MATLAB takes it. commands: fixes that are command lines,
-    templates of the words after `mrlab`. data: names of further values.
+    which `{name:matlab}` is a variable as MATLAB takes it. commands: fixes that are command lines
+    of a shell; templates, too. data: names of further values.
     """
 
     code: str

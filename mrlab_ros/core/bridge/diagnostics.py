@@ -60,7 +60,7 @@ TLS_NEEDS_KEYS = Code(
     "The bridge is to listen on {endpoint}, and for {protocol} it needs keys.",
     "Make them and name their folder (the parameter keys).",
     meaning="TLS needs a certificate.",
-    commands=("keys init", "up --keys FOLDER"),
+    commands=("mrlab keys init", "mrlab up --keys FOLDER"),
 )
 OPEN_ENDPOINT = Code(
     "open_endpoint",
@@ -68,7 +68,7 @@ OPEN_ENDPOINT = Code(
     "robots.",
     "Give the lab keys, listen on tcp/127.0.0.1, or accept it with the parameter insecure.",
     meaning="An endpoint that other machines reach without encryption.",
-    commands=("keys init", "up --keys FOLDER", "up --insecure"),
+    commands=("mrlab keys init", "mrlab up --keys FOLDER", "mrlab up --insecure"),
 )
 CONFIG_AND_KEYS = Code(
     "config_and_keys",

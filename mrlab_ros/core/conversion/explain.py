@@ -149,7 +149,7 @@ def refusal(survey: Survey, file: str) -> Diagnostic:
 
 
 def _recorded(variable: Variable, survey: Survey) -> Diagnostic:
-    replay = Fix(command="replay BAG"), Fix(command="bag import BAG SESSION")
+    replay = Fix(command="mrlab replay BAG"), Fix(command="mrlab bag import BAG SESSION")
     return RECORDED_STATES(variable=variable.path, fixes=replay)
 
 

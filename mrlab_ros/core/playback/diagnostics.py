@@ -153,7 +153,7 @@ MEMBER_OF_SYSTEM = Code(
     "The robot[ {robot}] is already a member of system '{system}'.",
     "Dissolve that system first.",
     meaning="A robot is a member of at most one system.",
-    commands=("system dissolve {system}",),
+    commands=("mrlab system dissolve {system}",),
 )
 NOT_STANDING = Code(
     "not_standing",
@@ -166,7 +166,7 @@ DRIVEN_BY_SYSTEM = Code(
     "The robot is driven by system '{system}'.",
     "Command the system, or dissolve it to set the robot free.",
     meaning="A member of a system takes commands of that system alone.",
-    commands=("system dissolve {system}",),
+    commands=("mrlab system dissolve {system}",),
 )
 NOT_DRIVEN_BY = Code(
     "not_driven_by",

@@ -159,14 +159,14 @@ NOTHING_RUNS = Code("nothing_runs", "nothing is recorded or replayed", severity=
 
 
 # Ends the recording that runs.
-ENDING = (Fix(command="record --stop"),)
+ENDING = (Fix(command="mrlab record --stop"),)
 
 
 def importing(path: object) -> tuple[Fix, ...]:
     """Return the fix that makes a bag of the lab of another one."""
-    return (Fix(command=f"bag import {for_shell([str(path)])} NEW_FOLDER"),)
+    return (Fix(command=f"mrlab bag import {for_shell([str(path)])} NEW_FOLDER"),)
 
 
 def repairing(path: object) -> tuple[Fix, ...]:
     """Return the fix that rewrites a bag."""
-    return (Fix(command=f"bag repair {for_shell([str(path)])}"),)
+    return (Fix(command=f"mrlab bag repair {for_shell([str(path)])}"),)

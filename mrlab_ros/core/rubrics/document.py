@@ -67,7 +67,7 @@ def parse(document: object, origin: str, lines: Lines | None = None) -> Rubric:
     record = Record(document, origin, FIELDS)
     entries = record.entries("tests")
     if not 0 < len(entries) <= MOST_TESTS:
-        fixes = (Fix(command="rubric example"),)
+        fixes = (Fix(command="mrlab rubric example"),)
         raise record.error(TEST_COUNT(count=len(entries), most=MOST_TESTS, fixes=fixes))
     closest = record.optional("closest", TEXT)
     try:

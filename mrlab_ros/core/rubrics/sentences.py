@@ -165,7 +165,7 @@ def form_of(sentence: str, forms: Iterable[Form]) -> tuple[Form, dict[str, Any]]
         key=lambda i: difflib.SequenceMatcher(None, wanted, bones[i]).ratio(),
         reverse=True,
     )
-    fixes = (Fix(command="rubric measures"),)
+    fixes = (Fix(command="mrlab rubric measures"),)
     close = [known[i].text for i in ranked[:2]]
     raise BadInput(UNKNOWN_SENTENCE(text=plain, close=close, fixes=fixes))
 

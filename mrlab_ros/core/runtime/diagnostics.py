@@ -111,7 +111,8 @@ MODULE_THERE = Code("module_there", "{module}: there", severity=INFO)
 MODULE_MISSING = Code(
     "module_missing",
     "{module} is missing; the lab runs without physics: no contacts, no grasps",
-    "pip install {module}",
+    "Install it.",
+    commands=("pip install {module}",),
 )
 MODULE_WITHOUT_WHEEL = Code(
     "module_without_wheel",
@@ -154,7 +155,7 @@ GATEWAY_SILENT = Code(
     "gateway {url}: {why:problem}",
     "Start the lab; for other machines with keys or a certificate, and with its port open in the "
     "firewall.",
-    commands=("up",),
+    commands=("mrlab up",),
 )
 GATEWAY_SAME = Code(
     "gateway_same", "gateway {url}: version {version}, as this machine", severity=INFO
@@ -170,14 +171,15 @@ CLOCKS_AGREE = Code(
 CLOCKS_DIFFER = Code(
     "clocks_differ",
     "clocks: {offset:time} between the gateway and this machine; expected {limit:time} at most",
-    "Switch on time synchronisation on both: timedatectl set-ntp true",
+    "Switch on time synchronisation on both.",
+    commands=("timedatectl set-ntp true",),
 )
 CERTIFICATE_LASTS = Code("certificate_lasts", "certificate {path} expires {day}", severity=INFO)
 CERTIFICATE_ENDS = Code(
     "certificate_ends",
     "certificate {path} expires {day}",
     "Make a new one.",
-    commands=("keys renew",),
+    commands=("mrlab keys renew",),
 )
 STORE_WRITABLE = Code("store_writable", "store: {folder} can be written", severity=INFO)
 STORE_READ_ONLY = Code(

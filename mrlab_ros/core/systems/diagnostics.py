@@ -195,7 +195,7 @@ PLAYBACK_SILENT = Code(
     "The playback of {robots:list} did not answer within {timeout:time}.",
     "Try again.",
     meaning="An order was sent to a host of playbacks that did not answer.",
-    commands=("status",),
+    commands=("mrlab status",),
 )
 
 # waits and the timeline

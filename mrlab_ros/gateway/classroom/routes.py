@@ -26,7 +26,7 @@ def class_of(request: Request) -> ClassFolder:
     """Return the class of a gateway, as a dependency; raises NotFound where it shows none."""
     found: ClassFolder | None = request.app.state.classroom
     if found is None:
-        raise NotFound(NO_CLASS(fixes=(Fix(command="up --class FOLDER"),)))
+        raise NotFound(NO_CLASS(fixes=(Fix(command="mrlab up --class FOLDER"),)))
     return found
 
 

@@ -262,7 +262,7 @@ class ZenohLab:
         await done.wait()
         if refusals and not answers:
             if refusals[0] is None:
-                fixes = (Fix(command="status"),)
+                fixes = (Fix(command="mrlab status"),)
                 raise TimedOut(CALL_TIMED_OUT(key=key, timeout=timeout_s, fixes=fixes))
             raise Refused(refusals[0])
         return answers

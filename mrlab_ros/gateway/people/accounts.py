@@ -98,7 +98,7 @@ class Accounts:
         """Return a person; raises NotFound where there is none."""
         rows = self._database.rows("SELECT * FROM people WHERE name = ?", name)
         if not rows:
-            raise NotFound(NO_PERSON(name=name[:60], fixes=(Fix(command="users list"),)))
+            raise NotFound(NO_PERSON(name=name[:60], fixes=(Fix(command="mrlab users list"),)))
         return _account(rows[0])
 
     def check_new(self, name: str) -> None:
@@ -214,7 +214,7 @@ def check_name(name: str) -> None:
 
 
 def _taken(name: str) -> Misuse:
-    return Misuse(PERSON_EXISTS(name=name, fixes=(Fix(command=f"users remove {name}"),)))
+    return Misuse(PERSON_EXISTS(name=name, fixes=(Fix(command=f"mrlab users remove {name}"),)))
 
 
 def _account(row: sqlite3.Row) -> Account:
@@ -223,4 +223,4 @@ def _account(row: sqlite3.Row) -> Account:
 
 
 def _no_link() -> NotFound:
-    return NotFound(LINK_USED(fixes=(Fix(command="users invite NAME"),)))
+    return NotFound(LINK_USED(fixes=(Fix(command="mrlab users invite NAME"),)))

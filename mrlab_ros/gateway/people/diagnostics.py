@@ -94,4 +94,4 @@ PROVIDER_OTHER = Code(
     "provider_other", "{url} is of another provider[: {issuer}], not of the configured one."
 )
 # How a lab is started for several people.
-WITH_KEYS = (Fix(command="keys init"), Fix(command="up --keys keys"))
+WITH_KEYS = (Fix(command="mrlab keys init"), Fix(command="mrlab up --keys keys"))

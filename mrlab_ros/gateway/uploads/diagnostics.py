@@ -7,7 +7,8 @@ from mrlab_ros.core.base.diagnostic import Code
 CAME_AS_FORM = Code(
     "came_as_form",
     "'{file}' came as a form.",
-    "Send the file itself as the body of the request, as curl -T does.",
+    "Send the file itself as the body of the request.",
+    commands=("curl -T {file} URL",),
 )
 BROKE_OFF = Code("upload_broke_off", "'{file}' broke off and nothing was kept.", "Send it again.")
 EMPTY_UPLOAD = Code("empty_upload", "'{file}' is empty.", "Save it again and send it.")

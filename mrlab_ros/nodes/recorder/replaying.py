@@ -252,7 +252,7 @@ class Replaying:
                     pass
         except Exception as error:
             path = str(self._bag.path)
-            looking = (Fix(command=f"bag info {for_shell([path])}"),)
+            looking = (Fix(command=f"mrlab bag info {for_shell([path])}"),)
             trouble = (
                 error.diagnostic
                 if isinstance(error, LabError)

@@ -53,24 +53,19 @@ def options_of(command: Any) -> set[str]:
 
 
 def texts(path: Path) -> Iterator[str]:
-    """Yield the texts of a source file, with X for what is filled in.
-
-    The command of a Fix, which has its words alone, follows mrlab as in the other texts.
-    """
+    """Yield the texts of a source file, with X for what is filled in."""
     if path.suffix == ".ts":
         yield from re.findall(r'"((?:[^"\\]|\\.)*)"', path.read_text())
         return
-    inside, before = set(), dict[int, str]()
+    inside = set[int]()
     for node in ast.walk(ast.parse(path.read_text())):
-        if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "Fix":
-            before |= {id(k.value): "mrlab " for k in node.keywords if k.arg == "command"}
         if isinstance(node, ast.JoinedStr):
             inside |= {id(value) for value in node.values}
-            yield before.get(id(node), "") + "".join(
+            yield "".join(
                 value.value if isinstance(value, ast.Constant) else "X" for value in node.values
             )
         elif isinstance(getattr(node, "value", None), str) and id(node) not in inside:
-            yield before.get(id(node), "") + node.value
+            yield node.value
 
 
 def fenced() -> Iterator[tuple[str, str]]:

@@ -83,10 +83,10 @@ def test_a_halt_names_what_ends_it_in_the_order_in_which_it_is_done():
     said = halted("ur5e_1", touches("cube_1"), ["cube_1"])
     assert said.code == "halted"
     assert commands(said) == [
-        "stop ur5e_1",
-        "objects remove cube_1",
-        "place ur5e_1 --at X,Y",
-        "resume ur5e_1",
+        "mrlab stop ur5e_1",
+        "mrlab objects remove cube_1",
+        "mrlab place ur5e_1 --at X,Y",
+        "mrlab resume ur5e_1",
     ]
 
 
@@ -94,13 +94,21 @@ def test_a_halt_names_what_ends_it_in_the_order_in_which_it_is_done():
 def test_a_halted_robot_that_was_taken_elsewhere_is_not_sent_there_again(why):
     said = halted("ur5e_1", why, ["cube_1"])
     assert (said.code, said.values["why"]) == ("still_halted", why)
-    assert commands(said) == ["objects list", "place ur5e_1 --at X,Y", "resume ur5e_1"]
+    assert commands(said) == [
+        "mrlab objects list",
+        "mrlab place ur5e_1 --at X,Y",
+        "mrlab resume ur5e_1",
+    ]
 
 
 def test_a_robot_or_a_surface_is_not_removed():
     for other in ("kuka_1", "floor"):
         said = halted("ur5e_1", touches(other), ["post"])
-        assert commands(said) == ["stop ur5e_1", "place ur5e_1 --at X,Y", "resume ur5e_1"]
+        assert commands(said) == [
+            "mrlab stop ur5e_1",
+            "mrlab place ur5e_1 --at X,Y",
+            "mrlab resume ur5e_1",
+        ]
 
 
 def test_a_halt_of_which_nothing_is_known_is_one():

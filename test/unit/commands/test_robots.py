@@ -29,4 +29,4 @@ def test_a_description_of_two_arms_is_imported_by_the_command_that_is_offered(tm
     with refused(ARMS_BRANCH, first=6, second=6, tip="l6") as caught:
         robots.import_robot([str(file)], robot_id="two")
     (fix,) = caught.value.diagnostic.fixes
-    assert fix.command == f"robots import '{file}' --id two --tip l6"
+    assert fix.command == f"mrlab robots import '{file}' --id two --tip l6"

@@ -75,7 +75,7 @@ def test_beyond_this_machine_there_is_https_or_nothing(keys: Keys, tmp_path: Pat
     with refused(OPEN_TO_NETWORK, BadInput, host="0.0.0.0") as caught:
         Settings(**here).check()
     commands = [fix.command for fix in caught.value.diagnostic.fixes]
-    assert commands == ["keys init", "up --keys keys", "up --insecure"]
+    assert commands == ["mrlab keys init", "mrlab up --keys keys", "mrlab up --insecure"]
     with refused(OPEN_TO_NETWORK, BadInput):
         Settings(**here, public_url="https://lab.example.org").check()
     Settings(**here, insecure=True).check()

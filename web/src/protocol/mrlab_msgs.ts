@@ -446,7 +446,7 @@ export interface Fix {
   value: string
   /** statements that do the same in MATLAB, such as q = unwrap(q); may be empty */
   matlab: string
-  /** words of an `mrlab` command line that mend it, such as "up --robots ur5e"; may be empty */
+  /** command line of a shell that mends it, such as "mrlab up --robots ur5e"; may be empty */
   command: string
 }
 

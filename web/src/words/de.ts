@@ -906,7 +906,7 @@ export const diagnostics: Templates = {
   back_at_begin: ['wieder am Anfang; wartet, bis es frei ist'],
   backend_not_installed: [
     'Das Backend {backend} braucht Pakete, die nicht installiert sind ({missing}).',
-    'Führe aus: pip install {packages}',
+    'Installiere sie.',
   ],
   bad_asset_attachment: [
     'Der Anhang {found} gehört nicht zu einer Datei des Labors; erwartet wird JSON mit size, sha256, media_type und offset.',
@@ -1175,10 +1175,7 @@ export const diagnostics: Templates = {
     'Beim Dienst {service} warten schon {waiting:integer} Aufrufe; er nimmt keine weiteren an.',
     'Warte auf eine Antwort, dann rufe noch einmal auf.',
   ],
-  came_as_form: [
-    "'{file}' kam als Formular.",
-    'Sende die Datei selbst als Inhalt der Anfrage, wie curl -T es tut.',
-  ],
+  came_as_form: ["'{file}' kam als Formular.", 'Sende die Datei selbst als Inhalt der Anfrage.'],
   came_off_cup: [
     '{object} hat sich vom Sauger gelöst: {mass:mass}, Reibung {friction:number}, nötig {friction_needed:number}.',
   ],
@@ -1247,7 +1244,7 @@ export const diagnostics: Templates = {
   clocks_agree: ['Uhren: {offset:time} zwischen dem Gateway und diesem Rechner'],
   clocks_differ: [
     'Uhren: {offset:time} zwischen dem Gateway und diesem Rechner; erwartet: höchstens {limit:time}',
-    'Schalte auf beiden die Zeitsynchronisation ein: timedatectl set-ntp true',
+    'Schalte auf beiden die Zeitsynchronisation ein.',
   ],
   coarse_times: [
     'einfache Genauigkeit (single) kennt solche Zeiten nur in Schritten von {value:number}; sichere sie als double',
@@ -1338,7 +1335,7 @@ export const diagnostics: Templates = {
   ],
   database_damaged: [
     '{path} ist beschädigt ({problem}).',
-    'Hole eine Kopie zurück oder lies weiter, was noch da ist: {rescue}',
+    'Hole eine Kopie zurück oder lies weiter, was noch da ist.',
   ],
   degrees: [
     "'{variable}' ist anscheinend in Grad[{percent:choice percent= oder in Prozent, da mehrere Spalten von 0 bis 100 laufen}]: {why:problem}; erwartet wird Radiant.",
@@ -1712,7 +1709,7 @@ export const diagnostics: Templates = {
   ],
   key_file_open: [
     '{path} ist für andere auf diesem Rechner lesbar (Rechte {mode}).',
-    'Ändere das mit: chmod 600 {path}',
+    'Nimm dieses Recht weg.',
   ],
   key_file_unreadable: ['{path} ist nicht lesbar: {why:problem}.'],
   key_not_text: ['Ein Schlüssel ist kein UTF-8: {why:problem}.'],
@@ -1939,7 +1936,7 @@ export const diagnostics: Templates = {
   model_left_out: ["Der Roboter '{robot}' bleibt weg: {why:problem}."],
   module_missing: [
     '{module} fehlt; das Labor läuft ohne Physik: keine Kontakte, kein Greifen',
-    'Führe aus: pip install {module}',
+    'Installiere es.',
   ],
   module_there: ['{module}: vorhanden'],
   module_without_wheel: [
@@ -3130,7 +3127,8 @@ export const diagnostics: Templates = {
     'Ein Scheduler braucht das Backend dask oder ray; loky benutzt nur diesen Rechner.',
   ],
   scheduler_not_reached: [
-    'Der Scheduler {address} von dask ist nicht erreichbar ({why:problem}); starte einen: dask scheduler',
+    'Der Scheduler {address} von dask ist nicht erreichbar ({why:problem}).',
+    'Starte einen.',
   ],
   second_cannot_read: ['{reader} kann sie nicht lesen ({error})'],
   second_finds: [

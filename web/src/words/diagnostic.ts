@@ -6,7 +6,7 @@ export interface Fix {
   readonly option: string
   readonly value: string
   readonly matlab: string
-  /** Words of an mrlab command line. */
+  /** A command line of a shell. */
   readonly command?: string
 }
 

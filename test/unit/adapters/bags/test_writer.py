@@ -189,7 +189,7 @@ def test_what_is_left_of_a_sqlite3_bag_is_read_by_the_command_that_its_message_n
     os.truncate(database, database.stat().st_size // 2)
     with refused(DATABASE_DAMAGED, BadInput) as caught:
         open_bag(folder, lambda _: DEFINITION)
-    command = caught.value.diagnostic.values["rescue"]
+    command = caught.value.diagnostic.fixes[0].command
     subprocess.run(command, shell=True, check=True, cwd=tmp_path, capture_output=True)
     left = list(open_bag(tmp_path / "NEW.db3", lambda _: DEFINITION).messages())
     assert 100 < len(left) < len(messages)
@@ -313,7 +313,7 @@ def test_a_renamed_database_is_opened_by_the_command_that_its_message_names(tmp_
         open_bag(folder, lambda _: DEFINITION)
     (fix,) = caught.value.diagnostic.fixes
     *command, path = shlex.split(fix.command)
-    assert (command, path) == (["bag", "info"], str(renamed))
+    assert (command, path) == (["mrlab", "bag", "info"], str(renamed))
     assert open_bag(Path(path), lambda _: DEFINITION).message_count == len(messages)
     renamed.unlink()
     with refused(BAG_LACKS_FILES, BadInput) as caught:
@@ -624,7 +624,7 @@ def test_a_bag_that_is_recorded_is_known_and_not_mended(tmp_path):
     assert is_being_written(folder / "class_0.mcap")
     with refused(BAG_BEING_RECORDED, Misuse) as caught:
         repair(folder)
-    assert [fix.command for fix in caught.value.diagnostic.fixes] == ["record --stop"]
+    assert [fix.command for fix in caught.value.diagnostic.fixes] == ["mrlab record --stop"]
     assert not refresh_metadata(folder)
     assert Bag(folder).live
     assert Bag(folder).troubles == []

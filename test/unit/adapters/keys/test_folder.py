@@ -207,7 +207,7 @@ def test_a_renewed_lab_has_more_names_and_everybody_s_keys_still(keys):
     with refused(RENEWAL_NEEDED, BadInput) as caught:
         keys.check(later)
     assert caught.value.diagnostic.values["why"].diagnostic.code == "certificate_expired"
-    assert caught.value.diagnostic.fixes[0].command == f"keys renew --dir {keys.folder}"
+    assert caught.value.diagnostic.fixes[0].command == f"mrlab keys renew --dir {keys.folder}"
     keys.renew(["10.0.0.5"], later)
     keys.check(later)
     assert "10.0.0.5" in certificates.hosts(certificate(keys, "server.pem"))

@@ -58,7 +58,7 @@ def test_a_missing_list_names_the_command_that_makes_one(tmp_path):
     with refused(NO_KEYS, BadInput, folder=str(tmp_path)) as caught:
         People.read(tmp_path / "people.json")
     (fix,) = caught.value.diagnostic.fixes
-    assert fix.command == f"keys init --dir {tmp_path}"
+    assert fix.command == f"mrlab keys init --dir {tmp_path}"
 
 
 def test_a_name_is_given_once():

@@ -35,7 +35,9 @@ from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.graph import Watch
 
 
-@pytest.mark.parametrize(("word", "meant"), [("stop", "record --stop"), ("start", "record")])
+@pytest.mark.parametrize(
+    ("word", "meant"), [("stop", "mrlab record --stop"), ("start", "mrlab record")]
+)
 def test_a_command_is_no_bag(word, meant):
     with refused(NOT_A_BAG_NAME, Misuse, bag=word) as caught:
         record(Path(word))
@@ -126,7 +128,7 @@ def test_a_recorder_that_returns_without_the_recording_ends_the_command(monkeypa
 def test_a_recording_that_another_client_ends_has_ended_well(monkeypatch):
     states = recording(until=4.0) | {4.0: state(RecorderState.STOPPED)}
     (ended,) = follow(Recorder(monkeypatch, states))
-    assert (ended.code, ended.fixes[0].command) == (ENDED_BY_ANOTHER.code, f"bag info {BAG}")
+    assert (ended.code, ended.fixes[0].command) == (ENDED_BY_ANOTHER.code, f"mrlab bag info {BAG}")
 
 
 class Lab:

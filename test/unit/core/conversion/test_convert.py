@@ -315,7 +315,7 @@ def test_recorded_joint_states_are_said_to_be_replayed(named):
     result = convert(var("/tf", kind="tf2_msgs/msg/TFMessage"), states, variable=named)
     assert result.diagnostics[0].code == "recorded_states"
     commands = [fix.command for fix in result.diagnostics[0].fixes]
-    assert commands == ["replay BAG", "bag import BAG SESSION"]
+    assert commands == ["mrlab replay BAG", "mrlab bag import BAG SESSION"]
 
 
 def test_unwrap_removes_full_turns():

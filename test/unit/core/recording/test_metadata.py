@@ -142,15 +142,20 @@ def test_the_metadata_adds_up_over_the_files():
             {"storage_identifier": "sqlite3"},
             OTHER_STORAGE,
             {"storage": "sqlite3"},
-            "bag import /bags/class NEW_FOLDER",
+            "mrlab bag import /bags/class NEW_FOLDER",
         ),
         (
             {"compression_format": "zstd"},
             OTHER_STORAGE,
             {"compression": "zstd"},
-            "bag import /bags/class NEW_FOLDER",
+            "mrlab bag import /bags/class NEW_FOLDER",
         ),
-        ({"relative_file_paths": None}, METADATA_WITHOUT_FILES, {}, "bag repair /bags/class"),
+        (
+            {"relative_file_paths": None},
+            METADATA_WITHOUT_FILES,
+            {},
+            "mrlab bag repair /bags/class",
+        ),
     ],
 )
 def test_metadata_that_cannot_be_used_is_refused(change, code, values, fix):
