@@ -58,6 +58,7 @@ def test_links_of_a_page_lead_somewhere(page: Path) -> None:
     assert wrong == []
 
 
+@pytest.mark.slow
 def test_the_site_is_built_strictly_and_loads_nothing_from_elsewhere(tmp_path: Path) -> None:
     pytest.importorskip("mkdocs", reason="not set up: python3 scripts/bootstrap.py --dev")
     command = [sys.executable, "-m", "mkdocs", "build", "-q", "-f", str(SITE / "mkdocs.yml")]

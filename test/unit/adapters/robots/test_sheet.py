@@ -71,6 +71,7 @@ def test_axes_are_drawn_where_the_joints_are(library: RobotLibrary) -> None:
     assert np.allclose(bend, [0, 0, 0.8])
 
 
+@pytest.mark.slow
 def test_it_is_a_picture_or_a_page(library: RobotLibrary, tmp_path: Path) -> None:
     sheet.write(library, "tried", tmp_path / "made" / "tried.png")
     with Image.open(tmp_path / "made" / "tried.png") as image:
