@@ -18,7 +18,7 @@ import importlib.abc
 import importlib.util
 import os
 import random
-import signal
+import resource
 import sys
 import time
 from collections.abc import Callable, Iterator
@@ -29,8 +29,10 @@ import report
 
 ROOT = Path(__file__).parents[1]
 SEED = 7
-# s that the tests of one mutant may take: a loop without end is a fault that was noticed.
+# s of a processor that the tests of one mutant may take: a loop without end is a fault that was
+# noticed.
 PATIENCE_S = 60
+OPTIONS = ("-x", "-q", "-n", "0", "-p", "no:cacheprovider")
 # The tests that are asked, by module; those of its room.
 MODULES = {
     "mrlab_ros.core.base.clock": ("core/base",),
@@ -174,7 +176,7 @@ def survives(module: str, path: Path, tree: ast.Module, tests: tuple[str, ...]) 
     """Return whether all tests pass with a mutant; each runs in a process of its own."""
     child = os.fork()
     if child == 0:
-        signal.alarm(PATIENCE_S)
+        resource.setrlimit(resource.RLIMIT_CPU, (PATIENCE_S, PATIENCE_S))
         silent = os.open(os.devnull, os.O_WRONLY)
         os.dup2(silent, 1)
         os.dup2(silent, 2)
@@ -183,12 +185,13 @@ def survives(module: str, path: Path, tree: ast.Module, tests: tuple[str, ...]) 
             import pytest
 
             sys.meta_path.insert(0, _Mutated(module, tree, str(path)))
+            # The module's own tests first: they notice most, and are found soonest.
             unit = ROOT / "test" / "unit"
-            # The module's own tests first: they notice most.
             own = unit / Path(*module.split(".")[1:-1]) / f"test_{path.stem}.py"
-            chosen = [str(file) for file in (own, *(unit / t for t in tests)) if file.exists()]
-            options = ["-x", "-q", "-n", "0", "-p", "no:cacheprovider"]
-            code = int(pytest.main([*options, *chosen]))
+            code = 0
+            for chosen in ([own] if own.exists() else [], [unit / each for each in tests]):
+                if chosen and code == 0:
+                    code = int(pytest.main([*OPTIONS, *map(str, chosen)]))
         finally:
             os._exit(min(code, 250))
     _, status = os.waitpid(child, 0)

@@ -6,7 +6,7 @@ import pytest
 from gateway_side import Gateway, code_of
 from starlette.websockets import WebSocketDisconnect
 
-from mrlab_ros.gateway.guard import without_port
+from mrlab_ros.gateway.guard import Hosts, without_port
 
 OWN = "http://localhost:8080"
 
@@ -46,6 +46,7 @@ def test_unsafe_requests_of_another_origin_are_refused(local_lab: Gateway, origi
     local = local_lab.local()
     response = local.send("DELETE", "/api/session", headers={"origin": origin})
     assert code_of(response) == (403, "wrong_origin")
+    assert response.json()["error"]["values"]["expected"] == OWN
     assert local.user
 
 
@@ -103,6 +104,16 @@ def test_a_proxys_origin_is_the_gateways_own(tmp_path) -> None:
     with Gateway(tmp_path, public_url="https://lab.example.org") as lab:
         assert lab.browser("anna").send("DELETE", "/api/session").status_code == 204
         assert lab.browser().get("/", headers={"host": "other.example.org"}).status_code == 403
+        foreign = {"origin": "https://evil.example"}
+        error = lab.browser("ben").send("DELETE", "/api/session", headers=foreign).json()["error"]
+        assert error["values"]["expected"] == "https://lab.example.org"
+
+
+def test_an_address_is_a_name_of_a_gateway_that_others_reach() -> None:
+    for addresses in (True, False):
+        hosts = Hosts(frozenset(), addresses)
+        assert hosts.allows("192.168.1.20") is addresses
+        assert not hosts.allows("evil.example")
 
 
 def test_hosts_lose_their_ports() -> None:

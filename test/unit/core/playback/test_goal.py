@@ -111,7 +111,7 @@ def test_an_arm_that_would_swing_past_a_limit_or_be_too_fast_is_refused() -> Non
     near = ARM.copy()
     near[2] = UR5E.joints[2].upper - 0.01
     there = Goal(UR5E.joint_names, [Point(1.0, near.tolist())])
-    with refused(say.JOINT_OUT_OF_RANGE, WrongGoal, joint=UR5E.joint_names[2], point=None):
+    with refused(say.JOINT_OUT_OF_RANGE, WrongGoal, joint=UR5E.joint_names[2], time=0.15):
         trajectory(there, UR5E, near, NOW, np.full(6, 1.0))
     with refused(say.GOAL_TOO_FAST, WrongGoal):
         trajectory(goal((0.05, 0.05)), UR5E, ARM, NOW, np.full(6, -3.0))
