@@ -162,6 +162,10 @@ class World:
             self.advance(0.01)
         raise AssertionError(f"{self.system.state} and not {state}: {self.system.message}")
 
+    def play_to_the_end(self) -> None:
+        self.system.play(self.now)
+        self.run_until(SystemState.READY)
+
     def frames(self, robot: str) -> list[int]:
         return [frame for _, frame, _ in self.sent[robot]]
 
@@ -188,6 +192,14 @@ def make(
     return world
 
 
+def playing(world: World, seconds: float = 0.0) -> World:
+    """Play for some time."""
+    world.system.play(world.now)
+    world.run_until(SystemState.PLAYING)
+    world.advance(seconds)
+    return world
+
+
 TWO = {"a": 101, "b": 51}
 
 
@@ -209,8 +221,7 @@ def test_parallel_members_begin_at_one_stamp_after_all_have_arrived():
 def test_sequential_members_follow_each_other_with_dwell_to_the_nanosecond():
     world = make({"a": 101, "b": 51, "c": 11}, Mode.SEQUENTIAL, dwell=0.25)
     assert world.system.duration == pytest.approx(1.0 + 0.25 + 0.5 + 0.25 + 0.1)
-    world.system.play(world.now)
-    world.run_until(SystemState.READY)
+    world.play_to_the_end()
     begin = world.first_due("a")
     assert world.first_due("b") == begin + 1_250_000_000
     assert world.first_due("c") == begin + 2_000_000_000
@@ -227,8 +238,7 @@ def test_pause_and_play_keep_every_frame_and_the_common_line(mode):
             world.system.pause(world.now)
             world.advance(0.107)
             assert {p.state for p in world.playbacks.values()} <= {State.PAUSED, State.READY}
-            world.system.play(world.now)
-    world.run_until(SystemState.READY)
+            world.play_to_the_end()
     for robot in "ab":
         assert world.frames(robot) == list(range(201))
     # Frame k of a and of b left at instants that differ as the timeline says, to a nanosecond.
@@ -244,18 +254,14 @@ def test_seek_in_sequential_mode_puts_those_before_at_their_end_and_those_behind
     world = make({"a": 101, "b": 101, "c": 101}, Mode.SEQUENTIAL)
     world.system.seek(world.now, 1.5)
     assert [p.clock.position for p in world.playbacks.values()] == [1.0, 0.5, 0.0]
-    world.system.play(world.now)
-    world.run_until(SystemState.READY)
+    world.play_to_the_end()
     assert world.frames("a") == []
     assert world.frames("b") == list(range(50, 101))
     assert world.frames("c") == list(range(101))
 
 
 def test_seek_while_playing_plays_on_from_there():
-    world = make(TWO)
-    world.system.play(world.now)
-    world.run_until(SystemState.PLAYING)
-    world.advance(0.2)
+    world = playing(make(TWO), 0.2)
     world.system.seek(world.now, 0.8)
     assert world.system.state is SystemState.PLAYING
     world.run_until(SystemState.READY)
@@ -279,10 +285,7 @@ def test_step_goes_frame_by_frame_and_stops_at_the_ends():
 @pytest.mark.parametrize("mode", Mode)
 @pytest.mark.parametrize("rate", [0.5, 2.0, 4.0])
 def test_a_rate_change_on_the_way_keeps_the_members_on_one_line(mode, rate):
-    world = make({"a": 201, "b": 201}, mode)
-    world.system.play(world.now)
-    world.run_until(SystemState.PLAYING)
-    world.advance(0.5)
+    world = playing(make({"a": 201, "b": 201}, mode), 0.5)
     world.system.set_rate(world.now, rate)
     line = world.system.clock
     world.run_until(SystemState.READY)
@@ -296,16 +299,15 @@ def test_loop_stages_and_begins_anew():
     world = make({"a": 21, "b": 11}, loop=True)
     world.system.play(world.now)
     world.advance(3.0)
+    states = [state.name for state, _ in world.announced]
+    assert states[:4] == ["PLAYING", "COMPLETE", "STAGING", "PLAYING"]
     assert world.frames("a")[:42] == [*range(21), *range(21)]
     world.system.loop = False
     world.run_until(SystemState.READY)
 
 
 def test_a_collision_halts_all_in_one_step_and_all_clear_resumes_in_place():
-    world = make({"a": 201, "b": 201})
-    world.system.play(world.now)
-    world.run_until(SystemState.PLAYING)
-    world.advance(0.5)
+    world = playing(make({"a": 201, "b": 201}), 0.5)
     world.playbacks["a"].collide(world.now, TOUCHES)
     world.report()
     assert world.system.state is SystemState.COLLISION_HALT
@@ -318,17 +320,13 @@ def test_a_collision_halts_all_in_one_step_and_all_clear_resumes_in_place():
     world.playbacks["a"].clear(world.now)
     world.report()
     assert world.system.state is SystemState.PAUSED
-    world.system.play(world.now)
-    world.run_until(SystemState.READY)
+    world.play_to_the_end()
     assert world.frames("a") == world.frames("b") == list(range(201))
 
 
 @pytest.mark.parametrize("mode", Mode)
 def test_a_collision_of_a_member_alone_lets_the_others_go_on(mode):
-    world = make({"a": 201, "b": 201}, mode, policy=Policy.HALT_MEMBER)
-    world.system.play(world.now)
-    world.run_until(SystemState.PLAYING)
-    world.advance(0.5)
+    world = playing(make({"a": 201, "b": 201}, mode, policy=Policy.HALT_MEMBER), 0.5)
     world.playbacks["a"].collide(world.now, TOUCHES)
     world.advance(3.0)
     assert world.system.state is SystemState.PLAYING
@@ -350,8 +348,7 @@ def test_a_collision_while_staging_stops_all_and_nothing_starts():
     assert world.sent == {"a": [], "b": []}
     world.playbacks["b"].clear(world.now)
     world.advance(0.01)
-    world.system.play(world.now)
-    world.run_until(SystemState.READY)
+    world.play_to_the_end()
     assert world.frames("b") == list(range(51))
 
 
@@ -363,8 +360,7 @@ def test_a_member_that_refuses_brings_all_to_rest():
     assert world.system.state is SystemState.READY
     assert world.playbacks["a"].state is State.READY
     world.refusing = set()
-    world.system.play(world.now)
-    world.run_until(SystemState.READY)
+    world.play_to_the_end()
     assert world.frames("b") == list(range(51))
 
 
@@ -390,11 +386,18 @@ def lose(world: World, robot: str) -> None:
     world.system.member_changed(world.now, robot, State.IDLE, 0.0)
 
 
+def come_back(world: World, position: float, rate: float) -> None:
+    """Make the system anew, as if the coordinator had been restarted."""
+    members = [
+        Member(m.robot, m.trajectory_id, duration=m.duration, frame_rate=m.frame_rate)
+        for m in world.system.members.values()
+    ]
+    world.system = RobotSystem("cell", members, world, announce=world.announce)
+    world.system.come_back(world.now, position, rate)
+
+
 def test_a_system_whose_member_lost_its_playback_stands_in_place_and_plays_on():
-    world = make(TWO)
-    world.system.play(world.now)
-    world.run_until(SystemState.PLAYING)
-    world.advance(0.3)
+    world = playing(make(TWO), 0.3)
     lose(world, "a")
     assert world.system.state is SystemState.PAUSED
     assert said(world) == ("member_lost", {"robot": "a"})
@@ -402,18 +405,14 @@ def test_a_system_whose_member_lost_its_playback_stands_in_place_and_plays_on():
     place = world.system.clock.position
     assert 0.1 < place < 0.3
     world.sent = {"a": [], "b": []}
-    world.system.play(world.now)
-    world.run_until(SystemState.READY)
+    world.play_to_the_end()
     assert world.frames("a")[-1] == 100
     assert world.frames("a")[0] == pytest.approx(place * 100, abs=1)
     assert world.frames("b")[0] == pytest.approx(place * 100, abs=1)
 
 
 def test_a_member_that_comes_back_with_its_trajectory_is_claimed_again():
-    world = make(TWO)
-    world.system.play(world.now)
-    world.run_until(SystemState.PLAYING)
-    world.advance(0.3)
+    world = playing(make(TWO), 0.3)
     lose(world, "a")
     world.system.member_changed(world.now, "a", State.READY, 0.0, owner="", trajectory_id="other")
     assert world.playbacks["a"].system == ""
@@ -423,32 +422,20 @@ def test_a_member_that_comes_back_with_its_trajectory_is_claimed_again():
 
 
 def test_a_member_that_obeys_nobody_any_more_pauses_the_system_and_is_claimed_again():
-    world = make(TWO)
-    world.system.play(world.now)
-    world.run_until(SystemState.PLAYING)
-    world.advance(0.3)
+    world = playing(make(TWO), 0.3)
     world.playbacks["a"].release(world.now, "cell")
     world.playbacks["a"].take_statuses()
     world.system.member_changed(world.now, "a", State.PAUSED, 0.2, owner="", trajectory_id="a")
     assert world.system.state is SystemState.PAUSED
     assert world.playbacks["b"].state is State.PAUSED
     assert world.playbacks["a"].system == "cell"
-    world.system.play(world.now)
-    world.run_until(SystemState.READY)
+    world.play_to_the_end()
     assert world.frames("a") == list(range(101))
 
 
 def test_a_restarted_system_stands_in_place_and_takes_its_members_back():
-    world = make(TWO)
-    world.system.play(world.now)
-    world.run_until(SystemState.PLAYING)
-    world.advance(0.3)
-    members = [
-        Member(m.robot, m.trajectory_id, duration=m.duration, frame_rate=m.frame_rate)
-        for m in world.system.members.values()
-    ]
-    world.system = RobotSystem("cell", members, world, announce=world.announce)
-    world.system.come_back(world.now, 0.2, 1.0)
+    world = playing(make(TWO), 0.3)
+    come_back(world, 0.2, 1.0)
     assert (world.system.state, world.system.clock.position) == (SystemState.PAUSED, 0.2)
     # They still play for the one that is gone.
     for robot in TWO:
@@ -456,16 +443,12 @@ def test_a_restarted_system_stands_in_place_and_takes_its_members_back():
             world.now, robot, State.PLAYING, 0.3, owner="cell", trajectory_id=robot
         )
     assert {p.state for p in world.playbacks.values()} == {State.PAUSED}
-    world.system.play(world.now)
-    world.run_until(SystemState.READY)
+    world.play_to_the_end()
     assert world.frames("a")[-1] == 100
 
 
 def test_a_member_that_comes_back_in_a_halt_halts_the_system():
-    world = make(TWO)
-    world.system.play(world.now)
-    world.run_until(SystemState.PLAYING)
-    world.advance(0.3)
+    world = playing(make(TWO), 0.3)
     world.playbacks["a"].collide(world.now, TOUCHES)
     world.playbacks["a"].take_statuses()
     world.system.members["a"].playback_state = State.IDLE
@@ -481,9 +464,7 @@ def test_a_member_that_comes_back_in_a_halt_halts_the_system():
 
 
 def test_a_stop_that_does_not_reach_a_member_is_repeated_until_it_does():
-    world = make(TWO)
-    world.system.play(world.now)
-    world.run_until(SystemState.PLAYING)
+    world = playing(make(TWO))
     world.frozen = {"b"}
     world.system.stop(world.now)
     assert world.system.state is SystemState.STOPPING
@@ -501,8 +482,7 @@ def test_a_stop_that_does_not_reach_a_member_is_repeated_until_it_does():
     assert world.system.state is SystemState.READY
     assert world.playbacks["b"].state is State.READY
     world.sent = {"a": [], "b": []}
-    world.system.play(world.now)
-    world.run_until(SystemState.READY)
+    world.play_to_the_end()
     assert world.frames("b") == list(range(51))
 
 
@@ -545,8 +525,7 @@ def test_a_pause_that_does_not_reach_a_member_pauses_in_place(killed):
     assert world.playbacks["b"].state is not State.PLAYING
     assert world.playbacks["b"].system == "cell"
     world.sent = {"a": [], "b": []}
-    world.system.play(world.now)
-    world.run_until(SystemState.READY)
+    world.play_to_the_end()
     assert world.system.message.code == "played_to_end"
     assert world.frames("a")[0] == pytest.approx(place * 100, abs=1)
     assert world.frames("b")[-1] == 50
@@ -586,15 +565,13 @@ def test_a_member_that_loops_by_itself_does_not_keep_the_system_from_ending():
     world.system = RobotSystem("cell", [Member(robot) for robot in TWO], world)
     world.system.prepare()
     world.report()
-    world.system.play(world.now)
-    world.run_until(SystemState.READY)
+    world.play_to_the_end()
     assert world.frames("a") == list(range(101))
 
 
 def test_a_member_waits_for_another_s_frame():
     world = make({"a": 101, "b": 51}, waits={"b": ["frame 0: after a.frame 60"]})
-    world.system.play(world.now)
-    world.run_until(SystemState.READY)
+    world.play_to_the_end()
     begin = world.first_due("b") - world.first_due("a")
     assert 0.6 * SECOND <= begin <= 0.75 * SECOND
     assert world.frames("b") == list(range(51))
@@ -602,8 +579,7 @@ def test_a_member_waits_for_another_s_frame():
 
 def test_a_hold_on_the_way_whose_signal_came_before_is_not_felt():
     world = make({"a": 101, "b": 101}, waits={"b": ["frame 80: after a.frame 20"]})
-    world.system.play(world.now)
-    world.run_until(SystemState.READY)
+    world.play_to_the_end()
     assert world.first_due("a") == world.first_due("b")
     assert world.sent["a"][-1][0] == world.sent["b"][-1][0]
 
@@ -631,10 +607,7 @@ def test_a_hand_over_waits_for_the_object_whatever_time_that_takes():
 
 def test_in_sequential_mode_those_behind_a_wait_follow_it():
     waits = {"a": ["frame 50: object cube_1 held by a"]}
-    world = make({"a": 101, "b": 51}, Mode.SEQUENTIAL, waits=waits)
-    world.system.play(world.now)
-    world.run_until(SystemState.PLAYING)
-    world.advance(4.0)
+    world = playing(make({"a": 101, "b": 51}, Mode.SEQUENTIAL, waits=waits), 4.0)
     assert world.frames("b") == []
     world.system.grasped(world.now, "a", "cube_1")
     world.run_until(SystemState.READY)
@@ -828,20 +801,8 @@ def test_reports_are_announced_with_complete_in_between_and_commands_by_their_ca
     assert len(world.announced) == 3
 
 
-def test_a_loop_goes_from_complete_to_staging():
-    world = make({"a": 11}, loop=True)
-    world.system.play(world.now)
-    world.run_until(SystemState.PLAYING)
-    world.run_until(SystemState.STAGING)
-    states = [state.name for state, _ in world.announced]
-    assert states == ["PLAYING", "COMPLETE", "STAGING"]
-
-
 def test_a_loop_whose_members_cannot_be_claimed_again_ends_with_the_reason():
-    world = make({"a": 11}, loop=True)
-    world.system.play(world.now)
-    world.run_until(SystemState.PLAYING)
-    world.advance(0.15)
+    world = playing(make({"a": 11}, loop=True), 0.15)
     # The host has lost the playback at the last frame, and nobody has reported it yet.
     world.system.members["a"].done = True
     world.system.members["a"].playback_state = State.IDLE
@@ -857,10 +818,7 @@ def test_a_loop_whose_members_cannot_be_claimed_again_ends_with_the_reason():
 
 
 def test_a_state_from_before_the_last_reply_is_out_of_date():
-    world = make(TWO)
-    world.system.play(world.now)
-    world.run_until(SystemState.PLAYING)
-    world.advance(0.3)
+    world = playing(make(TWO), 0.3)
     world.system.pause(world.now)
     replied = world.now
     world.system.member_changed(world.now, "a", State.COLLISION_HALT, 0.1, replied - 1)
@@ -1080,16 +1038,8 @@ def test_a_direction_may_change_in_a_pause(turns):
 
 @pytest.mark.parametrize("rate", [0.5, -2.0])
 def test_a_restarted_system_goes_on_at_the_rate_that_it_had(rate):
-    world = make(TWO)
-    world.system.play(world.now)
-    world.run_until(SystemState.PLAYING)
-    world.advance(0.6)
-    members = [
-        Member(m.robot, m.trajectory_id, duration=m.duration, frame_rate=m.frame_rate)
-        for m in world.system.members.values()
-    ]
-    world.system = RobotSystem("cell", members, world, announce=world.announce)
-    world.system.come_back(world.now, 0.5, rate)
+    world = playing(make(TWO), 0.6)
+    come_back(world, 0.5, rate)
     assert world.system.rate == rate
     world.system.play(world.now)
     world.run_until(SystemState.PLAYING)
