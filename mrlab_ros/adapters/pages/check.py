@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from mrlab_ros.adapters.pages import ingredients
 from mrlab_ros.adapters.pages.poster import poster
@@ -11,7 +12,6 @@ from mrlab_ros.adapters.robots.library import RobotLibrary, from_library
 from mrlab_ros.core.checking.rehearsed import Rehearsed
 from mrlab_ros.core.checking.report import CheckReport
 from mrlab_ros.core.physics.catalogue import ObjectType
-from mrlab_ros.core.rubrics.marking import Marks
 from mrlab_ros.core.show import static
 from mrlab_ros.core.show.check import PlayedRobot, check_document
 from mrlab_ros.core.show.page import page
@@ -28,13 +28,13 @@ def check_page(
     objects: dict[str, ObjectType],
     library: RobotLibrary,
     share: Path,
-    marks: Marks | None = None,
+    marks: Mapping[str, Any] | None = None,
     *,
     with_film: bool = True,
 ) -> str:
     """Return one HTML file that shows what was rehearsed and what is to be said of it.
 
-    share: folder with the built pages. marks: by a rubric, None where there is none.
+    share: folder with the built pages. marks: by a rubric, as JSON has them.
     with_film: draw pictures for where nothing draws in 3D, which takes seconds.
     """
     document = check_document(report, recorded, robots, objects, digest, marks)

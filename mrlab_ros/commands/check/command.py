@@ -47,10 +47,6 @@ def check(
     scene: Annotated[
         str, typer.Option(help="Scene that it moves in: a name, or a file; empty: a floor alone.")
     ] = "",
-    rubric: Annotated[
-        Path | None,
-        typer.Option(help="Mark it too: a rubric (YAML); its robot, tool and scene hold."),
-    ] = None,
     points: Annotated[
         Path | None,
         typer.Option(help="CSV of points that tool0 shall pass, in order: x, y, z, m in world."),
@@ -58,10 +54,7 @@ def check(
     within: Annotated[str, typer.Option(help="How near it shall pass them, such as 5mm.")] = "5mm",
     closest: Annotated[
         str,
-        typer.Option(
-            help="What comes nearer without touching is a warning; empty: 10mm, or what the "
-            "rubric says."
-        ),
+        typer.Option(help="What comes nearer without touching is a warning; empty: 10mm."),
     ] = "",
     out: Annotated[
         Path | None, typer.Option("--out", "-o", help="Write a page with 3D and plots: FILE.html.")
@@ -81,7 +74,7 @@ def check(
             raise Misuse(PAGE_NAME(name=out.name))
         request = run.Request(
             file, robot, tool, scene, points, metres(within, "within"),
-            metres(closest, "closest") if closest else None, out, as_json, options, rubric,
+            metres(closest, "closest") if closest else None, out, as_json, options,
         )  # fmt: skip
         code = run.run(request)
     except LabError as error:

@@ -1,4 +1,4 @@
-"""What `mrlab check` and `mrlab rubric` refuse, beside what the check itself finds."""
+"""What `mrlab check` refuses, beside what the check itself finds."""
 
 from mrlab_ros.core.base.diagnostic import Code
 
@@ -52,10 +52,6 @@ FOR_ONE_MOTION = Code(
 TOO_FAR_TO_MEASURE = Code(
     "too_far_to_measure",
     "--closest is {value:length}; expected at most {most:length}, as far as is measured.",
-)
-SAID_BY_RUBRIC = Code(
-    "said_by_rubric",
-    "--{option} is given, and so is --rubric, which says it; leave one out.",
 )
 NO_LENGTH = Code(
     "no_length",

@@ -25,7 +25,6 @@ from mrlab_ros.commands.check.diagnostics import (
     NO_PAGE,
     PAGE_NOT_WRITTEN,
     POINTS_NOT_READ,
-    SAID_BY_RUBRIC,
     TOO_FAR_TO_MEASURE,
 )
 from mrlab_ros.commands.check.one import CELLS, CheckedFile, Setting, check_file, scene_of
@@ -42,7 +41,6 @@ from mrlab_ros.core.checking.report import CheckReport, RobotReport, State
 from mrlab_ros.core.checking.waypoints import points_from_rows
 from mrlab_ros.core.conversion.convert import ConversionResult
 from mrlab_ros.core.conversion.options import Options
-from mrlab_ros.core.rubrics.marking import Marks
 from mrlab_ros.core.runtime.colours import OUTCOME_STYLES, SEVERITY_STYLES
 
 READY, REFUSED, COULD_NOT = 0, 1, 2
@@ -62,7 +60,6 @@ class Request:
     out: Path | None
     as_json: bool
     options: Options
-    rubric: Path | None = None
 
 
 def run(request: Request) -> int:
@@ -75,8 +72,6 @@ def run(request: Request) -> int:
     if request.closest is not None and request.closest > FARTHEST:
         raise Misuse(TOO_FAR_TO_MEASURE(value=request.closest, most=FARTHEST))
     folder = share.directory()
-    if request.rubric is not None:
-        return _marked(request, request.rubric, folder)
     setting = Setting(
         Stage(folder, RobotLibrary(folder / "robots")), scene_of(request.scene, folder),
         request.scene, request.robot, request.tool, request.options,
@@ -86,37 +81,11 @@ def run(request: Request) -> int:
     return _finish(request, check_file(request.file, setting), setting, folder)
 
 
-def _marked(request: Request, path: Path, folder: Path) -> int:
-    """Check in the setting of a rubric, and show its marks beside the report."""
-    from mrlab_ros.adapters.rubrics import files
-    from mrlab_ros.commands.rubric import words as marks_words
-    from mrlab_ros.commands.rubric.marked import compared, mark_file, reference_of, setting_of
-
-    for option in ("robot", "tool", "scene", "closest"):
-        if getattr(request, option) not in ("", None):
-            raise Misuse(SAID_BY_RUBRIC(option=option))
-    rubric = files.read(path)
-    stage = Stage(folder, RobotLibrary(folder / "robots"))
-    setting = replace(
-        setting_of(rubric, stage, folder, request.options),
-        points=_points(request.points),
-        within=request.within,
-    )
-    reference = reference_of(rubric, setting) if compared(rubric) else None
-    found, marks = mark_file(request.file, rubric, setting, reference)
-    code = _finish(request, found, setting, folder, marks)
-    if not request.as_json and found.holds_motion:
-        print()
-        marks_words.marks(request.file, rubric, marks, found.checked)
-    return code
-
-
 def _finish(
     request: Request,
     found: CheckedFile,
     setting: Setting,
     folder: Path,
-    marks: Marks | None = None,
 ) -> int:
     """Print the report and write its page; return the exit code."""
     if not found.holds_motion:
@@ -125,11 +94,11 @@ def _finish(
         return COULD_NOT
     report, document = found.checked.report, found.checked.document
     if request.as_json:
-        print(json.dumps(document if marks is None else {**document, "marks": marks.plain()}))
+        print(json.dumps(document))
     else:
         show(report, document, _given(request), request.options)
     if request.out is not None and found.played is not None:
-        size = write_page(request.out, found, setting.stage, folder, marks)
+        size = write_page(request.out, found, setting.stage, folder)
         if not request.as_json:
             print(f"{request.out} ({size / 1e6:.2f} MB)")
     elif request.out is not None and not request.as_json:
@@ -159,8 +128,6 @@ def _say_refused(request: Request, result: ConversionResult) -> None:
 def _given(request: Request) -> list[str]:
     """Return the words of the command, without the options of a conversion."""
     given = ["mrlab", "check", str(request.file)]
-    if request.rubric is not None:
-        given += ["--rubric", str(request.rubric)]
     given += ["--robot", request.robot] if request.robot else []
     given += ["--tool", request.tool] if request.tool else []
     given += ["--scene", request.scene] if request.scene else []
@@ -172,14 +139,14 @@ def write_page(
     found: CheckedFile,
     stage: Stage,
     folder: Path,
-    marks: Marks | None = None,
+    marks: Mapping[str, Any] | None = None,
     *,
     title: str = "",
     with_film: bool = True,
 ) -> int:
     """Write the page of a file that was rehearsed; return how many characters it has.
 
-    marks: what it got, with links to the instants of lost points. title: empty: the file's name.
+    marks: by a rubric, as JSON has them. title: empty: the file's name.
     with_film: see `check_page`. Raises BadInput where it cannot be written.
     """
     from mrlab_ros.adapters.pages.check import check_page

@@ -162,7 +162,9 @@ class Warm:
             pages[FEEDBACK] = marks.public()
         for name, shown in pages.items():
             stage = self.setting.stage
-            write_page(out / name, found, stage, self.share, shown, title=title, with_film=False)
+            write_page(
+                out / name, found, stage, self.share, shown.plain(), title=title, with_film=False
+            )
 
 
 def confine(bounds: Bounds) -> None:

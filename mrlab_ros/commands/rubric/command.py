@@ -58,6 +58,9 @@ def mark(
         Path | None,
         typer.Option("--out", "-o", help="Write a page, lost points on its timeline: FILE.html."),
     ] = None,
+    report: Annotated[
+        bool, typer.Option("--report", help="Print the report of the check before the marks.")
+    ] = False,
     public: Annotated[
         bool,
         typer.Option("--public", help="As a student sees it: of hidden tests the hints alone."),
@@ -73,7 +76,9 @@ def mark(
     with _said():
         if out is not None and out.suffix.lower() not in (".html", ".htm"):
             raise Misuse(PAGE_NAME(name=out.name))
-        raise typer.Exit(run.mark(file, rubric, options, out, public=public, as_json=as_json))
+        raise typer.Exit(
+            run.mark(file, rubric, options, out, report=report, public=public, as_json=as_json)
+        )
 
 
 @app.command()

@@ -9,8 +9,8 @@ from mrlab_ros.adapters import share
 from mrlab_ros.adapters.checking.stage import Stage
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.rubrics import files
+from mrlab_ros.commands.check import run as check
 from mrlab_ros.commands.check.diagnostics import NO_PAGE
-from mrlab_ros.commands.check.run import write_page
 from mrlab_ros.commands.rubric import words
 from mrlab_ros.commands.rubric.diagnostics import EXAMPLE_NOT_READ
 from mrlab_ros.commands.rubric.marked import (
@@ -60,7 +60,14 @@ def lint(path: Path, options: Options, *, as_json: bool) -> int:
 
 
 def mark(
-    file: Path, path: Path, options: Options, out: Path | None, *, public: bool, as_json: bool
+    file: Path,
+    path: Path,
+    options: Options,
+    out: Path | None,
+    *,
+    report: bool,
+    public: bool,
+    as_json: bool,
 ) -> int:
     """Print what a file gets, write its page, and return the exit code; raise LabError."""
     rubric = files.read(path)
@@ -77,11 +84,17 @@ def mark(
             **shown.plain(),
             "check": found.checked.document["hash"],
         }
+        if report:
+            said["report"] = found.checked.document
         print(json.dumps(said))
     else:
+        if report and found.holds_motion:
+            given = ["mrlab", "rubric", "mark", str(file), "--rubric", str(path)]
+            check.show(found.checked.report, found.checked.document, given, options)
+            print()
         words.marks(file, rubric, shown, found.checked)
     if out is not None and found.played is not None:
-        size = write_page(out, found, setting.stage, folder, shown)
+        size = check.write_page(out, found, setting.stage, folder, shown.plain())
         if not as_json:
             print(f"{out} ({size / 1e6:.2f} MB)")
     elif out is not None and not as_json:

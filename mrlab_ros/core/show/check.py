@@ -16,7 +16,6 @@ from mrlab_ros.core.checking.rehearsed import Course, Distances, Rehearsed
 from mrlab_ros.core.checking.report import CheckReport
 from mrlab_ros.core.physics.catalogue import ObjectType
 from mrlab_ros.core.physics.engine import Kind, Shape
-from mrlab_ros.core.rubrics.marking import Marks
 from mrlab_ros.core.scene.surfaces import Surface
 from mrlab_ros.core.show.packed import packed
 from mrlab_ros.core.show.session import SCHEMA, Track, drawn
@@ -51,11 +50,11 @@ def check_document(
     robots: Sequence[PlayedRobot],
     objects: Mapping[str, ObjectType],
     digest: str,
-    marks: Marks | None = None,
+    marks: Mapping[str, Any] | None = None,
 ) -> dict[str, Any]:
     """Return what was rehearsed as a session document of web/src/playback/session.ts.
 
-    digest: of the report. marks: by a rubric, None where there is none.
+    digest: of the report. marks: by a rubric, as JSON has them.
     """
     return {
         "schema": SCHEMA,
@@ -104,7 +103,7 @@ def check_document(
                 for robot in report.robots
             ],
             "findings": plain(report.findings[:MOST_FINDINGS]),
-            "marks": None if marks is None else marks.plain(),
+            "marks": marks,
             "distances": _distances(recorded),
             "motions": [
                 _motion(robot, recorded.starts.get(robot.name, 0.0))

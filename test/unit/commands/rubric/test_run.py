@@ -14,7 +14,6 @@ from refusals import command_refuses
 from typer.testing import CliRunner
 
 from mrlab_ros.cli import make_app
-from mrlab_ros.commands.check import command
 from mrlab_ros.commands.rubric import command as rubric_command
 from mrlab_ros.core.rubrics.document import parse
 
@@ -104,16 +103,17 @@ def test_a_cell_is_marked_and_the_reference_that_loses_points_is_told(tmp_path):
     assert flaw["values"]["why"]["code"] == "total_time"
 
 
-def test_a_check_with_a_rubric_has_both(tmp_path):
+def test_the_report_of_the_check_comes_with_the_marks(tmp_path):
     rubric = tmp_path / "r.yaml"
     rubric.write_text("robot: ur5e\ntests: [{expect: cycle < 4 s, points: 2, partial: until 8 s}]")
-    said = run("check", QUINTIC, "--rubric", rubric, "--json")
-    assert said.exit_code == 0
+    said = mark(QUINTIC, rubric, "--report", "--json")
+    assert said.exit_code == 1
     found = json.loads(said.stdout)
-    assert found["verdict"] == "ready"
-    (test,) = found["marks"]["tests"]
+    assert found["report"]["verdict"] == "ready"
+    (test,) = found["tests"]
     assert (test["points"], test["time"], test["found"]["unit"]) == (1.0, 4.0, "s")
     assert test["found"]["code"] == "cycle_time"
+    assert found["report"]["hash"] in mark(QUINTIC, rubric, "--report").stdout
 
 
 def test_a_trajectory_file_that_is_damaged_or_of_another_robot_gets_nothing(tmp_path):
@@ -143,12 +143,6 @@ def test_what_is_held_may_touch_what_the_gripper_keeps_away_from(tmp_path):
         mark(ROOT / "examples" / "pick_and_place_ur5e.mat", rubric, "--json").stdout
     )
     assert [t["points"] for t in found["tests"]] == [1.0, 0.0]
-
-
-def test_a_rubric_and_an_option_that_it_says_are_not_both_taken(tmp_path):
-    with command_refuses(command, "said_by_rubric", option="closest"):
-        said = run("check", QUINTIC, "--rubric", RUBRIC, "--closest", "20mm")
-    assert said.exit_code == 2
 
 
 def test_a_file_without_a_motion_gets_nothing_and_a_reason():
