@@ -17,6 +17,7 @@ from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.base.foreign_text import file_name
 from mrlab_ros.core.base.geometry import Pose, Vector
 from mrlab_ros.core.checking import motion
+from mrlab_ros.core.checking.checked import Checked, Motion
 from mrlab_ros.core.checking.diagnostics import IN_EMPTY_ROOM, IN_SCENE
 from mrlab_ros.core.checking.evidence import CLOSE
 from mrlab_ros.core.checking.motion import CheckedRobot
@@ -24,7 +25,6 @@ from mrlab_ros.core.checking.rehearsal import Actor
 from mrlab_ros.core.checking.report import JUMPS, RANGES, SPEEDS, digest
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome
 from mrlab_ros.core.conversion.options import Options
-from mrlab_ros.core.rubrics.checked import Checked, Motion
 from mrlab_ros.core.scene.document import RobotEntry, SceneDocument
 from mrlab_ros.core.systems.cell_file import plain_system
 from mrlab_ros.core.trajectory.trajectory import Trajectory

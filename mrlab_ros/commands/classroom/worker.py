@@ -38,6 +38,7 @@ from mrlab_ros.commands.rubric.diagnostics import REFERENCE_NOT_MARKED
 from mrlab_ros.commands.rubric.marked import check_rubric_file
 from mrlab_ros.core.base.diagnostic import Diagnostic, plain
 from mrlab_ros.core.base.errors import BadInput, LabError
+from mrlab_ros.core.checking.checked import Checked
 from mrlab_ros.core.classroom.diagnostics import SUBMISSION_FAILED, SUBMISSION_OUT_OF_MEMORY
 from mrlab_ros.core.classroom.result import (
     FAILED,
@@ -48,7 +49,6 @@ from mrlab_ros.core.classroom.result import (
     without_marks,
 )
 from mrlab_ros.core.classroom.similarity import signature
-from mrlab_ros.core.rubrics.checked import Checked
 from mrlab_ros.core.rubrics.marking import Marks, mark
 from mrlab_ros.core.show.page import packed
 

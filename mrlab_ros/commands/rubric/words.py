@@ -10,7 +10,7 @@ from rich.text import Text
 
 from mrlab_ros.commands import output
 from mrlab_ros.core.base.phrase import phrase
-from mrlab_ros.core.rubrics.checked import Checked
+from mrlab_ros.core.checking.checked import Checked
 from mrlab_ros.core.rubrics.document import at
 from mrlab_ros.core.rubrics.forms import FAMILIES
 from mrlab_ros.core.rubrics.lint import Flaw

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.checking.checked import Checked, Motion
 from mrlab_ros.core.rubrics.alignment import Apart, apart, sampled
-from mrlab_ros.core.rubrics.checked import Checked, Motion
 from mrlab_ros.core.rubrics.diagnostics import (
     FROM_REFERENCE,
     NO_REFERENCE_MOTION,

@@ -6,11 +6,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.checking.checked import Checked
 from mrlab_ros.core.checking.evidence import met
 from mrlab_ros.core.checking.rehearsal import FARTHEST
 from mrlab_ros.core.checking.rehearsed import Collision, Distances, Rehearsed
 from mrlab_ros.core.physics.engine import Kind
-from mrlab_ros.core.rubrics.checked import Checked
 from mrlab_ros.core.rubrics.diagnostics import (
     BEYOND_MEASURE,
     LEAST_DISTANCE,

@@ -10,8 +10,8 @@ import numpy as np
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.geometry import Array, Vector
+from mrlab_ros.core.checking.checked import Checked, Motion
 from mrlab_ros.core.checking.joints import REST_SHARE
-from mrlab_ros.core.rubrics.checked import Checked, Motion
 from mrlab_ros.core.rubrics.diagnostics import (
     AT_REST,
     JOINT_FROM,

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.checking.checked import Checked
 from mrlab_ros.core.checking.rehearsed import Rehearsed
 from mrlab_ros.core.physics.grasp.states import Grasp
-from mrlab_ros.core.rubrics.checked import Checked
 from mrlab_ros.core.rubrics.contacts import recording
 from mrlab_ros.core.rubrics.diagnostics import (
     GRASPED,

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.rubrics.checked import Checked, Motion
+from mrlab_ros.core.checking.checked import Checked, Motion
 from mrlab_ros.core.rubrics.diagnostics import LIMIT_NOT_STATED, LIMIT_USED, NO_SUCH_LIMIT
 from mrlab_ros.core.rubrics.ground import Ground
 from mrlab_ros.core.rubrics.motions import no_motion

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, Severity, plain
+from mrlab_ros.core.checking.checked import Checked
 from mrlab_ros.core.checking.report import rounded
-from mrlab_ros.core.rubrics.checked import Checked
 from mrlab_ros.core.rubrics.diagnostics import NO_MOTION_TO_MARK
 from mrlab_ros.core.rubrics.rubric import Rubric, Test
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from mrlab_ros.core.base.diagnostic import Code, Diagnostic
-from mrlab_ros.core.rubrics.checked import Checked, Motion
+from mrlab_ros.core.checking.checked import Checked, Motion
 from mrlab_ros.core.rubrics.diagnostics import MEMBER_WAITS_FOREVER, NO_MOTION_OF
 from mrlab_ros.core.rubrics.ground import Ground
 from mrlab_ros.core.rubrics.rubric import Outcome

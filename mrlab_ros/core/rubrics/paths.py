@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from mrlab_ros.core.rubrics.checked import Motion
+from mrlab_ros.core.checking.checked import Motion
 from mrlab_ros.core.rubrics.diagnostics import PATH_LENGTH, SMOOTHNESS, TOOL_SPEED
 from mrlab_ros.core.rubrics.motions import Figure, WorstFigure
 from mrlab_ros.core.rubrics.quantities import DISTANCE, NUMBER, SPEED, Quantity

@@ -11,8 +11,8 @@ import numpy as np
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.geometry import Array, Pose, add, inverse, rotate
+from mrlab_ros.core.checking.checked import Checked
 from mrlab_ros.core.physics.catalogue import ObjectType
-from mrlab_ros.core.rubrics.checked import Checked
 from mrlab_ros.core.rubrics.contacts import recording
 from mrlab_ros.core.rubrics.diagnostics import (
     LIES_ELSEWHERE,

@@ -10,8 +10,8 @@ import numpy as np
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.geometry import Array, Pose, Quaternion, Vector, rotate
+from mrlab_ros.core.checking.checked import Checked, Motion
 from mrlab_ros.core.checking.waypoints import segments
-from mrlab_ros.core.rubrics.checked import Checked, Motion
 from mrlab_ros.core.rubrics.diagnostics import (
     NO_POSES,
     ONE_POSE_EACH,

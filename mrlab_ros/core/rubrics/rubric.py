@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.checking.checked import Checked
 from mrlab_ros.core.checking.evidence import CLOSE
-from mrlab_ros.core.rubrics.checked import Checked
 from mrlab_ros.core.rubrics.ground import Ground
 
 

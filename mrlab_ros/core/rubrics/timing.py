@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.rubrics.checked import Checked, Motion
+from mrlab_ros.core.checking.checked import Checked, Motion
 from mrlab_ros.core.rubrics.contacts import recording
 from mrlab_ros.core.rubrics.diagnostics import (
     CYCLE_TIME,

@@ -8,13 +8,13 @@ import numpy as np
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.core.base.geometry import Pose
+from mrlab_ros.core.checking.checked import Checked, Motion
 from mrlab_ros.core.checking.motion import CheckedRobot, figures_of
 from mrlab_ros.core.checking.rehearsed import Course, GraspChange, Rehearsed
 from mrlab_ros.core.checking.report import CheckReport
 from mrlab_ros.core.physics.catalogue import ObjectType
 from mrlab_ros.core.physics.engine import Body
 from mrlab_ros.core.physics.grasp.states import Grasp
-from mrlab_ros.core.rubrics.checked import Checked, Motion
 from mrlab_ros.core.rubrics.document import parse
 from mrlab_ros.core.scene.document import ObjectEntry, SceneDocument
 from mrlab_ros.core.trajectory.trajectory import Channels, Source, Trajectory

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from made_motions import checked
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, Severity
+from mrlab_ros.core.checking.checked import Checked
 from mrlab_ros.core.checking.report import CheckReport
-from mrlab_ros.core.rubrics.checked import Checked
 from mrlab_ros.core.rubrics.diagnostics import NO_MOTION_TO_MARK
 from mrlab_ros.core.rubrics.marking import mark, points_of
 from mrlab_ros.core.rubrics.quantities import LENGTH

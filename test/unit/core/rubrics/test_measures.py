@@ -7,11 +7,11 @@ import pytest
 from made_motions import MODEL, QUINTIC, ROBOT, checked, outcome, reach, recorded, thing
 
 from mrlab_ros.core.base.geometry import Pose
+from mrlab_ros.core.checking.checked import Motion
 from mrlab_ros.core.checking.joints import StatedLimits
 from mrlab_ros.core.checking.motion import CheckedRobot
 from mrlab_ros.core.checking.rehearsed import Collision, Distances
 from mrlab_ros.core.physics.engine import Kind, Near
-from mrlab_ros.core.rubrics.checked import Motion
 
 HELD = [(1.0, "CLOSING", ""), (1.5, "HOLDING", "cube_1"), (3.0, "OPEN", "")]
 THINGS = {"cube_1": thing(), "bin_1": thing(0.3, 0.0)}
