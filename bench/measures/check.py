@@ -16,8 +16,8 @@ from lab import ROOT
 from size import Size
 
 from mrlab_ros.adapters import share
-from mrlab_ros.adapters.checking.stage import Stage, first_link
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.app.check.stage import Stage, first_link
 from mrlab_ros.app.convert import convert_file
 from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.checking import motion

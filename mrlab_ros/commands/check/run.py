@@ -17,8 +17,9 @@ from rich.table import Table
 from rich.text import Text
 
 from mrlab_ros.adapters import share
-from mrlab_ros.adapters.checking.stage import Stage
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.app.check.file import CELLS, CheckedFile, Setting, check_file, scene_of
+from mrlab_ros.app.check.stage import Stage
 from mrlab_ros.commands import output
 from mrlab_ros.commands.check.diagnostics import (
     FOR_ONE_MOTION,
@@ -27,7 +28,6 @@ from mrlab_ros.commands.check.diagnostics import (
     POINTS_NOT_READ,
     TOO_FAR_TO_MEASURE,
 )
-from mrlab_ros.commands.check.one import CELLS, CheckedFile, Setting, check_file, scene_of
 from mrlab_ros.commands.convert import report as conversion_report
 from mrlab_ros.commands.convert.options import command_with
 from mrlab_ros.core.base.diagnostic import Diagnostic

@@ -61,7 +61,7 @@ def grade(
     """
     from mrlab_ros.adapters import share
     from mrlab_ros.adapters.rubrics import files
-    from mrlab_ros.commands.check.one import scene_of
+    from mrlab_ros.app.check.file import scene_of
     from mrlab_ros.commands.classroom import run
     from mrlab_ros.commands.classroom.setup import Bounds, MiB
 

@@ -29,9 +29,9 @@ from mrlab_ros.adapters.classroom.results_folder import (
     TRAJECTORIES,
     ResultsFolder,
 )
+from mrlab_ros.app.check.file import CELLS
 from mrlab_ros.app.convert import SUFFIXES
 from mrlab_ros.commands import output
-from mrlab_ros.commands.check.one import CELLS
 from mrlab_ros.commands.classroom import grader, words, worker
 from mrlab_ros.commands.classroom.diagnostics import (
     KEY_TABLE_NOT_READ,

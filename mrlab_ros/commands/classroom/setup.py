@@ -11,9 +11,9 @@ from typing import Any
 
 import mrlab_ros
 from mrlab_ros.adapters import share
-from mrlab_ros.adapters.checking.stage import Stage
 from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.commands.check.one import Setting, entry_of
+from mrlab_ros.app.check.file import Setting, entry_of
+from mrlab_ros.app.check.stage import Stage
 from mrlab_ros.core.checking.report import digest
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.rubrics.rubric import Rubric

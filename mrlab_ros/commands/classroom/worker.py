@@ -30,7 +30,7 @@ from mrlab_ros.adapters import installed, share, wall
 from mrlab_ros.adapters.guarded_streams import guard
 from mrlab_ros.adapters.trajectories import formats
 from mrlab_ros.adapters.workspaces.reader import Limits
-from mrlab_ros.commands.check.one import CELLS, CheckedFile, Setting
+from mrlab_ros.app.check.file import CELLS, CheckedFile, Setting
 from mrlab_ros.commands.classroom.diagnostics import NO_FILE
 from mrlab_ros.commands.classroom.inside import Inside
 from mrlab_ros.commands.classroom.setup import Bounds, Setup

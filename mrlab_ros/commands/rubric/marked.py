@@ -5,15 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from mrlab_ros.adapters.checking.stage import Stage
-from mrlab_ros.commands.check.one import (
-    CELLS,
-    CheckedFile,
-    Setting,
-    check_file,
-    entry_of,
-    scene_of,
-)
+from mrlab_ros.app.check.file import CELLS, CheckedFile, Setting, check_file, entry_of, scene_of
+from mrlab_ros.app.check.stage import Stage
 from mrlab_ros.commands.rubric.diagnostics import (
     CELL_FOR_ONE_ROBOT,
     OF_REFERENCE,

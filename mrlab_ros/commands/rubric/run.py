@@ -6,9 +6,9 @@ import json
 from pathlib import Path
 
 from mrlab_ros.adapters import share
-from mrlab_ros.adapters.checking.stage import Stage
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.rubrics import files
+from mrlab_ros.app.check.stage import Stage
 from mrlab_ros.commands.check import run as check
 from mrlab_ros.commands.check.diagnostics import NO_PAGE
 from mrlab_ros.commands.rubric import words

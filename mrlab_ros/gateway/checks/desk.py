@@ -21,10 +21,9 @@ from typing import Annotated, Any, Literal, Protocol
 from pydantic import BaseModel, Field
 
 from mrlab_ros.adapters import python_process
-from mrlab_ros.adapters.checking.in_lab import Task
+from mrlab_ros.app.check.in_lab import LabScene, Task, changed
 from mrlab_ros.core.base.diagnostic import Diagnostic, from_plain, plain
 from mrlab_ros.core.base.errors import BadInput, LabError, Unavailable
-from mrlab_ros.core.checking.lab_scene import LabScene, changed
 from mrlab_ros.gateway.checks.diagnostics import (
     CHECK_ENDED_EARLY,
     CHECK_FAILED,
@@ -40,10 +39,10 @@ LAST_LINES = 3
 
 
 class CheckProcess:
-    """Checks by `mrlab_ros.adapters.checking.in_lab`."""
+    """Checks by `mrlab_ros.app.check.in_lab`."""
 
     async def check(self, task: Task) -> Mapping[str, Any]:
-        command = python_process.command("mrlab_ros.adapters.checking.in_lab")
+        command = python_process.command("mrlab_ros.app.check.in_lab")
         process = await asyncio.create_subprocess_exec(
             *command, stdin=PIPE, stdout=PIPE, stderr=PIPE, start_new_session=True
         )

@@ -9,8 +9,8 @@ from typing import Annotated
 from fastapi import APIRouter, Depends, Query, Request
 from fastapi.concurrency import run_in_threadpool
 
-from mrlab_ros.adapters.checking.in_lab import Task
 from mrlab_ros.adapters.share import directory
+from mrlab_ros.app.check.in_lab import Task
 from mrlab_ros.core.base.errors import LabError, Unavailable
 from mrlab_ros.core.trajectory.catalogue import Record, Version
 from mrlab_ros.gateway.checks import desk

@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 
+from mrlab_ros.app.check.in_lab import LabScene
 from mrlab_ros.core.base.errors import Unavailable
 from mrlab_ros.core.base.geometry import Pose
-from mrlab_ros.core.checking.lab_scene import LabScene
 from mrlab_ros.core.scene.document import ObjectEntry, RobotEntry, SceneDocument
 from mrlab_ros.core.scene.surfaces import FLOOR, Surface
 from mrlab_ros.gateway.checks.diagnostics import ROBOTS_NOT_KNOWN

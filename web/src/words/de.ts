@@ -1867,15 +1867,25 @@ export const diagnostics: Templates = {
     'Importiere die Datei; das macht ein Bag des Labors daraus.',
   ],
   member_collided: ['Kollision von {robot}'],
+  member_file_missing: [
+    "Die Trajektorie '{trajectory}' von {robot} ist keine Datei in {folder}; eine Prüfung liest Dateien, nicht den Katalog eines laufenden Labors.",
+  ],
   member_lost: ['{robot} hat seine Wiedergabe verloren; Abspielen macht hier weiter'],
   member_lost_at_end: ['{robot} hat seine Wiedergabe verloren; Abspielen beginnt von vorn'],
+  member_not_in_scene: [
+    'Das Mitglied {robot} gehört nicht zu den Robotern in [der Szene {scene}][{file}][; vorhanden: {robots:list}].',
+  ],
   member_of_system: [
     "Der Roboter[ {robot}] ist schon Mitglied des Systems '{system}'.",
     'Löse zuerst dieses System auf.',
   ],
   member_place: ['{place:problem}, Mitglied {robot}'],
+  member_refused: ['{robot} kann {file} nicht abspielen: {why:problem}.'],
   member_twice: ['{place:problem}: {robot} ist zweimal Mitglied.', 'Lass einen der Einträge weg.'],
   member_waits_forever: ["{robot} wartet ohne Ende: '{wait}' tritt nie ein."],
+  member_without_motion: [
+    '{file} nennt keine Trajektorie für {robot}; füge eine hinzu, zum Beispiel trajectory: run.mat',
+  ],
   members_move_to_places: [
     'Die Mitglieder fahren an ihre Plätze.',
     'Halte an, ändere dann die Richtung und spiele ab.',
@@ -1934,6 +1944,10 @@ export const diagnostics: Templates = {
     'Die Zelle wird {mode:choice parallel=parallel|sequential=nacheinander} abgespielt.',
   ],
   model_left_out: ["Der Roboter '{robot}' bleibt weg: {why:problem}."],
+  model_not_in_scene: [
+    'Die Szene {scene} enthält keinen Roboter {robot}, also ist sein Platz darin nicht bekannt; vorhanden: {robots:list}.',
+    'Nimm einen davon oder eine andere Szene.',
+  ],
   module_missing: [
     '{module} fehlt; das Labor läuft ohne Physik: keine Kontakte, kein Greifen',
     'Installiere es.',
@@ -1946,6 +1960,10 @@ export const diagnostics: Templates = {
   motion_not_there: [
     "Die Bewegung von '{key}' ist nicht da: {why:problem}.",
     'Bewerte die Klasse noch einmal.',
+  ],
+  motion_of_another_robot: [
+    "'{file}' ist eine Bewegung für {found}; erwartet wird eine für {model}.",
+    'Wandle den Workspace noch einmal für diesen Roboter um.',
   ],
   motion_outside: ["Die Bewegung von '{key}' liegt außerhalb des Ordners der Klasse."],
   motion_size: [
@@ -2456,6 +2474,9 @@ export const diagnostics: Templates = {
   not_offered: [
     'Niemand bietet {service}[ in der ROS-Domain {domain:integer}] an; vielleicht läuft dieser Teil des Labors nicht.',
   ],
+  not_one_system: [
+    '{file} enthält {count:count System|Systeme}[ ({names:list})]; erwartet wird genau eines.',
+  ],
   not_played: ['{robot} hat hier keine Wiedergabe; ist er noch in der Szene?'],
   not_readable: ['{file} ist nicht lesbar: {why:problem}.'],
   not_real: [
@@ -2712,6 +2733,10 @@ export const diagnostics: Templates = {
     "Die Gelenke ab '{variable}' sind verschieden lang: Die meisten haben {usual:count Messpunkt|Messpunkte}, aber nicht {others:list}.",
     'Suche die fehlenden Messpunkte, und sichere alle neu. Beginnen alle gleichzeitig, kürze sie auf die ersten {rows:integer}.',
   ],
+  places_not_known: [
+    '{file} nennt Roboter, aber nicht ihre Plätze.',
+    'Nenne die Szene, in der sie stehen, oder trage Roboter in die Datei ein.',
+  ],
   playback_gone: [
     'Die Wiedergabe von {robot} wurde neu gestartet, oder sie machte Platz für die Wiedergabe eines Bags.',
     'Sieh nach, wo der Roboter steht, und spiele von dort weiter ab.',
@@ -2725,6 +2750,9 @@ export const diagnostics: Templates = {
   played_back: ['rückwärts bis zum Anfang abgespielt'],
   played_to_end: ['bis zum Ende abgespielt'],
   plays: ['läuft'],
+  plays_backwards: [
+    'Die Zelle spielt rückwärts (Rate {rate:number}); eine Prüfung spielt vorwärts.',
+  ],
   plays_once: ['läuft einmal'],
   point_count: [
     '{file} enthält {count:count Punkt|Punkte}; erwartet: 1 bis {most:integer}, einer je Zeile: x, y, z in m.',
@@ -3034,6 +3062,9 @@ export const diagnostics: Templates = {
   ],
   robots_stay: [
     'Nach {limit:time} sind die Wiedergabe und die Physik von {robots:list} noch nicht beendet.',
+  ],
+  robots_twice: [
+    'Die Szene {scene} ist verlangt, und {file} enthält selbst Roboter und Objekte; lass eines davon weg.',
   ],
   role_too_low: [
     `{person} hat die Rolle {role:choice ${ROLE}}; nötig ist {needed:choice ${ROLE}}.`,

@@ -8,8 +8,8 @@ import pytest
 from fake_converter import FakeConverter
 from gateway_side import Gateway, kind_of
 
-from mrlab_ros.adapters.checking.diagnostics import NOT_IN_LAB
 from mrlab_ros.adapters.store.memory import MemoryStore
+from mrlab_ros.app.check.diagnostics import NOT_IN_LAB
 from mrlab_ros.core.base.diagnostic import plain
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.rules import Role

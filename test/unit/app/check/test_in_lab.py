@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from mrlab_ros.app.check.in_lab import LabScene, changed
 from mrlab_ros.core.base.geometry import Pose
-from mrlab_ros.core.checking.lab_scene import LabScene, changed
 from mrlab_ros.core.scene.document import ObjectEntry, RobotEntry, SceneDocument
 from mrlab_ros.core.scene.surfaces import Surface
 

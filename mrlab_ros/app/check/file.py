@@ -1,4 +1,4 @@
-"""The check of one file, a motion or a cell, without a word printed."""
+"""Checks one file, a motion or a cell."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ import hashlib
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from mrlab_ros.adapters.checking.stage import Played, Stage, first_link
 from mrlab_ros.adapters.scenes import files as scene_files
 from mrlab_ros.adapters.scenes.files import SceneFiles
+from mrlab_ros.app.check import cell
+from mrlab_ros.app.check.diagnostics import MODEL_NOT_IN_SCENE, MOTION_OF_ANOTHER_ROBOT
+from mrlab_ros.app.check.stage import Played, Stage, first_link
 from mrlab_ros.app.convert import converted
-from mrlab_ros.commands.check import cell
-from mrlab_ros.commands.check.diagnostics import MODEL_NOT_IN_SCENE, MOTION_OF_ANOTHER_ROBOT
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
 from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.base.foreign_text import file_name
@@ -40,7 +40,7 @@ class Setting:
 
     scene_name: what the scene was asked for by, empty: none. points: m in world, that tool0 shall
     pass within `within` m. closest: m. drawn: record where everything was. convert: what reads a
-    file; see `one_file.converted`.
+    file; see `app.convert.converted`.
     """
 
     stage: Stage

@@ -1,4 +1,4 @@
-"""What `mrlab check` does with a cell: all members on their timeline, and each pair of robots."""
+"""Checks a cell: all members on their timeline, each pair of robots, and waits that part them."""
 
 from __future__ import annotations
 
@@ -7,12 +7,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from mrlab_ros.adapters.checking.apart import smallest_waits
-from mrlab_ros.adapters.checking.stage import Played, Stage, first_link
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.scenes import files as scene_files
-from mrlab_ros.app.convert import Wanted, convert_files, converted, of_trajectory_file
-from mrlab_ros.commands.check.diagnostics import (
+from mrlab_ros.app.check.diagnostics import (
     MEMBER_FILE_MISSING,
     MEMBER_NOT_IN_SCENE,
     MEMBER_REFUSED,
@@ -22,6 +19,8 @@ from mrlab_ros.commands.check.diagnostics import (
     PLAYS_BACKWARDS,
     ROBOTS_TWICE,
 )
+from mrlab_ros.app.check.stage import Played, Stage, first_link
+from mrlab_ros.app.convert import Wanted, convert_files, converted, of_trajectory_file
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, of_text, plain
 from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.base.foreign_text import for_shell
@@ -35,11 +34,13 @@ from mrlab_ros.core.checking.diagnostics import (
 )
 from mrlab_ros.core.checking.evidence import clearances
 from mrlab_ros.core.checking.motion import CheckedRobot, MotionFigures
-from mrlab_ros.core.checking.pairs import Delay, Pair, pairs_of, wait_frame
+from mrlab_ros.core.checking.pairs import Delay, Pair, pairs_of, smallest_delay, wait_frame
 from mrlab_ros.core.checking.rehearsal import Actor
+from mrlab_ros.core.checking.rehearsed import Course
 from mrlab_ros.core.checking.report import CheckReport, RobotReport, conditions, in_order
 from mrlab_ros.core.conversion.convert import ConversionResult
 from mrlab_ros.core.conversion.options import Options
+from mrlab_ros.core.physics.engine import Kind
 from mrlab_ros.core.scene import document as scene_document
 from mrlab_ros.core.scene.document import SceneDocument
 from mrlab_ros.core.systems.cell_file import MemberEntry, SystemEntry
@@ -331,3 +332,50 @@ def resolution(delay: Delay | None, pairs: list[Pair]) -> Diagnostic | None:
     return (code if delay.clears else WAIT_NOT_ENOUGH)(
         robot=delay.robot, other=delay.other, seconds=delay.seconds, frame=delay.frame
     )
+
+
+STEP = 0.1  # s, between two delays that are tried, and between the poses that are compared
+MARGIN = 0.02  # m, beside what is allowed: the poses between two samples are not compared
+
+
+def smallest_waits(
+    stage: Stage,
+    robots: tuple[CheckedRobot, CheckedRobot],
+    courses: tuple[Course, Course],
+    closest: float,
+) -> list[tuple[int, float]]:
+    """Return which of two robots waits (0 or 1) and how long, s; the shortest wait first.
+
+    What they hold is not looked at: a rehearsal with the wait has the last word.
+    """
+    ways = tuple(
+        _sampled(course, len(r.model.joints)) for r, course in zip(robots, courses, strict=True)
+    )
+    with stage.arms(robots) as engine:
+
+        def clear(first: int, second: int) -> bool:
+            for robot, way, at in zip(robots, ways, (first, second), strict=True):
+                engine.move_arm(robot.name, way[at], [0.0] * len(way[at]))
+            limit = closest + MARGIN
+            return engine.nearest(robots[0].name, Kind.ROBOT, robots[1].name, limit) is None
+
+        def swapped(function: Callable[[int, int], bool]) -> Callable[[int, int], bool]:
+            return lambda i, j: function(j, i)
+
+        found = []
+        for waiting, asked in ((1, clear), (0, swapped(clear))):
+            moves, waits = len(ways[1 - waiting]), len(ways[waiting])
+            delay = smallest_delay(moves, waits, asked, moves)
+            if delay is not None:
+                found.append((waiting, delay * STEP))
+    return sorted(found, key=lambda each: each[1])
+
+
+def _sampled(course: Course, joints: int) -> list[list[float]]:
+    """Return the joint positions of a course every STEP s."""
+    samples, next_time = [], 0.0
+    for time, values in zip(course.times, course.values, strict=True):
+        if time >= next_time - 1e-9:
+            samples.append(values[:joints])
+            next_time += STEP
+    return samples or [course.values[0][:joints]]

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from mrlab_ros.commands.check.cell import resolution
+from mrlab_ros.app.check.cell import resolution
 from mrlab_ros.core.checking.evidence import of_collisions
 from mrlab_ros.core.checking.pairs import Delay, Pair
 from mrlab_ros.core.checking.rehearsed import Collision, Rehearsed

@@ -1,0 +1,1 @@
+"""Checks of motions and cells: converted, computed, rehearsed."""
