@@ -21,10 +21,11 @@ settings.load_profile("lab")
 FAST_FOLDERS = ("unit", "fuzz", "bodies")
 
 
-# Graphs and labs wait more than they compute: they come first, and the others fill their waits.
-ORDER = ("node", "browser", "system", "fuzz", "unit", "bodies")
+# Labs and graphs wait more than they compute: they come first, and the others fill their waits.
+ORDER = ("browser", "system", "node", "fuzz", "unit", "bodies")
 # More labs at once than this take each other's time, and their deadlines pass.
 PROCESSES_WITH_LABS = 2
+LABS = ("test/browser/", "test/system/")
 # One lab serves it whole.
 ONE_LAB = "test/browser/"
 # Each test starts processes of its own.
@@ -60,9 +61,13 @@ class _Files(LoadFileScheduling):
         return nodeid if nodeid.startswith(APART) else str(super()._split_scope(nodeid))
 
     def _first_for(self, node: Any) -> str | None:
-        labs = self.nodes.index(node) < PROCESSES_WITH_LABS
-        graphs = ("test/node/", "test/browser/", "test/system/")
-        return next((s for s in self.workqueue if labs or not s.startswith(graphs)), None)
+        if self.nodes.index(node) < PROCESSES_WITH_LABS:
+            return next(iter(self.workqueue), None)
+        for others in ((*LABS, "test/node/"), LABS):
+            first = next((s for s in self.workqueue if not s.startswith(others)), None)
+            if first is not None:
+                return first
+        return None
 
     def _reschedule(self, node: Any) -> None:
         if self.workqueue and self._first_for(node) is None:
