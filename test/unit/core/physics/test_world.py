@@ -113,6 +113,9 @@ def test_a_touch_halts_once_and_a_margin_kept_for_a_while_ends_it():
     assert (halt.contact.touch.link, halt.contact.touch.other) == ("tip", "ball")
     # The tip touches at x = 0.45, frame 45 of 100 Hz; the first step behind it is at most 1 later.
     assert halt.contact.frame in (45, 46)
+    (contact,) = lab.world.take_contacts()
+    assert (contact.robot, contact.touch.other) == ("a", "ball")
+    assert list(lab.world.take_contacts()) == []
     for x in (0.449, 0.452, 0.445, 0.451, 0.446):  # in and out, never out of the margin
         lab.go(x, 300 * MS)
     assert len(lab.of(CollisionChanged)) == 1
@@ -554,6 +557,18 @@ def test_surfaces_that_are_none_are_refused_and_the_old_ones_stay():
         with refused(code, BadInput, **values):
             world.set_surfaces([surface])
     assert [s.name for s in world.surfaces] == ["wall", "floor"]
+
+
+def test_the_engine_has_the_surfaces_of_the_room_and_no_others():
+    lab = Lab()
+    for room, expected in (
+        ([wall(3.0)], {"wall": 3.0}),
+        ([wall(3.0)], {"wall": 3.0}),
+        ([wall(4.0)], {"wall": 4.0}),
+        ([], {}),
+    ):
+        lab.world.set_surfaces(room)
+        assert {n: x for n, x in lab.engine.surfaces.items() if n != rooms.FLOOR} == expected
 
 
 def seen(world) -> list[tuple[str, str]]:

@@ -12,6 +12,7 @@ from mrlab_ros.core.checking.joints import StatedLimits
 from mrlab_ros.core.checking.motion import CheckedRobot
 from mrlab_ros.core.checking.rehearsed import Collision, Distances
 from mrlab_ros.core.physics.engine import Kind, Near
+from mrlab_ros.core.rubrics.grasps import STANDS
 
 HELD = [(1.0, "CLOSING", ""), (1.5, "HOLDING", "cube_1"), (3.0, "OPEN", "")]
 THINGS = {"cube_1": thing(), "bin_1": thing(0.3, 0.0)}
@@ -192,6 +193,8 @@ def test_holds_by_their_span_and_partly():
     assert outcome("holds cube_1 until the end", found).time == pytest.approx(3.0)
     assert outcome("holds cube_1 from 1 to 2 s", found, partial="each").share == 0.5
     assert outcome("holds cube_1 from 1 to 2 s", found).time == pytest.approx(1.0)
+    late = outcome("holds cube_1 until 1 s", found)
+    assert (late.share, late.found.code, late.time) == (0.0, "grasped_late", 1.5)
 
 
 def test_the_longest_of_several_holds_counts():
@@ -228,11 +231,14 @@ def test_releases_and_places_by_where_the_object_lies_at_rest():
 def test_what_is_still_held_or_rolls_or_left_is_not_released():
     sentence = "places cube_1 on the floor"
     held = recorded(HELD[:2], {"cube_1": (0.3, 0.1, 0.025)})
-    assert outcome(sentence, checked(record=held)).found.code == "still_held"
+    for each in (sentence, "releases cube_1 within 5 mm of [0.3, 0.1]"):
+        assert outcome(each, checked(record=held)).found.code == "still_held"
     rolls = recorded(HELD, {"cube_1": (0.3, 0.1, 0.025)})
     rolls.objects["cube_1"].values[0] = [0.2, 0.1, 0.025, 0, 0, 0, 1]
     moves = outcome(sentence, checked(record=rolls)).found
     assert (moves.code, moves.value) == ("still_moves", pytest.approx(0.1 / 0.5))
+    rolls.objects["cube_1"].values[0] = [0.3 - 0.99 * STANDS * 0.5, 0.1, 0.025, 0, 0, 0, 1]
+    assert outcome(sentence, checked(record=rolls, objects=THINGS)).share == 1.0
     gone = recorded(HELD, {"cube_1": (0.3, 0.1, 0.025)}, gone=[(3.5, "cube_1")])
     assert outcome(sentence, checked(record=gone)).found.code == "not_in_the_room"
 
