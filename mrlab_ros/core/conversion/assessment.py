@@ -11,11 +11,11 @@ from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.conversion.candidates import Candidate
 from mrlab_ros.core.conversion.cartesian import PoseEvidence
 from mrlab_ros.core.conversion.clock_columns import ClockColumn
+from mrlab_ros.core.conversion.evidence.names import Name
 from mrlab_ros.core.conversion.gripper import has_states
 from mrlab_ros.core.conversion.preview import preview
 from mrlab_ros.core.conversion.relations import PoseMatch
 from mrlab_ros.core.conversion.units import UnitEvidence
-from mrlab_ros.core.conversion.variable_names import Name
 from mrlab_ros.core.conversion.workspace import Variable
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.trajectory import Array

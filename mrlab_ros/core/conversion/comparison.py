@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from mrlab_ros.core.conversion import cartesian, relations
 from mrlab_ros.core.conversion.assessment import Assessment
+from mrlab_ros.core.conversion.evidence.names import Hint, describe, leaf, parts, words
 from mrlab_ros.core.conversion.scoring import FEW_ROWS, NAME_SCORES
-from mrlab_ros.core.conversion.variable_names import POSES, Hint, describe, leaf, parts, words
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 from mrlab_ros.core.robots.model import RobotModel
 
@@ -122,7 +122,7 @@ def _are_twins(one: str, other: str) -> bool:
 
 def _claims_poses(variable: Variable) -> bool:
     """Say whether a matrix is named as the path of the tool, or holds transforms named so."""
-    if describe(variable.path).what == POSES:
+    if describe(variable.path).what == "poses":
         return True
     return variable.values is not None and (
         cartesian.is_transforms(variable.values)
@@ -144,7 +144,7 @@ def _relate_poses(
             continue
         own = found.get(v.path)
         if own is not None and not (
-            own.name.what == POSES or own.poses.possible or own.poses.strong
+            own.name.what == "poses" or own.poses.possible or own.poses.strong
         ):
             continue
         points = relations.tool_points(v.values)

@@ -22,6 +22,7 @@ from mrlab_ros.core.conversion import (
     kinematics_match,
     left_out_columns,
     limits,
+    questions,
     rate_findings,
     resampling,
 )
@@ -31,6 +32,7 @@ from mrlab_ros.core.conversion.diagnostics import (
     BAD_MESSAGE,
     DOUBTFUL_VALUES,
     LATE_POINT,
+    NO_MOTION,
     NO_TIMES,
     RATE_DEFAULT,
     REPEATED_PIECES,
@@ -40,6 +42,7 @@ from mrlab_ros.core.conversion.diagnostics import (
     TRAJECTORY_TAKEN,
     WAYPOINTS,
 )
+from mrlab_ros.core.conversion.evidence import values
 from mrlab_ros.core.conversion.explain import contents
 from mrlab_ros.core.conversion.headings import split_tables
 from mrlab_ros.core.conversion.layout import Layout, lay_out
@@ -250,9 +253,10 @@ def _checked(
     if workspace.confirm is not None and variable.values is not None:
         # before the joints are copied, as the second reader needs memory as well
         workspace.confirm(sources)
+    notes += questions.asked(workspace, variable, survey.name(variable), robot, options)
     layout = lay_out(chosen, survey, options, notes)
     layout, rate = _at_a_rate(survey, chosen, layout, options, default_frame_rate, file, notes)
-    notes += limits.against_robot(layout.arm, rate, robot.joints, variable.path, robot.id)
+    notes += _against_robot(layout, rate, variable.path, robot, notes)
     notes += kinematics_match.findings(workspace, robot)
     found.notes = notes = found.said(dimensions.with_lines(notes, squeezed))
     if any(n.severity is Severity.ERROR for n in notes):
@@ -260,11 +264,25 @@ def _checked(
     return _Checked(layout, rate, Source(file, variable.path, workspace.sha256))
 
 
+def _against_robot(
+    layout: Layout, rate: float, path: str, robot: RobotModel, notes: list[Diagnostic]
+) -> list[Diagnostic]:
+    """Return what is said of the frames, at `rate` Hz, against what the robot can do."""
+    why = values.fault(layout.arm, rate, robot)
+    if why:
+        return [NO_MOTION(variable=path, why=why)]
+    found = limits.against_robot(layout.arm, rate, robot.joints, path, robot.id)
+    if any(n.code == WAYPOINTS.code for n in notes):
+        # the time between waypoints is not known, so their speed is not either
+        return [f for f in found if f.code != "velocity_limit"]
+    return found
+
+
 def _rejected(file: str, notes: list[Diagnostic], variable: Variable | None) -> ConversionResult:
     found = _worst_first(notes)
     shown = None
-    values = None if variable is None else variable.values
-    if variable is not None and values is not None and values.ndim == 2 and values.size:
+    held = None if variable is None else variable.values
+    if variable is not None and held is not None and held.ndim == 2 and held.size:
         shown = preview(variable, [row for d in found for row in (d.first_row, d.last_row) if row])
     return ConversionResult(file, Outcome.REJECTED, None, (), found, shown)
 

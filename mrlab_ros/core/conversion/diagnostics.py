@@ -27,6 +27,12 @@ QUANTITY = (
     "angular_velocities=angular velocities or weights|states=states|"
     "turns_or_reversed=numbers of turns or a reversed path}"
 )
+ANGLES = (
+    "rad=radians|deg=degrees|mrad=milliradians|urad=microradians|gon=gon|turn=turns|"
+    "halfturn=half turns|cdeg=hundredths of a degree|mdeg=thousandths of a degree|"
+    "arcmin=minutes of arc|arcsec=seconds of arc|counts=counts|%=percent|"
+    "normalized=shares of a range|mm=mm"
+)
 GRIPPER_RANGE = (
     "{meaning:choice states=0 open, 1 closed|"
     "position=a position of 0 (open) to 255 (closed), as Robotiq's|"
@@ -80,8 +86,11 @@ ROWS_NOT_FILLED = Code(
 )
 AMBIGUOUS = Code(
     "ambiguous",
-    "{count:count matrix|matrices} in '{file}' could be the trajectory:{candidates:problems}",
-    "Say which one it is, or save only that one.",
+    "[Is '{only}' ({size}) of '{file}' the joint positions as the robot takes them? It would be "
+    "taken, but {why:reasons}.][ Its values: {seen:reasons}.]"
+    "[{count:count matrix|matrices} in '{file}' could be the trajectory:{candidates:problems}]",
+    "[If '{only}' holds them, name it; if not, save the joint positions as q.]"
+    "[Say which one of {among:list} it is, or save only that one.]",
     meaning="More than one matrix could be the trajectory, or the only one is doubtful: choose "
     "one.",
 )
@@ -229,6 +238,38 @@ COUNTS = Code(
     meaning="The values are encoder counts, hundredths or thousandths of a degree.",
     fixes=(("units", "counts:{counts}", "{name:matlab} = {name:matlab} * 2*pi / {counts};"),),
 )
+UNIT_OF_NAME = Code(
+    "unit_of_name",
+    "'{variable}' is named as {stated:choice " + ANGLES + "}; radians are expected.",
+    "Convert it to radians, or confirm the unit by naming it.",
+    meaning="The name of the matrix says a unit that is not radians.",
+    fixes=(("units", "{stated}", ""),),
+)
+UNIT_CONFLICT = Code(
+    "unit_conflict",
+    "'{source}' says that '{variable}' is in {stated:choice " + ANGLES + "}, but '{other}' says "
+    "{second:choice " + ANGLES + "}.",
+    "Which one is right? Name the unit.",
+    meaning="Two places of the file say different units of the same matrix.",
+    fixes=(("units", "{stated}", ""), ("units", "{second}", "")),
+)
+UNIT_UNREAD = Code(
+    "unit_unread",
+    "'{source}' says '{words}' of '{variable}', which is no unit of angles that is known; "
+    "radians were taken.",
+    "Write rad or deg there, or name the unit.",
+    severity=WARNING,
+    meaning="A text that is called a unit was not understood.",
+    fixes=(("units", "rad", "{name:matlab} = deg2rad({name:matlab});"),),
+)
+COUNTS_STATED = Code(
+    "counts_stated",
+    "'{source}' says that '{variable}' is in {stated:choice " + ANGLES + "}, and the file does "
+    "not say how much of them makes a turn.",
+    "Say how many counts make a turn, or save radians.",
+    meaning="The file says that the numbers are counts or shares, but not of how much.",
+    fixes=(("", "", "plot({name:matlab})"),),
+)
 UNIT_NAMED = Code("unit_named", "its name says degrees", severity=INFO)
 UNIT_REACHES = Code(
     "unit_reaches",
@@ -343,10 +384,12 @@ NAME_SAYS = Code(
     + "][is often given to "
     + QUANTITY.replace("quantity:", "often:")
     + "][{hint:choice positions=is one that joint positions have|"
+    "partly=is one that joint positions have|"
     "neutral=does not say what it holds|"
     "two_faced=is given to joint positions and to tool paths alike|"
     "doubtful=is often given to something else than joint positions|"
-    "against=says that it is something else than joint positions}]",
+    "against=says that it is something else than joint positions}]"
+    "[, but {unread:list} was not understood]",
     severity=INFO,
     meaning="What the name of a matrix says.",
 )
@@ -422,7 +465,8 @@ LIKE_PERCENT = Code(
 )
 SMALL_FOR_DEGREES = Code(
     "small_for_degrees",
-    "its unit in the file is degrees, and it reaches {largest:number}, as radians do too",
+    "its unit in the file is {stated:choice " + ANGLES + "}, and it reaches {largest:number}, "
+    "as radians do too",
     severity=INFO,
 )
 TOOL_PATH_DIFFERS = Code(
@@ -627,6 +671,67 @@ JOINT_NAMES = Code(
     "Columns of a table can be taken by their numbers as well.",
     meaning="The joints that the file names are not those of the robot.",
 )
+ORDER_STATED = Code(
+    "order_stated",
+    "'{source}' says which joint each column of '{variable}' holds ({words}); the columns were "
+    "put into the order of {robot}.",
+    "Check that the robot moves as it should. If the columns are in the robot's order already, "
+    "take them by their numbers.",
+    severity=WARNING,
+    meaning="The file states an order of the joints that is not the robot's; it was obeyed.",
+)
+ORDER_UNCLEAR = Code(
+    "order_unclear",
+    "'{source}' gives '{variable}' an order of joints ({words}), which may say the joint of each "
+    "column or the column of each joint.",
+    "Which columns are the joints 1 to {joints:integer}?",
+    meaning="The file states an order of the joints that can be read in two ways.",
+)
+NAMES_OTHER = Code(
+    "names_other",
+    "'{source}' names the columns of '{variable}' {words}, which are not the joints of {robot}: "
+    "{joints:list}.",
+    "Are the columns these joints in this order all the same? Then name the matrix; else choose "
+    "the robot that the file was made for.",
+    meaning="The file names the columns as joints that the robot does not have.",
+)
+ROBOT_STATED = Code(
+    "robot_stated",
+    "'{source}' says '{words}', and {robot} was chosen.",
+    "Is the motion for {robot} all the same? Then name the matrix; else choose the robot that the "
+    "file names.",
+    meaning="The file names another robot than the one that was chosen.",
+)
+MOTOR_SIDE = Code(
+    "motor_side",
+    "'{source}' speaks of motors or gears; the numbers of '{variable}' may be angles of motors "
+    "and not of joints.",
+    "Are they angles of the joints, behind the gears? If they are those of motors, divide them "
+    "by the gear ratios and save the result as q.",
+    severity=WARNING,
+    meaning="The file holds gear ratios or names motors; the angles may be those of motors.",
+    fixes=(("", "", "plot({name:matlab})"),),
+)
+UNUSED_BESIDE = Code(
+    "unused_beside",
+    "{found:list} {count:choice one=holds|more=hold} one number a joint, and {unread:list} was "
+    "not understood: '{variable}' was taken as it is.",
+    "If they are offsets, signs or factors of the joints, apply them and save the result as q.",
+    severity=WARNING,
+    meaning="Vectors of one number a joint were not used, such as offsets or signs.",
+    fixes=(("", "", "plot({name:matlab})"),),
+)
+NO_MOTION = Code(
+    "no_motion",
+    "The rows of '{variable}' are no motion: "
+    "{why:choice random=neighbouring rows are as far apart as any two rows|"
+    "pose=the tool stands at one place while the joints jump, as solutions of an inverse "
+    "kinematics do}.",
+    "Save the motion in the order in which it runs; if the rows are waypoints, save the time of "
+    "each of them as t.",
+    meaning="The rows do not follow one another: random, shuffled, or solutions for one pose.",
+    fixes=(("", "", "plot({name:matlab})"),),
+)
 JOINTS_MATCHED = Code(
     "joints_matched",
     "The columns of '{variable}' were matched to {model} by the names of its joints: columns "
@@ -767,9 +872,10 @@ SQUEEZED = Code(
 )
 CONVERTED_UNIT = Code(
     "converted_unit",
-    "The file gives the unit of '{variable}' as degrees; it was converted to radians.",
+    "The file gives the unit of '{variable}' as {stated:choice " + ANGLES + "}"
+    "[ ('{source}')]; it was converted to radians.",
     severity=INFO,
-    meaning="The file says that the numbers are degrees; they were converted to radians.",
+    meaning="The file says which unit the numbers have; they were converted to radians.",
 )
 TRANSPOSE_APPLIED = Code(
     "transpose_applied", "'{variable}' was transposed, as asked.", severity=INFO
@@ -785,8 +891,7 @@ INVERT_APPLIED = Code(
 )
 UNITS_APPLIED = Code(
     "units_applied",
-    "'{variable}' was taken as {taken:choice deg=degrees|rad=radians|mm=mm|counts=counts}"
-    "[, {counts:number} a turn], as asked.",
+    "'{variable}' was taken as {taken:choice " + ANGLES + "}[, {counts:number} a turn], as asked.",
     severity=INFO,
 )
 UNWRAP_APPLIED = Code(

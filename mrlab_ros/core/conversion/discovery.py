@@ -18,6 +18,7 @@ from mrlab_ros.core.conversion.diagnostics import (
     TWIN,
     UNKNOWN_VARIABLE,
 )
+from mrlab_ros.core.conversion.evidence.names import Hint
 from mrlab_ros.core.conversion.explain import (
     contents,
     described,
@@ -28,7 +29,6 @@ from mrlab_ros.core.conversion.explain import (
 )
 from mrlab_ros.core.conversion.scoring import FEW_ROWS
 from mrlab_ros.core.conversion.survey import Survey
-from mrlab_ros.core.conversion.variable_names import Hint
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 
 # A score from which a matrix is taken or offered, and below which it is not even offered.
@@ -50,7 +50,7 @@ def choose(
     plausible = [a for a in ranked if a.score >= PLAUSIBLE]
     conceivable = [a for a in ranked if a.score >= CONCEIVABLE]
     objects = [v for v in survey.workspace.variables if v.is_object]
-    named = [v for v in objects if survey.name(v).hint is Hint.POSITIONS]
+    named = [v for v in objects if survey.name(v).hint.of_joints]
     hidden = [v for v in named if holds_samples(v, Hint.POSITIONS)]
     notes: list[Diagnostic] = []
     best = _best(plausible, conceivable, survey, bool(hidden))
@@ -91,7 +91,7 @@ def _best(
     others = [a for a in others if a.path not in twins and a.twin not in twins]
     if others and best.points - others[0].points < CLEAR_LEAD:
         return None
-    if best.name.hint is Hint.POSITIONS or best.confirmed:
+    if best.name.hint.of_joints or best.confirmed:
         return best
     rivals = any(_rival(v, best, survey) for v in survey.workspace.variables)
     remaining = [a for a in conceivable if a.path not in twins]
@@ -120,11 +120,24 @@ def _ambiguous(offered: list[Assessment], survey: Survey, file: str) -> Diagnost
             line = f"q = [{'; '.join(found.paths[:8])}]; save('traj.mat', 'q')"
             fixes = (*fixes, Fix("join", found.text, line))
             break
+    if len(offered) == 1:
+        only = offered[0]
+        why = only.objections or (only.name.why, *only.doubts)
+        return AMBIGUOUS(
+            file=file,
+            variable=only.path,
+            only=only.path,
+            size=only.variable.size,
+            why=list(why),
+            seen=list(only.reasons[1:]),
+            fixes=fixes,
+        )
     return AMBIGUOUS(
         file=file,
         variable=offered[0].path,
         count=len(offered),
         candidates=[described(a, a.candidate().reasons) for a in offered[:5]],
+        among=[a.path for a in offered[:5]],
         fixes=fixes,
     )
 
@@ -144,7 +157,7 @@ def doubts(chosen: Assessment, *, asked: bool) -> list[Diagnostic]:
         reasons = [*chosen.objections, *reasons]
         if name.hint in (Hint.AGAINST, Hint.DOUBTFUL) and not chosen.objections:
             notes.append(DOUBTFUL_NAME(variable=path, why=name.why))
-    elif name.hint in (Hint.NEUTRAL, Hint.TWO_FACED) and not chosen.confirmed:
+    elif name.hint is not Hint.POSITIONS and not chosen.confirmed:
         fixes = (Fix("variable", path, saving(path)),)
         seen = chosen.reasons[1:]
         notes.append(NEUTRAL_NAME(variable=path, why=name.why, seen=seen, fixes=fixes))

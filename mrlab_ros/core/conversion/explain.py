@@ -34,14 +34,21 @@ from mrlab_ros.core.conversion.diagnostics import (
     WRONG_SHAPE,
 )
 from mrlab_ros.core.conversion.dimensions import page_line
+from mrlab_ros.core.conversion.evidence.names import Hint
 from mrlab_ros.core.conversion.gripper import has_states
 from mrlab_ros.core.conversion.joining import Series, series, unequal, unequal_series
 from mrlab_ros.core.conversion.named_columns import misnamed
 from mrlab_ros.core.conversion.options import columns_text
 from mrlab_ros.core.conversion.scoring import FEW_ROWS
 from mrlab_ros.core.conversion.survey import Survey
-from mrlab_ros.core.conversion.variable_names import Hint
-from mrlab_ros.core.conversion.workspace import JOINT_STATE, Variable, Workspace, shortened
+from mrlab_ros.core.conversion.workspace import (
+    ATTRIBUTE,
+    COMMENT,
+    JOINT_STATE,
+    Variable,
+    Workspace,
+    shortened,
+)
 from mrlab_ros.core.robots.model import RobotModel
 
 OBJECT_CODE = {
@@ -78,7 +85,7 @@ def holds_samples(variable: Variable, hint: Hint) -> bool:
     kind = variable.kind
     if kind in OBJECT_CODE or kind.startswith(("Simulink.", "timeseries", "tscollection")):
         return True
-    return hint is Hint.POSITIONS and not re.search(
+    return hint.of_joints and not re.search(
         r"link|robot|tree|quaternion|^se[23]$|^so[23]$|camera", kind, re.I
     )
 
@@ -101,7 +108,7 @@ def refusal(survey: Survey, file: str) -> Diagnostic:
     """Say why nothing in the workspace could be the trajectory, by the nearest miss."""
     workspace, robot = survey.workspace, survey.robot
     joints = len(robot.joints)
-    ranks = {Hint.POSITIONS: 0, Hint.TWO_FACED: 1, Hint.NEUTRAL: 1}
+    ranks = {Hint.POSITIONS: 0, Hint.PARTLY: 0, Hint.TWO_FACED: 1, Hint.NEUTRAL: 1}
     misses: list[tuple[int, Diagnostic]] = []
     for v in workspace.variables:
         rank = ranks.get(survey.name(v).hint, 9)
@@ -132,7 +139,7 @@ def refusal(survey: Survey, file: str) -> Diagnostic:
     named = [miss for rank, miss in misses if rank == 0]
     if named:
         return named[0]
-    if opaque and (any(survey.name(v).hint is Hint.POSITIONS for v in opaque) or not misses):
+    if opaque and (any(survey.name(v).hint.of_joints for v in opaque) or not misses):
         return object_finding(UNSUPPORTED_OBJECT, opaque, file)
     if misses:
         return misses[0][1]
@@ -203,7 +210,11 @@ def described(a: Assessment, reasons: tuple[Diagnostic, ...]) -> Diagnostic:
 
 def contents(workspace: Workspace) -> dict[str, Any]:
     """Return what the file holds, as the values of diagnostics.CONTENTS."""
-    top = [v for v in workspace.variables if v.is_message or not re.search(r"[.({]", v.path)]
+    top = [
+        v
+        for v in workspace.variables
+        if v.kind not in (COMMENT, ATTRIBUTE) and (v.is_message or not re.search(r"[.({]", v.path))
+    ]
     listed = top[:MOST_LISTED]
     opened = tuple(
         v.path for v in listed if v.values is None and not v.is_object and v.kind in OPENED
@@ -228,7 +239,7 @@ def near_miss(variable: Variable, survey: Survey) -> Diagnostic | None:
     widths = (joints, joints + 1)
     shape, path = variable.shape, variable.path
     sized: dict[str, Any] = {"variable": path, "size": variable.size}
-    named = survey.name(variable).hint is Hint.POSITIONS
+    named = survey.name(variable).hint.of_joints
     if variable.is_message and variable.note:
         return BAD_MESSAGE(variable=path, why=variable.note)
     if variable.kind == JOINT_STATE:

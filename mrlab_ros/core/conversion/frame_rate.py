@@ -23,6 +23,7 @@ from mrlab_ros.core.conversion.diagnostics import (
     RATE_UNCLEAR,
     TIME_UNIT,
 )
+from mrlab_ros.core.conversion.evidence.names import Hint, hint, leaf, parts, words
 from mrlab_ros.core.conversion.joining import first_path
 from mrlab_ros.core.conversion.rate_scalars import Scalar
 from mrlab_ros.core.conversion.survey import Survey
@@ -35,7 +36,6 @@ from mrlab_ros.core.conversion.time_vectors import (
     is_time_name,
     unit_named,
 )
-from mrlab_ros.core.conversion.variable_names import Hint, hint, leaf, parts, words
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 
 # structures that hold what belongs to the matrix beside them
@@ -135,6 +135,14 @@ def find(
     if by_duration is not None:
         notes.append(rate_findings.assumed(by_duration.path, by_duration.rate, default))
         return Rate(by_duration.rate, None, notes)
+    by_text = rate_scalars.in_texts(workspace, path)
+    if by_text is not None:
+        notes.append(rate_findings.assumed(by_text.path, by_text.rate, default))
+        return Rate(by_text.rate, None, notes)
+    joints = len(survey.robot.joints)
+    if not unsure and not notes:
+        # a time that is in the file is never ignored
+        unsure = rate_scalars.unread(workspace, path, rows, joints)
     if unsure:
         notes.append(
             RATE_UNCLEAR(

@@ -7,10 +7,10 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from mrlab_ros.core.conversion.evidence import units
+from mrlab_ros.core.conversion.evidence.names import Hint, Name, describe, without_units
 from mrlab_ros.core.conversion.named_columns import names_joints
 from mrlab_ros.core.conversion.time_vectors import is_time_name
-from mrlab_ros.core.conversion.unit_names import DEGREES, against
-from mrlab_ros.core.conversion.variable_names import POSES, Hint, Name, describe
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 from mrlab_ros.core.robots.model import RobotModel
 
@@ -32,13 +32,14 @@ class Group:
         return f"{self.headings[0]}..{self.headings[-1]}"
 
 
-def plain(heading: str) -> tuple[str, str]:
-    """Return a heading without its unit in brackets, and deg or an empty unit."""
+def plain(heading: str) -> tuple[str, units.Unit | None]:
+    """Return a heading without its unit, and that unit where it is one of angles."""
     match = BRACKETS.search(heading)
     if match is None or match[1].isdigit() or not match.start():
-        return heading.strip(), ""
-    unit = match[1].lower()
-    return heading[: match.start()].strip(), "deg" if unit in DEGREES else ""
+        name, unit = without_units(heading)
+        return name, unit
+    unit = units.parse(match[1])
+    return heading[: match.start()].strip(), unit if unit is not None and unit.is_angle else None
 
 
 def groups(headings: Sequence[str]) -> list[Group]:
@@ -70,11 +71,11 @@ def describe_table(variable: Variable) -> Name | None:
         return None
     bare = [re.sub(r"[^a-z]", "", n) for n in names]
     if any(tuple(bare[i : i + 3]) in POINT for i in range(len(bare) - 2)):
-        return Name(Hint.AGAINST, POSES)
+        return Name(Hint.AGAINST, "poses")
     foreign = foreign_quantity(variable.columns)
     if foreign:
         return Name(Hint.AGAINST, foreign)
-    unit = "deg" if any(plain(h)[1] for h in variable.columns) else ""
+    unit = next((found for h in variable.columns if (found := plain(h)[1])), None)
     runs = groups(variable.columns)
     if is_whole(variable, runs):
         said = describe(plain_path(runs[0]))
@@ -89,7 +90,8 @@ def foreign_quantity(headings: Sequence[str]) -> str:
     """Return the quantity whose units most headings give, where joints have others; or empty."""
     given = [h for h in headings if not is_time_name(plain(h)[0])]
     matches = [BRACKETS.search(h) for h in given]
-    found = [what for what in (against(m[1]) for m in matches if m and m.start()) if what]
+    found = [units.foreign(m[1]) for m in matches if m and m.start()]
+    found = [what for what in found if what]
     return found[0] if 2 * len(found) > len(given) else ""
 
 
@@ -136,11 +138,11 @@ def split_tables(workspace: Workspace, robot: RobotModel) -> Workspace:
         if not names_joints(v, robot) and not is_whole(v, runs):
             for run in runs:
                 values = v.values[:, run.columns[0] : run.columns[-1] + 1]
-                degrees = all(plain(h)[1] == "deg" for h in run.headings)
-                units = ("deg",) if degrees else ()
+                given = {unit for h in run.headings if (unit := plain(h)[1])}
+                stated = (given.pop().name,) if len(given) == 1 else ()
                 added.append(
                     Variable(
-                        run.path, v.kind, values.shape, values, columns=run.headings, units=units
+                        run.path, v.kind, values.shape, values, columns=run.headings, units=stated
                     )
                 )
         grouped = {c for run in runs for c in run.columns}

@@ -22,8 +22,8 @@ from mrlab_ros.core.conversion.diagnostics import (
     SIZES_DIFFER,
     UNKNOWN_VARIABLE,
 )
+from mrlab_ros.core.conversion.evidence.names import Hint, hint
 from mrlab_ros.core.conversion.options import indices
-from mrlab_ros.core.conversion.variable_names import Hint, hint
 from mrlab_ros.core.conversion.workspace import Variable, Workspace, shortened
 
 NUMBER = re.compile(r"\d+(?=\D*$)")
@@ -158,7 +158,7 @@ def unequal_series(workspace: Workspace, joints: int) -> list[Variable]:
         long = all(max(v.shape) > joints for v in found)
         differ = len(found) == joints and len({v.shape for v in found}) > 1
         said = hint(f"{found[0].path}..{found[-1].path}")
-        if counts_up and long and differ and said is Hint.POSITIONS:
+        if counts_up and long and differ and said.of_joints:
             return found
     return []
 
@@ -194,7 +194,13 @@ def series(workspace: Workspace, joints: int) -> list[Series]:
             found.append(Series(paths, beside=True))
         elif shape in ((joints,), (joints + 1,), (0, joints), (0, joints + 1)):
             found.append(Series(paths, beside=False))
-    order = {Hint.POSITIONS: 0, Hint.TWO_FACED: 1, Hint.NEUTRAL: 2, Hint.DOUBTFUL: 3}
+    order = {
+        Hint.POSITIONS: 0,
+        Hint.PARTLY: 0,
+        Hint.TWO_FACED: 1,
+        Hint.NEUTRAL: 2,
+        Hint.DOUBTFUL: 3,
+    }
     ranked = [(order.get(hint(s.text), 9), not s.beside, s) for s in found]
     ranked = [r for r in ranked if r[0] < 9]
     ranked.sort(key=lambda r: r[:2])

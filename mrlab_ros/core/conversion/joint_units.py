@@ -15,6 +15,7 @@ from mrlab_ros.core.conversion.diagnostics import (
     BAD_OPTION,
     CONVERTED_UNIT,
     COUNTS,
+    COUNTS_STATED,
     DEGREES,
     DOUBTFUL_VALUES,
     LIKE_PERCENT,
@@ -22,14 +23,20 @@ from mrlab_ros.core.conversion.diagnostics import (
     LITTLE_IN_DEGREES,
     LOOKS_LIKE,
     SMALL_FOR_DEGREES,
+    UNIT_CONFLICT,
     UNIT_MIXED,
+    UNIT_OF_NAME,
     UNIT_REACHES,
+    UNIT_UNREAD,
     UNITS_APPLIED,
     UNWRAP_APPLIED,
 )
+from mrlab_ros.core.conversion.evidence import statements
+from mrlab_ros.core.conversion.evidence.statements import Statement, UnitClaim
 from mrlab_ros.core.conversion.explain import matlab_name
+from mrlab_ros.core.conversion.joining import first_path
+from mrlab_ros.core.conversion.labels import said_by_units
 from mrlab_ros.core.conversion.options import Options, columns_text
-from mrlab_ros.core.conversion.unit_names import said_by_units
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.trajectory import Array
 
@@ -39,38 +46,109 @@ def in_radians(
     options: Options,
     assessment: Assessment,
     robot: RobotModel,
+    said: list[Statement],
     notes: list[Diagnostic],
 ) -> tuple[Array, float]:
-    """Apply the options that change values; raise BadInput where a unit has to be named first."""
-    path, poses = assessment.path, assessment.poses.strong
+    """Bring joints to rad and m; raise BadInput where a unit has to be named first.
+
+    said: what the file states beside the matrix.
+    """
+    path = assessment.path
     unit, factor = options.factor()
-    doubted = any(n.code == "doubtful_values" and n.variable == path for n in notes)
     if unit == "mm":
         arm = _in_metres(arm, robot, options)
         notes.append(UNITS_APPLIED(variable=path, taken="mm"))
     elif unit:
-        if unit == "deg":
-            few = _spanning_little(arm)
-            if few:
-                notes.append(_doubtful(path, LITTLE_IN_DEGREES(columns=columns_text(few))))
-            elif _in_percent(arm):
-                notes.append(_doubtful(path, LIKE_PERCENT()))
-        if poses is not None and unit != "rad" and not doubted:
-            notes.append(_doubtful(path, LIKE_POSES(why=poses)))
+        notes += _as_asked(arm, unit, factor, assessment, notes)
+        arm *= factor
+    else:
+        factor = _stated_factor(assessment, said, notes) or 1.0
         if factor != 1.0:
             arm *= factor
-        counts = 2 * np.pi / factor if unit == "counts" else None
-        notes.append(UNITS_APPLIED(variable=path, taken=unit, counts=counts))
-    elif said_by_units(assessment.variable.units).unit == "deg":
-        arm, factor = np.radians(arm), float(np.radians(1))
-        notes.append(_converted(arm, path))
-    elif (evidence := assessment.unit).why is not None and not assessment.by_name:
-        if poses is not None and evidence.unit == "counts":
-            why, fix = LIKE_POSES(why=poses), Fix(matlab="save('traj.mat', 'q')")
-            size = assessment.variable.size
-            raise BadInput(LOOKS_LIKE(variable=path, size=size, why=why, fixes=(fix,)))
-        raise BadInput(_unit_finding(arm, assessment, evidence.why, robot))
-    elif assessment.by_name or assessment.variable.is_message:
+            notes += _converted(arm, assessment, said, factor)
+        else:
+            _refuse_other_units(arm, assessment, robot)
+    if options.unwrap:
+        arm = np.unwrap(arm, axis=0)
+        notes.append(UNWRAP_APPLIED(variable=path))
+    return arm, factor
+
+
+def _as_asked(
+    arm: Array, unit: str, factor: float, assessment: Assessment, notes: list[Diagnostic]
+) -> list[Diagnostic]:
+    """Return what is said of values, still in their unit, that a person named."""
+    path, poses = assessment.path, assessment.poses.strong
+    found = []
+    if unit == "deg":
+        few = _spanning_little(arm)
+        if few:
+            found.append(_doubtful(path, LITTLE_IN_DEGREES(columns=columns_text(few))))
+        elif _in_percent(arm):
+            found.append(_doubtful(path, LIKE_PERCENT()))
+    doubted = any(n.code == "doubtful_values" and n.variable == path for n in notes)
+    if poses is not None and unit != "rad" and not doubted:
+        found.append(_doubtful(path, LIKE_POSES(why=poses)))
+    counts = 2 * np.pi / factor if unit == "counts" else None
+    return [*found, UNITS_APPLIED(variable=path, taken=unit, counts=counts)]
+
+
+def unit_claims(assessment: Assessment, said: list[Statement]) -> list[UnitClaim]:
+    """Return the units that the file states for a matrix: columns, texts beside it, its name."""
+    path, name = assessment.path, assessment.name.unit
+    of_columns = said_by_units(assessment.variable.units).unit
+    claims = statements.unit_claims(said, first_path(path))
+    if of_columns is not None and of_columns not in {c.unit for c in claims}:
+        claims.insert(0, UnitClaim(of_columns, path, of_columns.name))
+    if name is not None and name not in {c.unit for c in claims}:
+        claims.append(UnitClaim(name, path, name.name))
+    return claims
+
+
+def _stated_factor(
+    assessment: Assessment, said: list[Statement], notes: list[Diagnostic]
+) -> float | None:
+    """Return the factor to rad of the unit that the file states, None where it states none.
+
+    Raises BadInput where two are stated, and where the name of the matrix alone says one.
+    """
+    path = assessment.path
+    claims = unit_claims(assessment, said)
+    if not claims:
+        unread = statements.unread_units(said, first_path(path))
+        notes += [UNIT_UNREAD(variable=path, source=s.path, words=s.text) for s in unread[:1]]
+        return None
+    first, *others = claims
+    if others:
+        second = others[0]
+        raise BadInput(
+            UNIT_CONFLICT(
+                variable=path,
+                source=first.source,
+                stated=first.unit.name,
+                other=second.source,
+                second=second.unit.name,
+            )
+        )
+    if not first.unit.factor or not first.unit.is_angle:
+        counts = statements.counts_a_turn(said) if first.unit.name == "counts" else None
+        if counts is None:
+            raise BadInput(
+                COUNTS_STATED(variable=path, source=first.source, stated=first.unit.name)
+            )
+        return float(2 * np.pi / counts)
+    by_name = first.source == path and said_by_units(assessment.variable.units).unit is None
+    if by_name and first.unit.name == "deg":
+        return None
+    if by_name and first.unit.factor != 1.0:
+        raise BadInput(UNIT_OF_NAME(variable=path, stated=first.unit.name))
+    return first.unit.factor
+
+
+def _refuse_other_units(arm: Array, assessment: Assessment, robot: RobotModel) -> None:
+    """Raise BadInput where the values are no radians of the robot, by their range."""
+    evidence, path = assessment.unit, assessment.path
+    if assessment.by_name or assessment.variable.is_message:
         ends = (arm.min(axis=0), arm.max(axis=0))
         if units.evidence(arm, *ends, robot, "").unit == "deg":
             largest = float(np.abs(arm).max())
@@ -83,10 +161,12 @@ def in_radians(
                     why=UNIT_REACHES(largest=largest),
                 )
             )
-    if options.unwrap:
-        arm = np.unwrap(arm, axis=0)
-        notes.append(UNWRAP_APPLIED(variable=path))
-    return arm, factor
+    elif evidence.why is not None:
+        if assessment.poses.strong is not None and evidence.unit == "counts":
+            why = LIKE_POSES(why=assessment.poses.strong)
+            size, fix = assessment.variable.size, Fix(matlab="save('traj.mat', 'q')")
+            raise BadInput(LOOKS_LIKE(variable=path, size=size, why=why, fixes=(fix,)))
+        raise BadInput(_unit_finding(arm, assessment, evidence.why, robot))
 
 
 def _spanning_little(arm: Array) -> list[int]:
@@ -104,12 +184,18 @@ def _in_percent(arm: Array) -> bool:
     return bool(ends.sum() >= 2 and arm.min() > -0.5 and arm.max() < 100.5)
 
 
-def _converted(arm: Array, path: str) -> Diagnostic:
-    """Return what to say of degrees, now in rad, that the file itself names so."""
-    largest = float(np.degrees(np.abs(arm).max()))
-    if largest > units.LEAST_DEGREES:
-        return CONVERTED_UNIT(variable=path)
-    return _doubtful(path, SMALL_FOR_DEGREES(largest=largest))
+def _converted(
+    arm: Array, assessment: Assessment, said: list[Statement], factor: float
+) -> list[Diagnostic]:
+    """Return what to say of values, now in rad, whose unit the file itself names."""
+    path = assessment.path
+    claim = unit_claims(assessment, said)[0]
+    source = claim.source if claim.source != path else None
+    found = [CONVERTED_UNIT(variable=path, stated=claim.unit.name, source=source)]
+    largest = float(np.abs(arm).max()) / factor
+    if largest <= units.LEAST_DEGREES and claim.unit.name != "turn":
+        found.append(_doubtful(path, SMALL_FOR_DEGREES(largest=largest, stated=claim.unit.name)))
+    return found
 
 
 def _doubtful(path: str, why: Diagnostic) -> Diagnostic:

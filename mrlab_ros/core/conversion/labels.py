@@ -5,24 +5,16 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 
+from mrlab_ros.core.conversion.evidence import units
+from mrlab_ros.core.conversion.evidence.names import Hint, Name, describe
 from mrlab_ros.core.conversion.headings import describe_table
 from mrlab_ros.core.conversion.named_columns import names_joints
-from mrlab_ros.core.conversion.unit_names import DEGREES, said_by_units
-from mrlab_ros.core.conversion.variable_names import (
-    ERRORS,
-    OBSTACLES,
-    PARAMETERS,
-    Hint,
-    Name,
-    describe,
-)
 from mrlab_ros.core.conversion.workspace import Variable
 from mrlab_ros.core.robots.model import RobotModel
 
 UNNAMED = ("CSV",)  # formats whose matrix is called q by the reader
-ANGLES = DEGREES | {"rad", "radian", "radians"}
 # Quantities that are angles as joint positions are: an angle as unit does not tell them apart.
-STAYS_DOUBTFUL = frozenset((ERRORS, OBSTACLES, PARAMETERS))
+STAYS_DOUBTFUL = frozenset(("errors", "obstacles", "parameters"))
 KEYED = re.compile(r"\{:,.*\}$|\('[^']*'\)$")
 
 
@@ -64,5 +56,18 @@ def _overruled(said: Name, variable: Variable) -> Name:
     of_label = describe(variable.label) if variable.label else said
     if of_label.hint in (Hint.POSITIONS, Hint.AGAINST):
         return of_label
-    units = {u.strip().lower().strip("[]()") for u in variable.units if u.strip()}
-    return Name(Hint.TWO_FACED) if units and units <= ANGLES else said
+    given = [units.parse(u) for u in variable.units if u.strip()]
+    angles = given and all(u is not None and u.is_angle for u in given)
+    return Name(Hint.TWO_FACED) if angles else said
+
+
+def said_by_units(given: tuple[str, ...]) -> Name:
+    """Return what the units of all columns say together; nothing where they differ."""
+    spelled = {units.plain(u) for u in given if u.strip()}
+    if len(spelled) != 1:
+        return Name(Hint.NEUTRAL)
+    text = spelled.pop()
+    what, unit = units.foreign(text), units.parse(text)
+    if what:
+        return Name(Hint.AGAINST, what)
+    return Name(Hint.NEUTRAL, unit=unit if unit is not None and unit.is_angle else None)

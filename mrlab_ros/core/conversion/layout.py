@@ -30,6 +30,8 @@ from mrlab_ros.core.conversion.diagnostics import (
     SEVEN_AXES,
     TRANSPOSE_APPLIED,
 )
+from mrlab_ros.core.conversion.evidence import statements
+from mrlab_ros.core.conversion.evidence.names import parts, words
 from mrlab_ros.core.conversion.explain import (
     clocks_of,
     matlab_name,
@@ -37,14 +39,13 @@ from mrlab_ros.core.conversion.explain import (
     time_finding,
     wrong_shape,
 )
-from mrlab_ros.core.conversion.joining import rows_of
+from mrlab_ros.core.conversion.joining import first_path, rows_of
 from mrlab_ros.core.conversion.joint_units import in_radians
 from mrlab_ros.core.conversion.measuring import fits
 from mrlab_ros.core.conversion.named_columns import names_joints, order
 from mrlab_ros.core.conversion.options import NO_GRIPPER, Options
 from mrlab_ros.core.conversion.picking import Chosen
 from mrlab_ros.core.conversion.survey import Survey
-from mrlab_ros.core.conversion.variable_names import parts, words
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.trajectory import Array
@@ -116,7 +117,8 @@ def lay_out(chosen: Chosen, survey: Survey, options: Options, notes: list[Diagno
     held = None if column is None else _gripper(column, options, path, chosen, joints, notes)
     if column is None and not chosen.without_gripper:
         notes += _gripper_beside(survey.workspace, path, len(arm))
-    arm, scale = in_radians(arm, options, assessment, robot, notes)
+    stated = statements.about(survey.workspace, first_path(path))
+    arm, scale = in_radians(arm, options, assessment, robot, stated, notes)
     return Layout(arm, held, times, [chosen.picked[i] for i in by_name[:joints]], scale)
 
 

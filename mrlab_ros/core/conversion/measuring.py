@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 from mrlab_ros.core.conversion import cartesian, relations, units
 from mrlab_ros.core.conversion.assessment import Assessment
 from mrlab_ros.core.conversion.clock_columns import clocks_among
+from mrlab_ros.core.conversion.evidence.names import Name
+from mrlab_ros.core.conversion.evidence.units import DEGREES
 from mrlab_ros.core.conversion.gripper import has_states, is_ramp
 from mrlab_ros.core.conversion.named_columns import misnamed, names_joints
-from mrlab_ros.core.conversion.variable_names import Name
 from mrlab_ros.core.conversion.workspace import Variable
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.trajectory import Array
@@ -81,7 +82,9 @@ def measured(
         last_is_joint = not (has_states(last) or (is_ramp(last) and in_radians))
     return replace(
         base,
-        unit=units.evidence(arm, low[:joints], high[:joints], robot, name.unit),
+        unit=units.evidence(
+            arm, low[:joints], high[:joints], robot, "deg" if name.unit == DEGREES else ""
+        ),
         unfilled=_unfilled(arm, steps),
         coarse=is_coarse(arm),
         still=not span.any(),

@@ -20,12 +20,13 @@ from mrlab_ros.core.conversion.diagnostics import (
     UNITS_CONTRADICT,
     UNKNOWN_UNIT,
 )
+from mrlab_ros.core.conversion.evidence import units
 
 TERM = re.compile(r"(\d+|end)(?:\s*:\s*(?:(\d+)\s*:\s*)?(\d+|end))?$")
 DEFAULT_FRAME_RATE = 100.0  # Hz
 MOST_ROWS = 5_000_000  # of a matrix, if not said otherwise: almost 14 hours at 100 Hz
 LEAST_RATE, MOST_RATE = 0.1, 100_000.0  # Hz
-UNITS = ("rad", "deg", "mm")
+UNITS = ("rad", "deg", "mrad", "gon", "turn", "halfturn", "cdeg", "mdeg", "mm")
 MOST_COUNTS = 1e9  # a turn; encoders have at most 2^30
 NO_GRIPPER = "none"
 
@@ -39,8 +40,9 @@ class Options:
     join, such as q1..q6; empty: none. columns: which columns hold the joints, as in MATLAB,
     after `transpose`; empty: all. gripper: the gripper's column, or a vector of the file, or
     none; empty: the column after the joints. invert: larger values of the gripper mean open.
-    units: rad, deg, counts:N with N counts a turn, or mm for joints in m; empty: rad. frame_rate:
-    Hz; 0: from the file. resample: rows at uneven times become frames at an even rate.
+    units: rad, deg or another unit of angles (`evidence.units`), counts:N with N counts a turn, or
+    mm for joints in m; empty: as the file states, else rad. frame_rate: Hz; 0: from the file.
+    resample: rows at uneven times become frames at an even rate.
     """
 
     variable: str = ""
@@ -65,8 +67,8 @@ class Options:
     def factor(self) -> tuple[str, float]:
         """Return the unit of the joints, empty where none was named, and its factor to rad or m.
 
-        The unit is rad, deg, counts or mm. Raises BadInput where it is none of these, or where
-        `degrees` and `units` contradict each other.
+        The unit is one of angles, counts or mm. Raises BadInput where it is none of
+        these, or where `degrees` and `units` contradict each other.
         """
         text = self.units.strip().lower()
         if self.degrees and text not in ("", "deg"):
@@ -78,6 +80,9 @@ class Options:
             return text, 1.0
         if text == "mm":
             return "mm", 1e-3
+        stated = units.parse(text)
+        if stated is not None and stated.is_angle and stated.factor:
+            return stated.name, stated.factor
         name, _, number = text.partition(":")
         try:
             counts = float(number)

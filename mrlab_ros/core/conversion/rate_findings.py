@@ -28,6 +28,7 @@ from mrlab_ros.core.conversion.diagnostics import (
     TIMES_OF_CLASS,
     VALUES_OF,
 )
+from mrlab_ros.core.conversion.evidence.names import leaf, parts
 from mrlab_ros.core.conversion.rate_scalars import RATE_NAMES, STEP_NAMES, scalar_name
 from mrlab_ros.core.conversion.time_vectors import (
     NAMED_SECONDS,
@@ -36,7 +37,6 @@ from mrlab_ros.core.conversion.time_vectors import (
     is_time_name,
     unit_named,
 )
-from mrlab_ros.core.conversion.variable_names import leaf, parts
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 
 COARSE_SINGLE = 1e5  # above it, single precision is no clock of a robot
@@ -222,6 +222,6 @@ def _why_unused(v: Variable, rows: int) -> Diagnostic | None:
         return COARSE_TIMES(value=float(np.spacing(np.float32(np.abs(column).max()))))
     if len(column) == rows:
         return NO_TIMES_OF_ROWS()
-    if len(column) == 2 or len(column) == rows - 1:
+    if len(column) != rows and len(column) > 1:
         return ANOTHER_COUNT(count=len(column), rows=rows)
     return None

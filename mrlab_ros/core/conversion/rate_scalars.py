@@ -4,12 +4,23 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from mrlab_ros.core.conversion.evidence import statements
+from mrlab_ros.core.conversion.evidence.glossary import Class
+from mrlab_ros.core.conversion.evidence.names import described, leaf, parts, words
 from mrlab_ros.core.conversion.joining import first_path
-from mrlab_ros.core.conversion.time_vectors import LEAST_RATE, MOST_RATE, snapped, unit_named
-from mrlab_ros.core.conversion.variable_names import leaf, parts, words
+from mrlab_ros.core.conversion.time_vectors import (
+    LEAST_RATE,
+    MOST_RATE,
+    PATH_PARAMETERS,
+    UNIT_WORDS,
+    snapped,
+    unit_named,
+)
 from mrlab_ros.core.conversion.workspace import Workspace
 
 RATE_NAMES = words(
@@ -36,6 +47,19 @@ SPANS = words("tspan timespan tintervall zeitbereich")
 LIKELY_OF_DURATION = (5.0, 1000.0)  # Hz
 # structures whose steps and rates are not those of a trajectory
 FOREIGN = words("controller regler filter emg cam camera kamera force kraft ft imu audio plot")
+OF_RATES = (
+    Class.CLOCK, Class.PERIOD, Class.RATE, Class.SAMPLING, Class.KEPT, Class.ROLE, Class.ARM,
+    Class.SYMBOL, Class.JOINT,
+)  # fmt: skip
+NO_TIMES = (Class.TABLE, Class.GEAR, Class.GRIPPER, Class.UNIT_FLAG)
+OF_TIMES = (Class.CLOCK, Class.PERIOD, Class.RATE, Class.SAMPLING, Class.DURATION)
+IN_HERTZ = re.compile(r"(?P<number>\d+(?:[.,]\d+)?)\s*(?P<unit>k?hz)\b", re.I)
+IN_STEPS = re.compile(
+    r"(?:dt|ts|step|schritt|period\w*|takt\w*|zyklus\w*|cycle\w*|sampl\w*|abtast\w*|every|alle)"
+    r"[^\d\n]{0,20}(?P<number>\d+(?:[.,]\d+)?)\s*(?P<unit>ms|us|s)\b",
+    re.I,
+)
+LEAST_STEP, MOST_STEP = 1e-4, 0.5  # s; of a number that no word explains
 FOREIGN_ROWS = 20  # of data beside a rate that have their own number of rows
 # an entry of a containers.Map or of a dictionary
 KEY = re.compile(r"""\('([^']+)'\)$|\{"([^"]+)"\}$""")
@@ -71,7 +95,8 @@ def scalars(workspace: Workspace, path: str, rows: int, coarse: bool) -> list[Sc
         whole = re.sub(r"[^a-z]", "", "".join(said))
         stepped = whole[: -len(said[-1])] if unit and len(said) > 1 else whole
         step = number * {"ms": 1e-3, "us": 1e-6, "ns": 1e-9}.get(unit, 1.0)
-        rate, sure = 0.0, True
+        rate: float | None = 0.0
+        sure = True
         if whole in RATE_NAMES:
             rate = number
         elif whole in STEP_NAMES or stepped in STEP_NAMES:
@@ -85,7 +110,9 @@ def scalars(workspace: Workspace, path: str, rows: int, coarse: bool) -> list[Sc
             likely = LIKELY_STEPS[0] <= step <= LIKELY_STEPS[1]
             rate, sure = (1 / step if likely else 0.0), False
         else:
-            continue
+            rate, sure = _by_words(name, number, unit, rows)
+            if rate is None:
+                continue
         if sure and not ((LEAST_RATE if coarse else 1.0) <= rate <= MOST_RATE):
             rate, sure = 0.0, False
         if rate and not LEAST_RATE <= rate <= MOST_RATE:
@@ -96,6 +123,95 @@ def scalars(workspace: Workspace, path: str, rows: int, coarse: bool) -> list[Sc
         found.append((not sure, v.path.rpartition(".")[0] != near, scalar))
     found.sort(key=lambda item: item[:2])
     return [scalar for _, _, scalar in found]
+
+
+def _by_words(name: str, number: float, unit: str, rows: int) -> tuple[float | None, bool]:
+    """Return the rate that the words of a name make of a number, 0 for none, and if it is sure.
+
+    None where the name says neither a rate nor a step. Words of sampling beside it make it sure.
+    """
+    said = described(name)
+    times = words(" ".join(UNIT_WORDS["ms"] | UNIT_WORDS["us"] | UNIT_WORDS["ns"]))
+    said = [w for w in said if w.text not in times or w is said[0]]
+    known = all(w.can_be(*OF_RATES) for w in said)
+    beside = len(said) > 1 and any(w.can_be(Class.SAMPLING) for w in said)
+    if not known or number == rows:
+        return None, False
+    if any(w.text in ("hz", "khz") for w in said):
+        return number * (1e3 if said[-1].text == "khz" else 1.0), True
+    if any(w.can_be(Class.RATE) for w in said):
+        return number, beside
+    if any(w.can_be(Class.PERIOD) for w in said) or (
+        beside and any(w.can_be(Class.CLOCK) for w in said)
+    ):
+        step = number * {"ms": 1e-3, "us": 1e-6, "ns": 1e-9}.get(unit, 1.0)
+        if unit or beside:
+            return 1 / step, beside
+        return (1 / step if LIKELY_STEPS[0] <= step <= LIKELY_STEPS[1] else 0.0), False
+    return None, False
+
+
+def in_texts(workspace: Workspace, path: str) -> Scalar | None:
+    """Return the rate that a text near the matrix says, such as 'recorded at 250 Hz'."""
+    for s in statements.about(workspace, first_path(path)):
+        if not s.text:
+            continue
+        match = IN_HERTZ.search(s.text) or IN_STEPS.search(s.text)
+        if match is None:
+            continue
+        number = float(match["number"].replace(",", "."))
+        scale = {"ms": 1e-3, "us": 1e-6, "s": 1.0, "khz": 1e3}.get(match["unit"].lower(), 1.0)
+        rate = (
+            number * scale if match["unit"].lower().endswith("hz") else 1 / (number * scale or 1)
+        )
+        if LEAST_RATE <= rate <= MOST_RATE:
+            return Scalar(s.path, snapped(rate), sure=False)
+    return None
+
+
+def unread(workspace: Workspace, path: str, rows: int, joints: int) -> list[Scalar]:
+    """Return what nothing explains near the matrix and what could say the time of its rows.
+
+    Numbers that may be a step, a rate or a duration, vectors that rise, and texts that speak of
+    time in digits; rate: Hz, 0 where none follows.
+    """
+    found = []
+    matrix = first_path(path)
+    for v in workspace.variables:
+        near = v.path != matrix and statements.distance(v.path, matrix) is not None
+        if not near or statements.ELEMENT.search(v.path):
+            continue
+        said = described(leaf(v.path))
+        if v.text:
+            timed = any(w.can_be(*OF_TIMES) for w in (*said, *statements.words_of_text(v.text)))
+            if timed and any(c.isdigit() for c in v.text) and v.kind != "logical":
+                found.append(Scalar(v.path, 0.0, sure=False))
+            continue
+        path_parameter = "".join(parts(leaf(v.path))) in PATH_PARAMETERS and v.values is not None
+        if v.values is None or not said or path_parameter or any(w.quantity for w in said):
+            continue
+        if v.values.size == 1:
+            number = float(v.values.reshape(-1)[0])
+            known = any(
+                w.can_be(Class.TABLE, Class.GEAR, Class.GRIPPER, Class.UNIT_FLAG) for w in said
+            )
+            if not known and _may_be_time(number, rows, joints):
+                rate = 1 / number if number < 1 else number
+                found.append(Scalar(v.path, snapped(rate), sure=False))
+        elif v.values.size == rows and min(v.shape) == 1 and rows >= 3 and _rises(v.values):
+            found.append(Scalar(v.path, 0.0, sure=False))
+    return found
+
+
+def _may_be_time(number: float, rows: int, joints: int) -> bool:
+    if not np.isfinite(number) or number in (rows, joints, joints + 1):
+        return False
+    return LEAST_STEP <= number <= MOST_STEP or 2 <= number <= MOST_RATE
+
+
+def _rises(values: NDArray[Any]) -> bool:
+    steps = np.diff(values.reshape(-1).astype(np.float64))
+    return bool(np.isfinite(steps).all() and (steps > 0).all() and not (steps == 1).all())
 
 
 def of_duration(workspace: Workspace, path: str, rows: int) -> Scalar | None:
@@ -111,7 +227,10 @@ def of_duration(workspace: Workspace, path: str, rows: int) -> Scalar | None:
         if number is None or not np.isfinite(number) or number <= 0 or not name:
             continue
         said = "".join(parts(name))
-        if said not in DURATION_NAMES | SPANS or not _is_near(v.path, near):
+        by_words = any(w.can_be(Class.DURATION) for w in described(name)) and all(
+            w.can_be(Class.DURATION, Class.CLOCK, Class.ROLE, Class.KEPT) for w in described(name)
+        )
+        if not (by_words or said in DURATION_NAMES | SPANS) or not _is_near(v.path, near):
             continue
         # T may be anything: it counts where it is the time of the last row, as in 0:dt:T
         for steps in (rows - 1,) if said == "t" else (rows - 1, rows):

@@ -18,12 +18,13 @@ from mrlab_ros.core.conversion.diagnostics import (
     TOOL_OF,
     TOOL_PATH,
 )
-from mrlab_ros.core.conversion.unit_names import said_by_units
-from mrlab_ros.core.conversion.variable_names import Hint
+from mrlab_ros.core.conversion.evidence.names import Hint
+from mrlab_ros.core.conversion.labels import said_by_units
 from mrlab_ros.core.robots.model import RobotModel
 
 NAME_SCORES = {
     Hint.POSITIONS: 0.3,
+    Hint.PARTLY: 0.2,
     Hint.NEUTRAL: 0.0,
     Hint.TWO_FACED: 0.0,
     Hint.DOUBTFUL: -0.3,
@@ -58,7 +59,7 @@ def judged(a: Assessment, robot: RobotModel) -> Assessment:
     if a.tool_path:
         points += 0.3
         reasons.append(TOOL_PATH(other=a.tool_path))
-    if a.rates and hint in (Hint.POSITIONS, Hint.NEUTRAL, Hint.TWO_FACED):
+    if a.rates and not hint.against:
         points += 0.15
         reasons.append(HAS_DERIVATIVE(other=a.rates[0][0]))
     if a.rows == a.columns:
@@ -87,11 +88,16 @@ def judged(a: Assessment, robot: RobotModel) -> Assessment:
 
 
 def _judge_range(a: Assessment, reasons: list[Diagnostic]) -> float:
-    in_degrees = a.unit.unit == "deg" and said_by_units(a.variable.units).unit == "deg"
+    in_degrees = a.unit.unit == "deg" and _in_degrees(a)
     if a.by_name or a.unit.unit == "rad" or in_degrees:
         return 0.1
     reasons.append(a.unit.why or SEEN(what="limits"))
     return -0.2
+
+
+def _in_degrees(a: Assessment) -> bool:
+    unit = said_by_units(a.variable.units).unit
+    return unit is not None and unit.name == "deg"
 
 
 def _judge_motion(a: Assessment, reasons: list[Diagnostic]) -> float:

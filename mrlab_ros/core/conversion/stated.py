@@ -7,16 +7,20 @@ from collections import Counter
 from dataclasses import replace
 
 from mrlab_ros.core.conversion import joining
+from mrlab_ros.core.conversion.evidence import statements, units
+from mrlab_ros.core.conversion.evidence.beside import (
+    NamesClaim,
+    names_claims,
+    order_of_names,
+    order_vectors,
+)
+from mrlab_ros.core.conversion.evidence.names import Hint, describe
 from mrlab_ros.core.conversion.headings import MOST_HEADINGS, plain
-from mrlab_ros.core.conversion.named_columns import names_joints
+from mrlab_ros.core.conversion.named_columns import GRIPPER, names_joints
 from mrlab_ros.core.conversion.time_vectors import is_time_name
-from mrlab_ros.core.conversion.unit_names import said_by_units
-from mrlab_ros.core.conversion.variable_names import Hint, describe
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 from mrlab_ros.core.robots.model import RobotModel
 
-UNIT_FIELDS = frozenset(("unit", "units", "einheit", "einheiten"))
-NAME_FIELDS = ("name", "names", "joint_names", "jointnames", "jointNames", "JointNames", "Name")
 SIGNALS = re.compile(r"(?P<block>.+)\.signals(?:\(\d+\))?\.values$")
 NUMBERED = re.compile(r"(?P<before>\D*)(?P<number>\d+)(?P<after>\D*)$")
 DEFAULT_BLOCK = re.compile(r"(to ?workspace|to ?file|scope|out)\s*\d*$", re.IGNORECASE)
@@ -31,7 +35,7 @@ def with_headings(workspace: Workspace, robot: RobotModel) -> Workspace:
     the robot's. Headings that name other quantities, such as velocity.elbow_joint, stay.
     """
     variables = tuple(
-        _in_degrees(_named_as_joints(v, v.columns, robot), robot)
+        _with_unit(_named_as_joints(v, v.columns, robot), robot)
         if v.columns and v.values is not None
         else v
         for v in workspace.variables
@@ -39,13 +43,13 @@ def with_headings(workspace: Workspace, robot: RobotModel) -> Workspace:
     return replace(workspace, variables=variables)
 
 
-def _in_degrees(table: Variable, robot: RobotModel) -> Variable:
+def _with_unit(table: Variable, robot: RobotModel) -> Variable:
     """Return a table with degrees as its unit where the headings of all its joints say so."""
     headings = [h for h in table.columns if not is_time_name(plain(h)[0])]
-    degrees = [h for h in headings if plain(h)[1] == "deg"]
-    if table.units or len(degrees) < len(robot.joints) or len(headings) - len(degrees) > 1:
+    given = [unit for h in headings if (unit := plain(h)[1]) is not None]
+    if table.units or len(given) < len(robot.joints) or len(headings) - len(given) > 1:
         return table
-    return replace(table, units=("deg",))
+    return replace(table, units=(given[0].name,)) if len(set(given)) == 1 else table
 
 
 def with_statements(workspace: Workspace, robot: RobotModel, join: str = "") -> Workspace:
@@ -56,15 +60,8 @@ def with_statements(workspace: Workspace, robot: RobotModel, join: str = "") -> 
     name, whose pieces may have labels.
     """
     texts = {v.path: v.text for v in workspace.variables if v.text}
-    if not texts:
-        return workspace
-    units = {
-        path.rpartition(".")[0]: text
-        for path, text in texts.items()
-        if path.rpartition(".")[2].lower() in UNIT_FIELDS
-    }
     variables = tuple(
-        _stated(v, texts, units, robot, join)
+        _stated(v, workspace, texts, robot, join)
         if v.values is not None and len(v.shape) == 2 and min(v.shape) > 1 and not v.is_message
         else v
         for v in workspace.variables
@@ -73,27 +70,42 @@ def with_statements(workspace: Workspace, robot: RobotModel, join: str = "") -> 
 
 
 def _stated(
-    v: Variable, texts: dict[str, str], units: dict[str, str], robot: RobotModel, join: str
+    v: Variable, workspace: Workspace, texts: dict[str, str], robot: RobotModel, join: str
 ) -> Variable:
     sources = joining.sources(v.path, join)[:MOST_SOURCES]
-    outer = sources[0].rpartition(".")[0]
-    # degrees alone: another unit may be that of another matrix beside it
-    unit = units.get(outer, "")
-    if unit and not v.units and said_by_units((unit,)).unit == "deg":
-        v = replace(v, units=(unit,))
     labels = [_label(path, texts) for path in sources]
     if labels[0] and not v.label:
         v = replace(v, label=labels[0])
-    if v.columns or describe(v.path).hint in UNLIKELY:
+    of_label = units.in_brackets(v.label) if v.label else None
+    if of_label is not None and of_label.is_angle and not v.units:
+        v = replace(v, units=(of_label.name,))
+    if v.columns or describe(v.path).hint.against:
         return v
-    names = labels if len(labels) > 1 and all(labels) else _names_beside(outer, texts)
-    if len(names) == v.shape[1]:
-        if tuple(names) != robot.joint_names and set(names) == set(robot.joint_names):
-            return replace(v, columns=tuple(names))
-        found = _named_as_joints(v, tuple(names), robot)
+    joints = len(robot.joints)
+    said = statements.about(workspace, sources[0])
+    lists = [NamesClaim(tuple(labels), sources[0])] if len(labels) > 1 and all(labels) else []
+    for claim in (*lists, *names_claims(said, v.shape[1])):
+        names = claim.names[:joints] if len(claim.names) == joints + 1 else claim.names
+        order = order_of_names(names, robot) if len(names) == joints else None
+        if order is not None:
+            return replace(v, columns=_columns(order, v, robot)) if _needed(order, names) else v
+        found = _named_as_joints(v, claim.names, robot)
         if names_joints(found, robot):
             return found
+    for vector in order_vectors(said, joints):
+        if not vector.is_identity and vector.is_clear and v.shape[1] in (joints, joints + 1):
+            return replace(v, columns=_columns(vector.joints, v, robot))
     return v
+
+
+def _needed(order: tuple[int, ...], names: tuple[str, ...]) -> bool:
+    """Say whether names of columns change their order."""
+    return order != tuple(range(len(names)))
+
+
+def _columns(order: tuple[int, ...], v: Variable, robot: RobotModel) -> tuple[str, ...]:
+    named = tuple(robot.joint_names[j] for j in order)
+    return named if v.shape[1] == len(named) else (*named, GRIPPER)
 
 
 def _label(path: str, texts: dict[str, str]) -> str:
@@ -107,18 +119,6 @@ def _label(path: str, texts: dict[str, str]) -> str:
     block = texts.get(f"{match['block']}.blockName", "")
     name = block.rpartition("/")[2].strip()
     return "" if DEFAULT_BLOCK.match(name) else name
-
-
-def _names_beside(outer: str, texts: dict[str, str]) -> list[str]:
-    """Return the texts of a cell called name or joint_names that lies in the struct `outer`."""
-    for field in NAME_FIELDS:
-        path = f"{outer}.{field}" if outer else field
-        found: list[str] = []
-        while f"{path}{{{len(found) + 1}}}" in texts:
-            found.append(texts[f"{path}{{{len(found) + 1}}}"].strip())
-        if found:
-            return found
-    return []
 
 
 def _named_as_joints(v: Variable, headings: tuple[str, ...], robot: RobotModel) -> Variable:
@@ -135,8 +135,8 @@ def _named_as_joints(v: Variable, headings: tuple[str, ...], robot: RobotModel) 
     names = list(headings)
     for joint, column in zip(joints, found, strict=True):
         names[column] = joint
-    degrees = any(plain(headings[c])[1] for c in found)
-    return replace(v, columns=tuple(names), units=("deg",) if degrees else v.units)
+    given = next((unit for c in found if (unit := plain(headings[c])[1])), None)
+    return replace(v, columns=tuple(names), units=(given.name,) if given else v.units)
 
 
 def _affixed(headings: list[str], joints: tuple[str, ...]) -> list[int] | None:

@@ -8,10 +8,10 @@ from functools import cached_property
 from mrlab_ros.core.conversion.assessment import Assessment, blocking_clocks
 from mrlab_ros.core.conversion.clock_columns import time_vectors
 from mrlab_ros.core.conversion.comparison import relate
+from mrlab_ros.core.conversion.evidence.names import Name
 from mrlab_ros.core.conversion.labels import name_of
 from mrlab_ros.core.conversion.measuring import fits, measured
 from mrlab_ros.core.conversion.scoring import judged
-from mrlab_ros.core.conversion.variable_names import Name
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 from mrlab_ros.core.robots.model import RobotModel
 

@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mrlab_ros.core.conversion.variable_names import leaf, parts, without_numbers, words
+from mrlab_ros.core.conversion.evidence.glossary import Class
+from mrlab_ros.core.conversion.evidence.names import described, leaf, parts, without_numbers, words
 from mrlab_ros.core.trajectory.trajectory import Array
 
 SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "days": 86_400.0}
@@ -34,6 +35,7 @@ TIME_NAMES = words(
 TIME_PARTS = words(
     "t time times timestamp timestamps zeit zeiten zeitstempel stamp stamps clock datenum elapsed"
 )
+OF_CLOCKS = (Class.CLOCK, Class.KEPT, Class.ROLE, Class.ABOUT, Class.SAMPLING, Class.ARM)
 # parameters along a path run from 0 to 1 and are no time
 PATH_PARAMETERS = words("s u lambda sigma tau param parameter progress fraction alpha percent")
 
@@ -118,7 +120,11 @@ def _is_time_name(path: str) -> bool:
         if len(said) > 1 and said[-1] in names:
             said = said[:-1]
     whole = "".join(said).rstrip("0123456789")
-    return whole in TIME_NAMES or bool(TIME_PARTS.intersection(said))
+    if whole in TIME_NAMES or TIME_PARTS.intersection(said):
+        return True
+    found = described("_".join(said))
+    clock = any(w.can_be(Class.CLOCK) and len(w.text) > 1 for w in found)
+    return clock and all(w.can_be(*OF_CLOCKS) for w in found)
 
 
 def is_regular(column: NDArray[Any], *, falling: bool = False) -> bool:

@@ -13,6 +13,9 @@ from numpy.typing import NDArray
 from mrlab_ros.core.base.diagnostic import Diagnostic
 
 JOINT_TRAJECTORY = "trajectory_msgs/msg/JointTrajectory"
+MOST_SMALL = 64
+# kinds of what a file says of its variables: lines above a table, attributes
+COMMENT, ATTRIBUTE = "comment", "attribute"
 JOINT_STATE = "sensor_msgs/msg/JointState"
 
 
@@ -89,6 +92,15 @@ class Workspace:
     def _by_path(self) -> dict[str, Variable]:
         # the first of equal paths counts
         return {v.path: v for v in reversed(self.variables)}
+
+    @cached_property
+    def small(self) -> tuple[Variable, ...]:
+        """The texts and the numbers, at most 64, that may say something of a matrix."""
+        return tuple(
+            v
+            for v in self.variables
+            if v.text or (v.values is not None and v.values.size <= MOST_SMALL)
+        )
 
     def scalar(self, variable: Variable) -> float | None:
         """Return the number that `variable` holds where it holds exactly one, else None."""

@@ -861,8 +861,8 @@ export const diagnostics: Templates = {
   allow_list_unreadable: ['Die Liste der Erlaubten, {path}, ist nicht lesbar: {why:problem}.'],
   already_in_world: ['{name} ist schon in der Welt.', 'Entferne es zuerst.'],
   ambiguous: [
-    "{count:count Matrix kommt|Matrizen kommen} in '{file}' als Trajektorie infrage:{candidates:problems}",
-    'Sag, welche es ist, oder sichere nur diese.',
+    "[Ist '{only}' ({size}) in '{file}' die Matrix der Gelenkwinkel, wie der Roboter sie nimmt? Sie würde genommen, aber {why:reasons}.][ Ihre Werte: {seen:reasons}.][{count:count Matrix kommt|Matrizen kommen} in '{file}' als Trajektorie infrage:{candidates:problems}]",
+    "[Enthält '{only}' sie, nenne die Matrix; wenn nicht, speichere die Gelenkwinkel als q.][Sag, welche von {among:list} es ist, oder speichere nur diese.]",
   ],
   an_integer: ['eine ganze Zahl[ {limits:problem}][ ({unit})]'],
   and_also: ['{first:problem}; {then:problem}'],
@@ -1307,7 +1307,7 @@ export const diagnostics: Templates = {
   ],
   continuous: ['stetig'],
   converted_unit: [
-    "Die Datei nennt für '{variable}' die Einheit Grad; die Werte wurden in Radiant umgerechnet.",
+    "Die Datei nennt für '{variable}' die Einheit {stated:choice rad=Radiant|deg=Grad|mrad=Milliradiant|urad=Mikroradiant|gon=Gon|turn=Umdrehungen|halfturn=halbe Umdrehungen|cdeg=Hundertstel Grad|mdeg=Tausendstel Grad|arcmin=Bogenminuten|arcsec=Bogensekunden|counts=Zählschritte|%=Prozent|normalized=Anteile eines Bereichs|mm=mm}[ ('{source}')]; die Werte wurden in Radiant umgerechnet.",
   ],
   converter_failed: [
     "Der Konverter ist an '{file}' gescheitert ({error}); das ist ein Fehler des Konverters.",
@@ -1323,6 +1323,10 @@ export const diagnostics: Templates = {
   ],
   counts_down: ["'{term}' zählt nicht von einer Zahl zu einer größeren"],
   counts_of_what: ['counts braucht die Zählschritte einer Umdrehung, etwa counts:4096'],
+  counts_stated: [
+    "'{source}' nennt für '{variable}' die Einheit {stated:choice rad=Radiant|deg=Grad|mrad=Milliradiant|urad=Mikroradiant|gon=Gon|turn=Umdrehungen|halfturn=halbe Umdrehungen|cdeg=Hundertstel Grad|mdeg=Tausendstel Grad|arcmin=Bogenminuten|arcsec=Bogensekunden|counts=Zählschritte|%=Prozent|normalized=Anteile eines Bereichs|mm=mm}, und die Datei sagt nicht, wie viel davon eine Umdrehung ist.",
+    'Sag, wie viele Zählschritte eine Umdrehung sind, oder speichere Radiant.',
+  ],
   create_system: ['das System {system} erstellen'],
   cut_before_checksum: ['eine komprimierte Variable ist vor ihrer Prüfsumme abgeschnitten'],
   cycle_time: ['Der Zyklus dauert {value:time}; erwartet: höchstens {limit:time}.'],
@@ -1969,6 +1973,10 @@ export const diagnostics: Templates = {
   motion_size: [
     'Verlangt ist eine Bewegung von {robot} von {start:integer} nach {goal:integer} Werten; erwartet werden je {joints:integer} Gelenkpositionen.',
   ],
+  motor_side: [
+    "'{source}' spricht von Motoren oder Getrieben; die Zahlen in '{variable}' sind vielleicht Winkel der Motoren und nicht der Gelenke.",
+    'Sind es Winkel der Gelenke, hinter den Getrieben? Sind es die der Motoren, teile sie durch die Übersetzungen und speichere das Ergebnis als q.',
+  ],
   moved: ['{name} wurde bewegt'],
   moves_at_end: [
     '{joint} bewegt sich am Ende noch mit {value:measure}.',
@@ -1994,7 +2002,7 @@ export const diagnostics: Templates = {
     "Wähle einen anderen Namen, etwa {name}_{robot_model}, oder lösche zuerst '{id}'.",
   ],
   name_says: [
-    'ihr Name [bedeutet {quantity:choice velocities=Geschwindigkeiten|accelerations=Beschleunigungen|jerks=dritte Ableitungen|torques=Momente oder Kräfte|currents=Motorströme|voltages=Spannungen|errors=Fehler oder Differenzen|poses=Positionen des Werkzeugs|times=Zeiten|parameters=Parameter eines Reglers oder Modells|turns=Zahlen von Umdrehungen|obstacles=Hindernisse|temperatures=Temperaturen|joint_velocities=Gelenkgeschwindigkeiten|inputs=Stellgrößen oder Pixelkoordinaten|pixels=Geschwindigkeiten oder Pixelkoordinaten|tool_or_states=Positionen des Werkzeugs oder Zustände|points=Punkte|states_or_path=Zustände oder Bahnparameter|angular_velocities=Winkelgeschwindigkeiten oder Gewichte|states=Zustände|turns_or_reversed=Zahlen von Umdrehungen oder ein umgekehrter Weg}][steht oft für {often:choice velocities=Geschwindigkeiten|accelerations=Beschleunigungen|jerks=dritte Ableitungen|torques=Momente oder Kräfte|currents=Motorströme|voltages=Spannungen|errors=Fehler oder Differenzen|poses=Positionen des Werkzeugs|times=Zeiten|parameters=Parameter eines Reglers oder Modells|turns=Zahlen von Umdrehungen|obstacles=Hindernisse|temperatures=Temperaturen|joint_velocities=Gelenkgeschwindigkeiten|inputs=Stellgrößen oder Pixelkoordinaten|pixels=Geschwindigkeiten oder Pixelkoordinaten|tool_or_states=Positionen des Werkzeugs oder Zustände|points=Punkte|states_or_path=Zustände oder Bahnparameter|angular_velocities=Winkelgeschwindigkeiten oder Gewichte|states=Zustände|turns_or_reversed=Zahlen von Umdrehungen oder ein umgekehrter Weg}][{hint:choice positions=passt zu Gelenkwinkeln|neutral=sagt nicht, was sie enthält|two_faced=steht für Gelenkwinkel ebenso wie für Bahnen des Werkzeugs|doubtful=steht oft für etwas anderes als Gelenkwinkel|against=sagt, dass sie etwas anderes ist als Gelenkwinkel}]',
+    'ihr Name [bedeutet {quantity:choice velocities=Geschwindigkeiten|accelerations=Beschleunigungen|jerks=dritte Ableitungen|torques=Momente oder Kräfte|currents=Motorströme|voltages=Spannungen|errors=Fehler oder Differenzen|poses=Positionen des Werkzeugs|times=Zeiten|parameters=Parameter eines Reglers oder Modells|turns=Zahlen von Umdrehungen|obstacles=Hindernisse|temperatures=Temperaturen|joint_velocities=Gelenkgeschwindigkeiten|inputs=Stellgrößen oder Pixelkoordinaten|pixels=Geschwindigkeiten oder Pixelkoordinaten|tool_or_states=Positionen des Werkzeugs oder Zustände|points=Punkte|states_or_path=Zustände oder Bahnparameter|angular_velocities=Winkelgeschwindigkeiten oder Gewichte|states=Zustände|turns_or_reversed=Zahlen von Umdrehungen oder ein umgekehrter Weg}][steht oft für {often:choice velocities=Geschwindigkeiten|accelerations=Beschleunigungen|jerks=dritte Ableitungen|torques=Momente oder Kräfte|currents=Motorströme|voltages=Spannungen|errors=Fehler oder Differenzen|poses=Positionen des Werkzeugs|times=Zeiten|parameters=Parameter eines Reglers oder Modells|turns=Zahlen von Umdrehungen|obstacles=Hindernisse|temperatures=Temperaturen|joint_velocities=Gelenkgeschwindigkeiten|inputs=Stellgrößen oder Pixelkoordinaten|pixels=Geschwindigkeiten oder Pixelkoordinaten|tool_or_states=Positionen des Werkzeugs oder Zustände|points=Punkte|states_or_path=Zustände oder Bahnparameter|angular_velocities=Winkelgeschwindigkeiten oder Gewichte|states=Zustände|turns_or_reversed=Zahlen von Umdrehungen oder ein umgekehrter Weg}][{hint:choice positions=passt zu Gelenkwinkeln|partly=passt zu Gelenkwinkeln|neutral=sagt nicht, was sie enthält|two_faced=steht für Gelenkwinkel ebenso wie für Bahnen des Werkzeugs|doubtful=steht oft für etwas anderes als Gelenkwinkel|against=sagt, dass sie etwas anderes ist als Gelenkwinkel}][, aber {unread:list} ist unbekannt]',
   ],
   name_taken: ["Der Name '{name}' ist vergeben.", 'Wähle einen anderen, oder lass das Feld leer.'],
   name_too_long: [
@@ -2009,6 +2017,10 @@ export const diagnostics: Templates = {
     'Benenne eines davon um.',
   ],
   names_not_known: ['Das ist nicht lesbar; die Namen sind darum nicht bekannt: {why:problem}.'],
+  names_other: [
+    "'{source}' nennt die Spalten von '{variable}' {words}; das sind nicht die Gelenke von {robot}: {joints:list}.",
+    'Sind es trotzdem diese Gelenke in dieser Reihenfolge? Dann nenne die Matrix; sonst wähle den Roboter, für den die Datei gemacht ist.',
+  ],
   near_joint_limit: [
     '{joint} kommt bis auf {value:measure} an das Ende seines Bereichs.',
     'Wähle eine andere Konfiguration des Arms, oder drehe die Aufgabe um die Basis.',
@@ -2168,6 +2180,10 @@ export const diagnostics: Templates = {
   no_metadata: [
     '{file} enthält keine Metadaten eines Bags: {field} fehlt.',
     'Nenne den Ordner eines Bags, oder repariere das Bag; dabei werden die Metadaten neu geschrieben.',
+  ],
+  no_motion: [
+    "Die Zeilen von '{variable}' sind keine Bewegung: {why:choice random=benachbarte Zeilen liegen so weit auseinander wie beliebige|pose=das Werkzeug steht an einer Stelle, während die Gelenke springen, wie bei Lösungen einer inversen Kinematik}.",
+    'Speichere die Bewegung in der Reihenfolge, in der sie abläuft; sind die Zeilen Wegpunkte, speichere ihre Zeiten als t.',
   ],
   no_motion_file: ['In dieser Datei kann keine Bewegung sein.'],
   no_motion_in_file: ['aus der Datei ließ sich keine Bewegung entnehmen'],
@@ -2599,6 +2615,14 @@ export const diagnostics: Templates = {
   open_to_network: [
     'An {host}:{port:integer} könnte jeder im Netz alles lesen und ändern.',
     'Gib dem Labor Schlüssel, nimm nur 127.0.0.1, oder lass es ausdrücklich zu.',
+  ],
+  order_stated: [
+    "'{source}' sagt, welches Gelenk jede Spalte von '{variable}' enthält ({words}); die Spalten wurden in die Reihenfolge von {robot} gebracht.",
+    'Prüfe, ob sich der Roboter richtig bewegt. Stehen die Spalten schon in der Reihenfolge des Roboters, wähle sie nach Nummern.',
+  ],
+  order_unclear: [
+    "'{source}' gibt '{variable}' eine Reihenfolge der Gelenke ({words}); sie nennt entweder das Gelenk jeder Spalte oder die Spalte jedes Gelenks.",
+    'Welche Spalten sind die Gelenke 1 bis {joints:integer}?',
   ],
   original_in_the_way: [
     '{path} ist noch von einer früheren Reparatur da.',
@@ -3052,6 +3076,10 @@ export const diagnostics: Templates = {
     "'{joint}' nennt keine größte Geschwindigkeit; Bewegungen werden mit {value:measure} verglichen.",
     'Schreibe <limit velocity=> aus dem Datenblatt in die URDF, und importiere sie noch einmal.',
   ],
+  robot_stated: [
+    "'{source}' sagt '{words}', und gewählt wurde {robot}.",
+    'Ist die Bewegung trotzdem für {robot}? Dann nenne die Matrix; sonst wähle den Roboter, den die Datei nennt.',
+  ],
   robot_still: ["'{joint}' bewegt weder den Arm noch seine Hand; das Labor lässt es auf 0."],
   robot_velocity: [
     "Die Grenze der Geschwindigkeit von '{joint}' ist {value:number}.",
@@ -3247,7 +3275,7 @@ export const diagnostics: Templates = {
     'Es rutscht: {mass:mass} zu halten braucht eine Reibung von {friction_needed:number}, vorhanden ist {friction:number}.',
   ],
   small_for_degrees: [
-    'ihre Einheit in der Datei ist Grad, aber sie reicht nur bis {largest:number}, wie es auch Radiant tun',
+    'ihre Einheit in der Datei ist {stated:choice rad=Radiant|deg=Grad|mrad=Milliradiant|urad=Mikroradiant|gon=Gon|turn=Umdrehungen|halfturn=halbe Umdrehungen|cdeg=Hundertstel Grad|mdeg=Tausendstel Grad|arcmin=Bogenminuten|arcsec=Bogensekunden|counts=Zählschritte|%=Prozent|normalized=Anteile eines Bereichs|mm=mm}, aber sie reicht nur bis {largest:number}, wie es auch Radiant tun',
   ],
   smoothness: ['Die Glattheit ist {value:number}; erwartet: mindestens {limit:number}.'],
   some_numbers: ['eine Liste von Zahlen[ {limits:problem}][ ({unit})]'],
@@ -3540,6 +3568,10 @@ export const diagnostics: Templates = {
     '{other} im Greifer: {why:problem}.',
     'Bewege dort sanfter, oder greife näher am Schwerpunkt.',
   ],
+  unit_conflict: [
+    "'{source}' nennt für '{variable}' die Einheit {stated:choice rad=Radiant|deg=Grad|mrad=Milliradiant|urad=Mikroradiant|gon=Gon|turn=Umdrehungen|halfturn=halbe Umdrehungen|cdeg=Hundertstel Grad|mdeg=Tausendstel Grad|arcmin=Bogenminuten|arcsec=Bogensekunden|counts=Zählschritte|%=Prozent|normalized=Anteile eines Bereichs|mm=mm}, '{other}' aber {second:choice rad=Radiant|deg=Grad|mrad=Milliradiant|urad=Mikroradiant|gon=Gon|turn=Umdrehungen|halfturn=halbe Umdrehungen|cdeg=Hundertstel Grad|mdeg=Tausendstel Grad|arcmin=Bogenminuten|arcsec=Bogensekunden|counts=Zählschritte|%=Prozent|normalized=Anteile eines Bereichs|mm=mm}.",
+    'Was stimmt? Nenne die Einheit.',
+  ],
   unit_mixed: [
     'die Spalten {columns} reichen bis {largest:number} wie Grad, die Spalten {others} aber bewegen sich wie Radiant',
   ],
@@ -3547,8 +3579,16 @@ export const diagnostics: Templates = {
   unit_reaches: [
     'sie reicht bis {largest:number}[ und bleibt nur in den Grenzen von {model}, wenn das {fits:choice degrees=Grad sind|hundredths=Hundertstelgrad oder Zählschritte sind|thousandths=Tausendstelgrad oder Zählschritte sind}][, wie es Grad tun und Radiant bei {beyond} nicht][{counted:choice counts=, in ganzen Zahlen wie die Zählschritte eines Encoders}]',
   ],
+  unit_of_name: [
+    "'{variable}' heißt nach der Einheit {stated:choice rad=Radiant|deg=Grad|mrad=Milliradiant|urad=Mikroradiant|gon=Gon|turn=Umdrehungen|halfturn=halbe Umdrehungen|cdeg=Hundertstel Grad|mdeg=Tausendstel Grad|arcmin=Bogenminuten|arcsec=Bogensekunden|counts=Zählschritte|%=Prozent|normalized=Anteile eines Bereichs|mm=mm}; erwartet werden Radiant.",
+    'Rechne die Werte in Radiant um, oder bestätige die Einheit, indem du sie nennst.',
+  ],
+  unit_unread: [
+    "'{source}' nennt für '{variable}' '{words}', und das ist keine bekannte Einheit von Winkeln; die Werte wurden als Radiant gelesen.",
+    'Schreib dort rad oder deg, oder nenne die Einheit.',
+  ],
   units_applied: [
-    "Wie gewünscht wurde '{variable}' als {taken:choice deg=Grad|rad=Radiant|mm=mm|counts=Zählschritte}[, {counts:number} je Umdrehung,] gelesen.",
+    "Wie gewünscht wurde '{variable}' als {taken:choice rad=Radiant|deg=Grad|mrad=Milliradiant|urad=Mikroradiant|gon=Gon|turn=Umdrehungen|halfturn=halbe Umdrehungen|cdeg=Hundertstel Grad|mdeg=Tausendstel Grad|arcmin=Bogenminuten|arcsec=Bogensekunden|counts=Zählschritte|%=Prozent|normalized=Anteile eines Bereichs|mm=mm}[, {counts:number} je Umdrehung,] gelesen.",
   ],
   units_contradict: ['zugleich wurden Grad verlangt; nenne eine Einheit, etwa {found}'],
   units_unknown: [
@@ -3589,6 +3629,10 @@ export const diagnostics: Templates = {
   unsupported_object: [
     "Nicht zu öffnen: {objects:list} ({why:problem}). Keine andere Matrix in '{file}' ist die Trajektorie.",
     'Sichere in MATLAB die Zahlen daraus.',
+  ],
+  unused_beside: [
+    "{found:list} {count:choice one=enthält|more=enthalten} eine Zahl je Gelenk, und {unread:list} ist unbekannt: '{variable}' wurde so genommen, wie sie ist.",
+    'Sind es Nullpunkte, Vorzeichen oder Faktoren der Gelenke, wende sie an und speichere das Ergebnis als q.',
   ],
   unwrap_applied: ["Wie gewünscht wurden die Sprünge um 2*pi in '{variable}' entfernt."],
   upload_broke_off: [

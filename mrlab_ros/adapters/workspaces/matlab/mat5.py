@@ -67,7 +67,7 @@ INTEGERS = tuple(f"{sign}int{bits}" for bits in (8, 16, 32, 64) for sign in ("",
 UNREAD = (OBJECT, SPARSE, FUNCTION)  # classes whose contents are not read to the end
 COMPLEX_FLAG, LOGICAL_FLAG = 0x08, 0x02
 DEEPEST = 32
-LONGEST_TEXT = 200  # characters of a line of text that is kept
+LONGEST_TEXT = 2000  # characters of a text that is kept
 
 
 class Mat5Reader:
@@ -298,7 +298,7 @@ class Mat5Reader:
         return dtype, data
 
     def _text(self, cursor: Cursor, path: str, shape: tuple[int, ...]) -> str:
-        """Return a short line of text, else an empty one; step over the characters of `path`.
+        """Return a short text, one line a row, else an empty one; step over its characters.
 
         Raises Damaged where there are not as many characters as `shape` needs.
         """
@@ -312,10 +312,17 @@ class Mat5Reader:
         enough = len(data) >= count if element == MI_UTF8 else len(data) == count * size
         if not enough:
             raise Damaged(TOO_FEW_BYTES(text=path, left=len(data), needed=count * size))
-        if shape[0] != 1 or count > LONGEST_TEXT:
+        if len(shape) != 2 or count > LONGEST_TEXT:
             return ""
         suffix = "" if size == 1 else "-le" if self.order == "<" else "-be"
-        return bytes(data).decode(f"utf-{8 * size}{suffix}", "replace")
+        return in_lines(bytes(data).decode(f"utf-{8 * size}{suffix}", "replace"), shape[0])
+
+
+def in_lines(text: str, rows: int) -> str:
+    """Return a matrix of characters, column by column, as one line a row."""
+    if rows == 1:
+        return text
+    return "\n".join(text[row::rows].rstrip() for row in range(rows)) if rows else ""
 
 
 def read_mat4(data: memoryview, sink: Sink) -> None:

@@ -8,6 +8,7 @@ dataset or an attribute goes through `values_of` or `attribute`, which bound it.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -30,10 +31,19 @@ from mrlab_ros.adapters.workspaces.matlab.elements import (
     index,
     is_vector,
 )
-from mrlab_ros.adapters.workspaces.matlab.mat5 import DEEPEST, INTEGERS, LONGEST_TEXT
+from mrlab_ros.adapters.workspaces.matlab.mat5 import (
+    DEEPEST,
+    INTEGERS,
+    LONGEST_TEXT,
+    in_lines,
+)
 from mrlab_ros.adapters.workspaces.sinks import Found, Sink
+from mrlab_ros.core.conversion.workspace import ATTRIBUTE
 
 MOST_ATTRIBUTE = 4096  # bytes of an attribute that is read: MATLAB writes names and flags there
+MOST_NOTES = 64  # attributes of one item that are handed on
+# attributes that MATLAB and Python's libraries write for themselves
+OF_WRITERS = ("MATLAB_", "H5PATH", "DIMENSION_", "CLASS", "TITLE", "VERSION", "FLAVOR", "_")
 MOST_LENGTHS = 64  # of an array in an attribute
 
 
@@ -43,6 +53,7 @@ def read_hdf5(file: Any, sink: Sink, limit: int) -> None:
         reader = _Reader(root, sink, limit)
         if any("OCTAVE_NEW_FORMAT" in root[name].attrs for name in reader.names(root)):
             raise NotAWorkspace("octave")
+        reader.notes(root, "")
         for name in reader.names(root):
             reader.item(root[name], name, 0)
 
@@ -143,6 +154,8 @@ class _Reader:
         arrays = [n for n in names if self._is_references(group[n])]
         if not arrays:
             self.sink.add(Found(path, "struct", (1, 1)))
+            if not self.inside_objects:
+                self.notes(group, path)
             for name in names:
                 self.item(group[name], f"{path}.{name}", depth + 1)
             return
@@ -177,12 +190,26 @@ class _Reader:
         self.item(self.root[reference], path, depth + 1)
 
     def _text(self, item: Any, path: str, shape: tuple[int, ...]) -> str:
-        """Return a short line of text, else an empty one."""
-        if shape[0] != 1 or item.size > LONGEST_TEXT or item.dtype.kind != "u":
+        """Return a short text, one line a row, else an empty one."""
+        if len(shape) != 2 or item.size > LONGEST_TEXT or item.dtype.kind != "u":
             return ""
-        return bytes(values_of(item, path, 8 * LONGEST_TEXT).astype("<u2")).decode(
-            "utf-16-le", "replace"
-        )
+        codes = bytes(values_of(item, path, 8 * LONGEST_TEXT).astype("<u2"))
+        return in_lines(codes.decode("utf-16-le", "replace"), shape[0])
+
+    def notes(self, item: Any, path: str) -> None:
+        """Hand on what attributes say of `item`, but those that the writer keeps for itself."""
+        for name in itertools.islice(item.attrs, MOST_NOTES):
+            if name.upper() == name or name.startswith(OF_WRITERS):
+                continue
+            value = attribute(item, name)
+            part = f"{path}.{name}" if path else name
+            if isinstance(value, bytes | str | np.bytes_):
+                self.sink.add(Found(part, ATTRIBUTE, text=_word(value)[:LONGEST_TEXT]))
+            elif isinstance(value, np.bool_):
+                self.sink.add(Found(part, ATTRIBUTE, text="true" if value else "false"))
+            elif np.size(value) == 1 and np.asarray(value).dtype.kind in "fiu":
+                number = np.asarray(value, dtype="<f8").reshape(1, 1)
+                self.sink.add(Found(part, ATTRIBUTE, (1, 1), _bytes_of(number), "<f8"))
 
     def _numbers(self, item: Any, path: str, kind: str) -> None:
         shape = self._shape(item, path)
@@ -213,6 +240,8 @@ class _Reader:
             return
         values = values_of(item, path, self.limit)
         self.sink.add(Found(path, kind, shape, _bytes_of(values), values.dtype.str))
+        if not self.inside_objects:
+            self.notes(item, path)
 
 
 def _bytes_of(values: Any) -> memoryview:

@@ -11,11 +11,13 @@ import orjson
 
 from mrlab_ros.adapters.workspaces.diagnostics import LIBRARY_FAILED, NO_JSON_OBJECT, NO_MATRIX_Q
 from mrlab_ros.adapters.workspaces.matlab.elements import Damaged, TooLarge, is_vector
-from mrlab_ros.adapters.workspaces.matlab.mat5 import INTEGERS
+from mrlab_ros.adapters.workspaces.matlab.mat5 import INTEGERS, LONGEST_TEXT
 from mrlab_ros.adapters.workspaces.sinks import Found, Sink, View
 from mrlab_ros.adapters.workspaces.tables import text
 from mrlab_ros.core.conversion.named_columns import GRIPPER
+from mrlab_ros.core.conversion.workspace import COMMENT
 
+MOST_COMMENTS = 200
 TIME_HEADINGS = ("t", "time", "time_from_start")
 
 
@@ -24,6 +26,15 @@ def _add(sink: Sink, name: str, values: Any, columns: tuple[str, ...] = ()) -> N
     kind = kinds.get(values.dtype.str[1:], values.dtype.name)
     if values.dtype.kind == "c":
         sink.add(Found(name, "double", values.shape, note="complex"))
+        return
+    if values.dtype.kind == "U":
+        texts = values.reshape(-1)[:MOST_COMMENTS]
+        for number, line in enumerate(texts, 1):
+            path = name if values.size == 1 else f"{name}{{{number}}}"
+            sink.add(Found(path, "string", (1, 1), text=str(line)[:LONGEST_TEXT]))
+        return
+    if values.dtype.kind == "b" and values.size == 1:
+        sink.add(Found(name, "logical", (1, 1), text="true" if values.all() else "false"))
         return
     if values.dtype.kind == "b":
         values, kind = values.astype(np.uint8), "logical"
@@ -40,12 +51,15 @@ def _add(sink: Sink, name: str, values: Any, columns: tuple[str, ...] = ()) -> N
 def read_csv(data: memoryview, sink: Sink) -> None:
     """Hand the table to the sink as the matrix `q` with its headings, a time column as `t`.
 
-    Numbers that lines above the table name, such as a sample rate, are scalars of those names.
+    Numbers that lines above the table name, such as a sample rate, are scalars of those names;
+    the lines themselves are texts of the kind COMMENT.
     Raises NotATable with the line that is not numbers.
     """
     table = text.parsed(bytes(data))
     for name, number in table.stated.items():
         _add(sink, name, np.array([number]))
+    for number, comment in enumerate(table.comments[:MOST_COMMENTS], 1):
+        sink.add(Found(f"comment{{{number}}}", COMMENT, text=comment[:LONGEST_TEXT]))
     values, headings = table.values, list(table.headings)
     time = table.instants
     if time is None and len(headings) == values.shape[1]:
@@ -75,7 +89,11 @@ def read_json(data: memoryview, sink: Sink) -> None:
         _add_frames(document, frames, sink)
         return
     for name, content in document.items():
-        if (values := _numbers(content)) is not None:
+        if isinstance(content, str | bool):
+            said = content if isinstance(content, str) else "true" if content else "false"
+            kind = "string" if isinstance(content, str) else "logical"
+            sink.add(Found(str(name), kind, (1, 1), text=said[:LONGEST_TEXT]))
+        elif (values := _numbers(content)) is not None:
             _add(sink, str(name), values)
 
 

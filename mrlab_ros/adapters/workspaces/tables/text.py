@@ -37,7 +37,7 @@ from mrlab_ros.adapters.workspaces.tables.cells import (
     seconds,
     separator_of,
 )
-from mrlab_ros.core.conversion.unit_names import against
+from mrlab_ros.core.conversion.evidence.units import foreign as against
 
 SEPARATOR = re.compile(r"[\"']?sep=(.)[\"']?", re.I)
 END_OF_HEADER = "***End_of_Header***"  # of LabVIEW's measurement files
@@ -68,8 +68,11 @@ def labview(lines: list[str], stated: dict[str, float]) -> tuple[int, str, list[
     return ends[1] + 1, separator, units
 
 
-def marked(lines: list[str], stated: dict[str, float]) -> tuple[int, str]:
-    """Return how many lines are comments or name the separator, and that separator."""
+def marked(lines: list[str], stated: dict[str, float], comments: list[str]) -> tuple[int, str]:
+    """Return how many lines are comments or name the separator, and that separator.
+
+    The comments are added to `comments`, the numbers that they name to `stated`.
+    """
     asked = ""
     for number, line in enumerate(map(str.strip, lines)):
         match = SEPARATOR.fullmatch(line)
@@ -77,6 +80,7 @@ def marked(lines: list[str], stated: dict[str, float]) -> tuple[int, str]:
             asked = match[1]
         elif line.startswith(("#", "%")) and not _is_as_wide(line, lines):
             _state(line.lstrip("#% "), stated)
+            comments.append(line.lstrip("#% "))
         else:
             return number, asked
     return 0, asked
@@ -95,8 +99,13 @@ def _state(line: str, stated: dict[str, float]) -> None:
         stated.setdefault(name, float(match["number"].replace(",", ".")))
 
 
-def above_table(lines: list[str], separator: str | None, stated: dict[str, float]) -> int:
-    """Return how many lines stand above the table: texts that have another number of cells."""
+def above_table(
+    lines: list[str], separator: str | None, stated: dict[str, float], comments: list[str]
+) -> int:
+    """Return how many lines stand above the table: texts that have another number of cells.
+
+    The texts are added to `comments`, the numbers that they name to `stated`.
+    """
     filled = [line for line in lines[:1000] if line.strip()]
     if len(filled) < 3:
         return next((i for i, line in enumerate(lines) if line.strip()), 0)
@@ -113,8 +122,10 @@ def above_table(lines: list[str], separator: str | None, stated: dict[str, float
         if any(cells) and all(is_value(c, separator) for c in cells_of(following, separator)):
             # headings of another width say nothing, but the rows follow
             _state(line, stated)
+            comments.append(line.strip())
             return number
         _state(line, stated)
+        comments.append(line.strip())
     return 0
 
 
@@ -132,13 +143,14 @@ class TextTable:
 
     headings: C texts with their units in brackets, or none. instants: the column, from 0, whose
     dates or times of day became s since the first of them, or None. stated: numbers that lines
-    above the table name.
+    above the table name. comments: those lines.
     """
 
     values: NDArray[np.float64]
     headings: tuple[str, ...]
     instants: int | None
     stated: dict[str, float] = field(default_factory=dict)
+    comments: list[str] = field(default_factory=list)
 
 
 def parsed(data: bytes) -> TextTable:
@@ -153,12 +165,13 @@ def parsed(data: bytes) -> TextTable:
     while len(lines) > 1 and not lines[-1].strip('\t ;,"'):
         lines.pop()
     stated: dict[str, float] = {}
+    comments: list[str] = []
     begin, asked, units = labview(lines, stated)
     if not begin:
-        begin, asked = marked(lines, stated)
+        begin, asked = marked(lines, stated, comments)
     lines = lines[begin:]
     separator = separator_of(lines, asked)
-    above = above_table(lines, separator, stated)
+    above = above_table(lines, separator, stated, comments)
     lines, begin = lines[above:], begin + above
     if separator and _all_end_with(lines, separator):
         lines = [line.rstrip().removesuffix(separator) for line in lines]
@@ -183,7 +196,7 @@ def parsed(data: bytes) -> TextTable:
     values, instants = _numbers(lines, separator, begin + 1, len(headings))
     if len(headings) != values.shape[1]:
         headings = []
-    return TextTable(values, tuple(headings), instants, stated)
+    return TextTable(values, tuple(headings), instants, stated, comments)
 
 
 def _all_end_with(lines: list[str], separator: str) -> bool:

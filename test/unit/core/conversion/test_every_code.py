@@ -36,6 +36,10 @@ def var(path, values, **facts):
     return Variable(path, "double", values.shape, values, **facts)
 
 
+def text(path, words):
+    return Variable(path, "char", (1, len(words)), text=words)
+
+
 def message(path, times, positions, names=ROBOT.joint_names):
     shape = positions.shape
     points = Variable(path, JOINT_TRAJECTORY, shape, positions, columns=tuple(names))
@@ -91,6 +95,13 @@ EXAMPLES = {
     "seven_axes": Example([var("q", np.column_stack([Q, Q[:, 1]]))]),
     "degrees": Example([var("q", np.degrees(Q))]),
     "counts": Example([var("q", np.rint(np.degrees(Q) * 100))]),
+    "unit_of_name": Example([var("q_gon", Q * 200 / np.pi)]),
+    "unit_conflict": Example([var("q_deg", np.degrees(Q)), text("unit", "rad")]),
+    "counts_stated": Example([var("q", Q), text("unit", "counts")]),
+    "order_unclear": Example([var("q", Q), var("joint_order", [2, 3, 1, 4, 5, 6])]),
+    "names_other": Example([var("q", Q), text("names", "hip,knee,ankle,toe,arm,neck")]),
+    "robot_stated": Example([var("q", Q), text("robot", "KUKA LBR iiwa 7")]),
+    "no_motion": Example([var("q", np.random.default_rng(1).uniform(-3, 3, (ROWS, 6)))]),
     "bad_columns": Example([var("q", Q)], {"columns": "2:7"}),
     "bad_part": Example([var("q", Q)], {"variable": "q(302:400, :)"}),
     "bad_rate": Example([var("q", Q)], {"frame_rate": 1e-9}),
@@ -107,6 +118,10 @@ EXAMPLES = {
     "doubtful_name": Example([var("qd", Q)], {"variable": "qd"}),
     "doubtful_values": Example([var("q", np.tile(Q[:1], (ROWS, 1)))]),
     "tool_path_differs": Example([var("q", Q), var("tcp", POSES[::-1] * 1.5)]),
+    "unit_unread": Example([var("q", Q), text("unit", "ells")]),
+    "order_stated": Example([var("q", Q), var("joint_order", [2, 1, 3, 4, 5, 6])]),
+    "motor_side": Example([var("q", Q), var("gear_ratio", [100.0])]),
+    "unused_beside": Example([var("q", Q), var("q_offset", [1, 2, 3, 4, 5, 6.5])]),
     "twin": Example([var("q_act", Q + 1e-3), var("q_des", Q)]),
     "rate_unused": Example([var("q", Q), Variable("t", "char", (ROWS, 4))]),
     "waypoints": Example([var("q", POINTS), var("t", 2.0 * np.arange(len(POINTS)))]),

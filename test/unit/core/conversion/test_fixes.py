@@ -60,7 +60,7 @@ T = np.arange(300) / 50.0
         ([var("q1", Q), var("q2", Q + 0.5)], {}, ("variable", "q1")),
         ([var("q", Q)], {"frame_rate": 1e-9}, ("frame_rate", "0")),
         ([var("q", Q)], {"columns": "2:7"}, ("columns", "")),
-        ([var("q", Q)], {"units": "gon"}, ("units", "")),
+        ([var("q", Q)], {"units": "ells"}, ("units", "")),
         ([var("q", Q)], {"join": "q1..q6"}, None),
         ([var("Q", Q)], {"variable": "q"}, ("variable", "Q")),
     ],

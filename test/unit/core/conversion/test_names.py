@@ -2,7 +2,7 @@
 
 import pytest
 
-from mrlab_ros.core.conversion.variable_names import Hint, hint, leaf
+from mrlab_ros.core.conversion.evidence.names import Hint, hint, leaf
 
 POSITIONS = """
 q Q qMatrix qMat qCombined q_history q_traj qtraj q_raw q_filt q_filter q_ds q_actual q_act

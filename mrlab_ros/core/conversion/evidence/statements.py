@@ -1,0 +1,216 @@
+"""Texts, flags and numbers that state something of a matrix, and how near to it they stand."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from mrlab_ros.core.conversion.evidence import units
+from mrlab_ros.core.conversion.evidence.glossary import Class
+from mrlab_ros.core.conversion.evidence.names import Word, described, leaf, words_in
+from mrlab_ros.core.conversion.evidence.units import Unit
+from mrlab_ros.core.conversion.workspace import COMMENT, Variable, Workspace
+
+ELEMENT = re.compile(r"[({][^.]*$")
+# words of a text: letters with the signs of units inside
+TOKEN = re.compile(r"[^\W\d_]+|°(?![cCfF])")
+QUOTIENT = re.compile(r"\s*(/|per\b|\*|·|\^|-?[²2]|s\b|pro\b)")
+SPOKEN = frozenset(("rad", "deg", "mrad", "gon", "urad"))
+AMBIGUOUS = frozenset(("grade", "grau", "graus", "du", "giro", "giri", "tour", "tours", "hudu"))
+OURS = (
+    Class.UNIT_KEY, Class.SYMBOL, Class.JOINT, Class.ANGLE, Class.CONFIGURATION, Class.PLACE,
+    Class.MOTION, Class.ROLE, Class.KEPT, Class.ABOUT, Class.ARM, Class.UNIT_FLAG,
+)  # fmt: skip
+MOST_TEXTS = 400
+
+
+@dataclass(frozen=True)
+class Statement:
+    """A text or a number beside a matrix. near: 0 is nearest; words: of its name."""
+
+    variable: Variable
+    near: int
+    words: tuple[Word, ...]
+
+    @property
+    def path(self) -> str:
+        return self.variable.path
+
+    @property
+    def text(self) -> str:
+        return self.variable.text.strip()
+
+    def names(self, *kinds: Class) -> bool:
+        """Say whether a word of its name is of one of these classes."""
+        return any(w.can_be(*kinds) for w in self.words)
+
+
+@dataclass(frozen=True)
+class UnitClaim:
+    """A unit that the file states for a matrix. source: where; text: in its own words."""
+
+    unit: Unit
+    source: str
+    text: str
+
+
+def distance(path: str, matrix: str) -> int | None:
+    """Return how near a variable stands to a matrix; None where it belongs to something else.
+
+    0: an attribute of the matrix. 1: in the same struct. 2: in a struct there that is about the
+    rest. 3 and more: the same, farther out.
+    """
+    if path.startswith(f"{matrix}."):
+        return 0
+    outer = _outer(path)
+    own = _outer(matrix)
+    steps = 1
+    while True:
+        if outer == own:
+            return steps
+        inside = outer[len(own) + 1 :] if own and outer.startswith(f"{own}.") else outer
+        within = bool(inside) and "." not in inside and (not own or outer.startswith(f"{own}."))
+        if within and any(w.can_be(Class.ABOUT) for w in described(inside)):
+            return steps + 1
+        if not own:
+            return None
+        own = _outer(own)
+        steps += 2
+
+
+def _outer(path: str) -> str:
+    bare = re.sub(r"\([\d,]+\)$|\{[\d,]+\}$", "", path)
+    return bare.rpartition(".")[0]
+
+
+def about(workspace: Workspace, matrix: str) -> list[Statement]:
+    """Return the texts and numbers that may be said of a matrix, the nearest first."""
+    found: list[Statement] = []
+    for v in workspace.small:
+        near = distance(v.path, matrix)
+        if near is None or v.path == matrix or len(found) > MOST_TEXTS:
+            continue
+        name = leaf(ELEMENT.sub("", v.path))
+        found.append(Statement(v, near, tuple(described(name))))
+    found.sort(key=lambda s: s.near)
+    return found
+
+
+def unit_claims(said: list[Statement], matrix: str) -> list[UnitClaim]:
+    """Return the units of angles that the file states for a matrix, the nearest first."""
+    claims = [UnitClaim(unit, s.path, text) for s in said for unit, text in _units(s, matrix)]
+    return list({claim.unit: claim for claim in reversed(claims)}.values())[::-1]
+
+
+def unread_units(said: list[Statement], matrix: str) -> list[Statement]:
+    """Return the texts that are called a unit of the matrix and spell none that is known."""
+    return [
+        s
+        for s in said
+        if s.text
+        and s.near <= 2
+        and s.names(Class.UNIT_KEY)
+        and _is_ours(s, matrix)
+        and units.parse(s.text) is None
+        and not list(_spoken(s.text))
+    ]
+
+
+def _units(s: Statement, matrix: str) -> Iterator[tuple[Unit, str]]:
+    if s.variable.kind == "logical" or not s.variable.text:
+        flagged = _flag(s)
+        if flagged is not None and _is_ours(s, matrix):
+            yield flagged, "true" if s.variable.text != "false" else "false"
+        return
+    keyed = s.names(Class.UNIT_KEY) or all(w.can_be(Class.UNIT_FLAG, Class.ANGLE) for w in s.words)
+    if keyed:
+        unit = units.parse(s.text)
+        if unit is not None and _is_ours(s, matrix):
+            if unit.is_angle or (unit.quantity == "shares" and unit.name != ""):
+                yield unit, s.text
+            return
+    if (keyed or _tells(s)) and _is_ours(s, matrix):
+        spoken = set(_spoken(s.text))
+        if len(spoken) == 1:
+            yield spoken.pop(), s.text
+
+
+def _tells(s: Statement) -> bool:
+    """Say whether a text may describe the matrix: a comment, or one about what is beside it."""
+    return s.variable.kind == COMMENT or s.near == 0 or s.names(Class.ABOUT, *OURS[:7])
+
+
+def _is_ours(s: Statement, matrix: str) -> bool:
+    """Say whether the name of a statement names no other quantity than the matrix does."""
+    own = {w.text for w in described(leaf(matrix))}
+    return all(
+        w.text in own or w.unit is not None or (w.can_be(*OURS) and not w.quantity)
+        for w in s.words
+    )
+
+
+def _spoken(text: str) -> Iterator[Unit]:
+    """Yield the units of angles in a text of several words; not those of quotients."""
+    for match in TOKEN.finditer(text):
+        word = units.plain(match[0])
+        unit = units.parse(word) if len(word) > 2 or word == "°" else None
+        if unit is None or unit.name not in SPOKEN or word in AMBIGUOUS:
+            continue
+        if not QUOTIENT.match(text, match.end()) and not text[: match.start()].rstrip().endswith(
+            "/"
+        ):
+            yield unit
+
+
+def _flag(s: Statement) -> Unit | None:
+    """Return the unit of a flag such as is_degrees = true or use_radians = 0."""
+    stated = [w.unit for w in s.words if w.unit is not None and w.unit.name in ("deg", "rad")]
+    rest = [w for w in s.words if w.unit is None]
+    if len(stated) != 1 or not all(
+        w.can_be(Class.UNIT_FLAG, Class.ANGLE, Class.UNIT_KEY) for w in rest
+    ):
+        return None
+    true = _truth(s.variable)
+    if true is None:
+        return None
+    other = units.RADIANS if stated[0].name == "deg" else units.DEGREES
+    return stated[0] if true else other
+
+
+def _truth(v: Variable) -> bool | None:
+    if v.text in ("true", "false"):
+        return v.text == "true"
+    if v.values is not None and v.values.size == 1:
+        number = float(np.asarray(v.values).reshape(-1)[0])
+        return bool(number) if number in (0.0, 1.0) else None
+    return None
+
+
+def number_named(said: list[Statement], *texts: str) -> float | None:
+    """Return the first number whose name has all words of one of the texts."""
+    for s in said:
+        have = {w.text for w in s.words}
+        values = s.variable.values
+        if values is None or values.size != 1:
+            continue
+        if any(have >= set(text.split()) for text in texts):
+            number = float(np.asarray(values).reshape(-1)[0])
+            if np.isfinite(number) and number > 0:
+                return number
+    return None
+
+
+def counts_a_turn(said: list[Statement]) -> float | None:
+    """Return how many counts make a turn, where the file says so."""
+    return number_named(
+        said, "counts turn", "counts rev", "cpr", "ppr", "counts umdrehung", "resolution",
+        "enc resolution", "counts revolution", "ticks rev", "aufloesung", "inkremente", "inc u",
+    )  # fmt: skip
+
+
+def words_of_text(text: str) -> list[Word]:
+    """Return the words of a text of the file, compounds taken apart."""
+    return [w for token in TOKEN.findall(text) for w in words_in(token.lower())]
