@@ -30,7 +30,7 @@ def test_a_measure_runs(name: str) -> None:
 
 
 def test_a_mutant_is_killed_or_lives() -> None:
-    done = ran("mutants.py", "--module", "mrlab_ros.core.base.clock", "--count", "1")
+    done = ran("mutants.py", "--module", "mrlab_ros.core.recording.recorder", "--count", "1")
     assert done.returncode == 0, done.stdout[-4000:]
 
 
