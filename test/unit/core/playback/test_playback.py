@@ -358,6 +358,10 @@ def test_a_member_obeys_its_system_alone():
         lambda: playback.seek(START, 0.0),
         lambda: playback.set_rate(START, 2.0),
         lambda: playback.load(START, make_trajectory()),
+        lambda: playback.unload(START),
+        lambda: playback.stage(START, 0.0),
+        lambda: playback.hold_at(None),
+        lambda: playback.set_loop(True),
     ):
         with refused(say.DRIVEN_BY_SYSTEM, Misuse, system="cell"):
             command()
@@ -367,6 +371,30 @@ def test_a_member_obeys_its_system_alone():
     playback.release(START + PERIOD, "cell")
     assert playback.state is State.PAUSED
     playback.play(START + SECOND)
+
+
+def test_unloading_forgets_the_trajectory():
+    playback = on_start()
+    playback.unload(START)
+    assert (playback.state, playback.trajectory) == (State.IDLE, None)
+
+
+@pytest.mark.parametrize("position", [-0.01, 0.11])
+def test_no_member_is_staged_off_its_timeline(position):
+    playback = on_start()
+    with refused(BAD_POSITION, BadInput, position=position):
+        playback.stage(START, position)
+    assert playback.state is State.READY
+
+
+def test_an_arm_is_staged_where_its_pose_comes_again_later():
+    there_and_back = np.abs(np.arange(11) - 5.0)[:, None] * [1.0, 1.0]
+    playback = loaded(make_trajectory(there_and_back))
+    playback.seek(START, 0.02)
+    playback.tick(START)
+    playback.stage(START, 0.08)
+    run(playback, START + SECOND)
+    assert (playback.state, playback.clock.position) == (State.PAUSED, 0.08)
 
 
 def test_a_trajectory_for_another_model_is_refused_and_changes_nothing():
