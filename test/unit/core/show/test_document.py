@@ -59,9 +59,7 @@ def trajectory(rows=5, gripper=None):
 
 def fields_of(interface, contract=CONTRACT):
     """Return the names of the fields of an interface of the contract."""
-    body = re.search(
-        rf"export interface {interface} \{{(.*?)\n\}}", contract.read_text(), re.S
-    ).group(1)
+    body = re.search(rf"interface {interface} \{{(.*?)\n\}}", contract.read_text(), re.S).group(1)
     return set(re.findall(r"^  readonly (\w+)[?]?:", body, re.M))
 
 

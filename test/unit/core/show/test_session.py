@@ -61,9 +61,7 @@ def recorded():
 
 
 def fields_of(interface):
-    body = re.search(
-        rf"export interface {interface} \{{(.*?)\n\}}", CONTRACT.read_text(), re.S
-    ).group(1)
+    body = re.search(rf"interface {interface} \{{(.*?)\n\}}", CONTRACT.read_text(), re.S).group(1)
     return set(re.findall(r"^  readonly (\w+)[?]?:", body, re.M))
 
 
