@@ -53,7 +53,7 @@ MODULES = {
     "mrlab_ros.core.base.diagnostic": ("core/base",),
     "mrlab_ros.gateway.policy": ("gateway/test_policy.py", "gateway/people"),
     "mrlab_ros.gateway.guard": ("gateway/test_guard.py",),
-    "mrlab_ros.core.rubrics.grasps": ("core/rubrics",),
+    "mrlab_ros.classroom.rubrics.measures.grasps": ("classroom/rubrics",),
 }
 COMPARED: dict[type[ast.cmpop], type[ast.cmpop]] = {
     ast.Lt: ast.LtE,

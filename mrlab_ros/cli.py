@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import errno
-import importlib
 import os
 import signal
 import sys
@@ -25,6 +24,7 @@ from mrlab_ros.commands import completion
 from mrlab_ros.commands.output import say_problem
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.errors import LabError
+from mrlab_ros.extensions import extensions, named
 
 EPILOG = """
 **First steps**
@@ -38,8 +38,6 @@ mrlab convert run.mat --robot ur5e — what is in a file, and is it right for th
 mrlab show run.mat --robot ur5e — see it move, as one HTML file
 
 mrlab check run.mat --robot ur5e --scene table — is it ready for a robot, and why not?
-
-mrlab class moodle.zip --rubric task.yaml — mark a whole class, a row a student
 
 mrlab play ur5e_1 run.mat — play it (in a second terminal, same ROS_DOMAIN_ID)
 
@@ -56,16 +54,14 @@ is yours, 3 an error of MR-Lab itself, or a missing package, 130 interrupted
 # A negative number is no option of these.
 TAKE_NEGATIVE = ("rate", "seek")
 NEGATIVE = {"ignore_unknown_options": True}
-PANELS = {"lab.robot": "One robot of the running lab"}
-# Modules of the commands, and of a group its Typer, in the order of the help.
-COMMANDS = {
+PANELS = {"mrlab_ros.commands.lab.robot": "One robot of the running lab"}
+# Modules of the commands of the lab, and of a group its Typer, in the order of the help.
+OWN = {
     "up": "up.command:up",
     "demo": "demo.command:demo",
     "convert": "convert.command:convert",
     "show": "show:show",
     "check": "check.command:check",
-    "class": "classroom.command:grade",
-    "rubric": "rubric.command:app",
     "play": "lab.play:play",
     "spawn": "lab.robot:spawn",
     "remove": "lab.robot:remove",
@@ -91,6 +87,9 @@ COMMANDS = {
     "objects": "lab.scene:objects",
     "users": "users:app",
 }
+COMMANDS = {name: f"mrlab_ros.commands.{where}" for name, where in OWN.items()}
+for _extension in extensions():
+    COMMANDS |= _extension.COMMANDS
 
 
 def make_app(words: Sequence[str] = (), *, completing: bool = False) -> typer.Typer:
@@ -113,9 +112,8 @@ def make_app(words: Sequence[str] = (), *, completing: bool = False) -> typer.Ty
             app.command(name)(lambda: None)
         return app
     for name in [asked] if asked in COMMANDS else COMMANDS:
-        module, _, attribute = COMMANDS[name].partition(":")
         try:
-            found = getattr(importlib.import_module(f"mrlab_ros.commands.{module}"), attribute)
+            found = named(COMMANDS[name])
         except ModuleNotFoundError:
             if asked in COMMANDS:
                 raise
@@ -124,7 +122,11 @@ def make_app(words: Sequence[str] = (), *, completing: bool = False) -> typer.Ty
             app.add_typer(found, name=name)
         else:
             settings = NEGATIVE if name in TAKE_NEGATIVE else None
-            app.command(name, rich_help_panel=PANELS.get(module), context_settings=settings)(found)
+            app.command(
+                name,
+                rich_help_panel=PANELS.get(COMMANDS[name].partition(":")[0]),
+                context_settings=settings,
+            )(found)
     return app
 
 

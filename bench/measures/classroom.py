@@ -19,9 +19,9 @@ from lab import ROOT
 from measures.check import FILE, scene
 from size import Size
 
-from mrlab_ros.adapters.rubrics import files
-from mrlab_ros.commands.classroom.run import Request, run
-from mrlab_ros.commands.classroom.setup import Setup
+from mrlab_ros.classroom.mark import read_rubric
+from mrlab_ros.classroom.run import Request, run
+from mrlab_ros.classroom.setup import Setup
 
 NEEDS = ()
 FRAMES = 1000  # at 100 Hz
@@ -58,7 +58,7 @@ def digest(folder: Path) -> str:
 def graded(size: Size) -> list[dict[str, Any]]:
     """Check a class with as many processes on each backend."""
     count = size.of(1, 8, 150)
-    rubric = files.read(ROOT / "examples" / "rubrics" / "pick_and_place.yaml")
+    rubric = read_rubric(ROOT / "examples" / "rubrics" / "pick_and_place.yaml")
     setup = Setup(rubric, scene(), reference=(FILE.name, FILE.read_bytes()))
     rows = []
     with tempfile.TemporaryDirectory() as name:

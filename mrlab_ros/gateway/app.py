@@ -13,6 +13,7 @@ import mrlab_ros
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.share import directory
 from mrlab_ros.adapters.store.objects import open_store
+from mrlab_ros.extensions import extensions, named
 from mrlab_ros.gateway import authority, errors, pages
 from mrlab_ros.gateway.assets import routes as asset_routes
 from mrlab_ros.gateway.assets.cache import AssetCache
@@ -20,8 +21,6 @@ from mrlab_ros.gateway.assets.routes import Robots
 from mrlab_ros.gateway.checks import routes as check_routes
 from mrlab_ros.gateway.checks.desk import CheckDesk, CheckProcess
 from mrlab_ros.gateway.checks.scene import SceneWatch
-from mrlab_ros.gateway.classroom import routes as class_routes
-from mrlab_ros.gateway.classroom.folder import ClassFolder
 from mrlab_ros.gateway.guard import Guard, Hosts
 from mrlab_ros.gateway.link import socket
 from mrlab_ros.gateway.link.limits import read_limits
@@ -37,8 +36,8 @@ from mrlab_ros.gateway.store.shelf import Shelf
 from mrlab_ros.gateway.uploads import routes as upload_routes
 from mrlab_ros.gateway.uploads.receive import Receiver
 
-# One module a subject; each has a `router`, and each route a line in policy.py. The pages come
-# last: they answer any path.
+# One module a subject; each has a `router`, and each route a line in policy.py or in the POLICY of
+# its extension. The pages come last: they answer any path.
 ROUTERS: tuple[APIRouter, ...] = (
     people_routes.router,
     pairing_routes.router,
@@ -48,7 +47,7 @@ ROUTERS: tuple[APIRouter, ...] = (
     upload_routes.router,
     trajectory_routes.router,
     check_routes.router,
-    class_routes.router,
+    *(named(router) for each in extensions() for router in each.ROUTERS),
     socket.router,
     pages.router,
 )
@@ -108,7 +107,6 @@ def create_app(settings: Settings, ports: Ports) -> FastAPI:
     app.state.policy = policy
     app.state.link = link
     app.state.checking = checking
-    app.state.classroom = settings.classroom and ClassFolder(settings.classroom)
     app.state.assets = None if ports.lab is None else AssetCache(ports.lab)
     store = ports.store or open_store(settings.store or str(settings.state_dir / "store"))
     robots = Robots(RobotLibrary(directory() / "robots"), app.state.assets)

@@ -95,11 +95,6 @@ OPEN_TO_NETWORK = Code(
     "Give the lab keys, listen on 127.0.0.1 only, or accept it explicitly.",
     meaning="The pages would be served beyond this machine without keys.",
 )
-NO_CLASS_FILE = Code(
-    "no_class_file",
-    "There is no {file} in {folder}.",
-    "Grade the submissions of a class into a folder, and name that one.",
-)
 NO_HTTPS_FILE = Code(
     "no_https_file",
     "There is no file {path}, which HTTPS needs.",

@@ -20,6 +20,7 @@ from mrlab_ros.adapters.yaml_files import Loader
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.access import Policy, Verb
 from mrlab_ros.core.bridge.rules import Role, parse
+from mrlab_ros.extensions import extensions
 from mrlab_ros.gateway.diagnostics import (
     ALLOW_LIST_UNREADABLE,
     NO_ROLE_MAY,
@@ -96,14 +97,11 @@ ROUTES: Mapping[tuple[str, str], Everybody | Role | Need] = {
     ("POST", "/api/checks"): DRIVES,
     ("GET", "/api/checks"): READS,
     ("DELETE", "/api/checks"): DRIVES,
-    # Names and marks of a class are its teachers'.
-    ("GET", "/api/class"): Role.INSTRUCTOR,
-    ("GET", "/api/class/{key}/motion"): Role.INSTRUCTOR,
-    ("GET", "/api/class/{key}/file"): Role.INSTRUCTOR,
     ("GET", "/assets/{path:path}"): Need(Verb.RECEIVE, "assets"),
     ("HEAD", "/assets/{path:path}"): Need(Verb.RECEIVE, "assets"),
     # The socket itself checks the rights of the keys that it is asked for.
     (SOCKET, "/link"): Role.DISPLAY,
+    **{route: Role(role) for each in extensions() for route, role in each.POLICY.items()},
 }
 
 

@@ -9,11 +9,11 @@ from pathlib import Path
 from mrlab_ros.adapters.keys import people
 from mrlab_ros.core.base.diagnostic import Fix
 from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.extensions import extensions
 from mrlab_ros.gateway.diagnostics import (
     BAD_ADDRESS,
     CERTIFICATE_WITHOUT_KEY,
     INSECURE_WITH_KEYS,
-    NO_CLASS_FILE,
     NO_HTTPS_FILE,
     OPEN_TO_NETWORK,
 )
@@ -21,8 +21,6 @@ from mrlab_ros.gateway.diagnostics import (
 HOST = "127.0.0.1"
 PORT = 8080
 LARGEST_PORT = 65535
-# The file that `mrlab class` writes for pages and other tools.
-CLASS_FILE = "class.json"
 
 
 @dataclass(frozen=True)
@@ -90,10 +88,8 @@ class Settings:
             ways = ("mrlab keys init", "mrlab up --keys keys", "mrlab up --insecure")
             fixes = tuple(Fix(command=way) for way in ways)
             raise BadInput(OPEN_TO_NETWORK(host=self.host, port=self.port, fixes=fixes))
-        if self.classroom is not None and not (self.classroom / CLASS_FILE).is_file():
-            make = Fix(command="mrlab class SUBMISSIONS --rubric RUBRIC.yaml --out FOLDER")
-            folder = str(self.classroom)
-            raise BadInput(NO_CLASS_FILE(file=CLASS_FILE, folder=folder, fixes=(make,)))
+        for extension in extensions():
+            extension.check(self)
         if self.https:
             for file in (self.certificate_file, self.certificate_key_file):
                 if not file.is_file():

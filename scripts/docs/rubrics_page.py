@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mrlab_ros.core.rubrics.forms import FAMILIES
+from mrlab_ros.classroom.rubrics.measures import FAMILIES
 
 
 def measures() -> str:

@@ -29,10 +29,13 @@ LAYERS = {
     "ros": ("core", "adapters", "messages"),
     "nodes": ("core", "adapters", "app", "messages", "ros"),
     "processes": ("core", "adapters", "messages", "ros", "nodes"),
-    "gateway": ("core", "adapters", "app"),
+    "gateway": ("core", "adapters", "app", "extensions"),
     "client": ("core", "adapters", "messages", "ros", "processes"),
     "commands": ("core", "adapters", "app", "messages", "ros", "processes", "gateway", "client"),
-    "cli": ("core", "adapters", "commands"),
+    "extensions": (),
+    "cli": ("core", "adapters", "commands", "extensions"),
+    # Beside the lab: nothing below imports it, extensions.py names it.
+    "classroom": ("core", "adapters", "app", "gateway", "commands"),
 }
 # Packages of one door: commands print, the gateway answers HTTP.
 DOORS = {"rich", "starlette", "typer", "uvicorn"}
@@ -237,8 +240,21 @@ def test_no_module_imports_itself_over_others() -> None:
 
 def test_the_layers_are_the_folders_of_the_package() -> None:
     folders = {path.name for path in PACKAGE.iterdir() if (path / "__init__.py").exists()}
-    assert folders | {"cli"} == set(LAYERS)
-    assert {path.name for path in PACKAGE.glob("*.py")} == {"__init__.py", "cli.py"}
+    modules = {path.name for path in PACKAGE.glob("*.py")}
+    assert modules == {"__init__.py", "cli.py", "extensions.py"}
+    assert folders | {"cli", "extensions"} == set(LAYERS)
+
+
+def test_the_class_is_no_node_and_its_rubrics_and_marks_are_pure() -> None:
+    folder = PACKAGE / "classroom"
+    assert found_in(folder.rglob("*.py"), of_graph) == {}
+    pure = ("mrlab_ros.core", "mrlab_ros.classroom.rubrics", "mrlab_ros.classroom.marks")
+
+    def others(path: Path) -> set[str]:
+        return {name for name in own_imports(path) if not any(within(name, p) for p in pure)}
+
+    paths = [path for room in ("rubrics", "marks") for path in (folder / room).rglob("*.py")]
+    assert found_in(paths, others) == {}
 
 
 def test_only_ros_touches_the_insides_of_rclpy() -> None:

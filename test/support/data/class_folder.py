@@ -11,10 +11,10 @@ import numpy as np
 from small_lab import make
 
 from mrlab_ros.adapters.trajectories import formats
+from mrlab_ros.classroom.marks.diagnostics import NO_FILE_HANDED_IN
+from mrlab_ros.classroom.rubrics import diagnostics
 from mrlab_ros.core.base.diagnostic import Severity, plain
 from mrlab_ros.core.checking.diagnostics import CHECK_READY, COLLISION
-from mrlab_ros.core.classroom.diagnostics import NO_FILE_HANDED_IN
-from mrlab_ros.core.rubrics import diagnostics
 
 TOUCHES = {"link": "wrist_3_link", "kind": "object", "other": "cube_1", "time": 0.2}
 TOUCHED = plain(diagnostics.TOUCHES(**TOUCHES))

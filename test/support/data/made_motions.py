@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.classroom.rubrics.document import parse
 from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.checking.checked import Checked, Motion
 from mrlab_ros.core.checking.motion import CheckedRobot, figures_of
@@ -15,7 +16,6 @@ from mrlab_ros.core.checking.report import CheckReport
 from mrlab_ros.core.physics.catalogue import ObjectType
 from mrlab_ros.core.physics.engine import Body
 from mrlab_ros.core.physics.grasp.states import Grasp
-from mrlab_ros.core.rubrics.document import parse
 from mrlab_ros.core.scene.document import ObjectEntry, SceneDocument
 from mrlab_ros.core.trajectory.trajectory import Channels, Source, Trajectory
 

@@ -1,6 +1,6 @@
 import type { Diagnostic } from '../words/diagnostic'
 
-/** A graded class; `mrlab_ros/core/show/classroom.py` writes it. */
+/** A graded class; `mrlab_ros/classroom/page.py` writes it. */
 export interface ClassDocument {
   readonly schema: 'mrlab.class.1'
   readonly title: string

@@ -1,1 +1,0 @@
-"""Exports of submissions, and the processes that check them."""

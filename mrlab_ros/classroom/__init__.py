@@ -1,0 +1,38 @@
+"""The class: rubrics, marking of submissions, the gradebook, their commands and routes.
+
+The lab works without this package; `mrlab_ros.extensions` names it, and reads from it COMMANDS,
+ROUTERS and POLICY, and calls `check`.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Protocol
+
+COMMANDS = {
+    "class": "mrlab_ros.classroom.commands:grade",
+    "rubric": "mrlab_ros.classroom.commands:app",
+}
+ROUTERS = ("mrlab_ros.classroom.routes:router",)
+# Names and marks of a class are its teachers'.
+POLICY = {
+    ("GET", "/api/class"): "instructor",
+    ("GET", "/api/class/{key}/motion"): "instructor",
+    ("GET", "/api/class/{key}/file"): "instructor",
+}
+
+
+class GatewaySettings(Protocol):
+    """What a gateway is started with. classroom: folder of a marked class, None: none is shown."""
+
+    @property
+    def classroom(self) -> Path | None: ...
+
+
+def check(settings: GatewaySettings) -> None:
+    """Raise BadInput where a gateway cannot show the class that its settings name."""
+    if settings.classroom is None:
+        return
+    from mrlab_ros.classroom import folder
+
+    folder.check(settings.classroom)

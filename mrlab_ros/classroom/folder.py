@@ -1,0 +1,85 @@
+"""The folder of a graded class: every file is written as a whole, so a kill loses one at most."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import orjson
+
+from mrlab_ros.adapters.whole_file import replaced
+from mrlab_ros.classroom.diagnostics import NO_CLASS_FILE, NO_CLASS_FOLDER, NOT_WRITABLE
+from mrlab_ros.core.base.diagnostic import Fix
+from mrlab_ros.core.base.errors import BadInput, Misuse
+
+CLASS, INDEX, TABLE = "class.json", "index.html", "grades.csv"
+KEPT, PAGES, FEEDBACK, RESULTS, TRAJECTORIES = (
+    "kept", "pages", "feedback", "results", "trajectories",
+)  # fmt: skip
+OWN = (CLASS, INDEX, TABLE, KEPT, PAGES, FEEDBACK, RESULTS, TRAJECTORIES)
+
+
+def check(folder: Path) -> None:
+    """Raise BadInput where a folder holds no class that `mrlab class` has marked."""
+    if not (folder / CLASS).is_file():
+        make = Fix(command="mrlab class SUBMISSIONS --rubric RUBRIC.yaml --out FOLDER")
+        raise BadInput(NO_CLASS_FILE(file=CLASS, folder=str(folder), fixes=(make,)))
+
+
+class ResultsFolder:
+    """A folder with the results of a class."""
+
+    def __init__(self, path: Path) -> None:
+        """Make the folder; raise Misuse where it holds what is not of a class."""
+        self.path = path
+        try:
+            strange = (
+                [p.name for p in path.iterdir() if p.name not in OWN] if path.exists() else []
+            )
+            own = (path / KEPT).is_dir() or (path / CLASS).is_file()
+            if strange and not own:
+                raise Misuse(NO_CLASS_FOLDER(folder=str(path), found=strange[0]))
+            for name in (KEPT, PAGES, FEEDBACK, RESULTS, TRAJECTORIES):
+                (path / name).mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise BadInput(NOT_WRITABLE(file=str(path), why=error.strerror)) from None
+
+    def write(self, name: str, content: bytes) -> None:
+        """Write a file by its path within the folder, replacing it as a whole."""
+        path = self.path / name
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            with replaced(path) as file:
+                file.write(content)
+        except OSError as error:
+            raise BadInput(NOT_WRITABLE(file=str(path), why=error.strerror)) from None
+
+    def kept(self, digest: str) -> dict[str, Any] | None:
+        """Return the result that was kept under a digest, None where none is whole."""
+        try:
+            content = json.loads((self.path / KEPT / f"{digest}.json").read_bytes())
+        except (OSError, ValueError):
+            return None
+        return content if isinstance(content, dict) else None
+
+    def keep(self, digest: str, result: dict[str, Any]) -> None:
+        """Keep a result, when everything else of it is written."""
+        self.write(f"{KEPT}/{digest}.json", orjson.dumps(result))
+
+    def has(self, name: str) -> bool:
+        """Return whether a file is there."""
+        return (self.path / name).is_file()
+
+    def tidy(self, folder: str, names: Iterable[str]) -> None:
+        """Remove from one of the folders what is of nobody in the class any more."""
+        wanted = set(names)
+        for path in (self.path / folder).iterdir():
+            if path.name in wanted:
+                continue
+            if path.is_dir() and not path.is_symlink():
+                shutil.rmtree(path, ignore_errors=True)
+            else:
+                path.unlink(missing_ok=True)

@@ -1,0 +1,1 @@
+"""Marks of a class: submissions, results, statistics, gradebooks."""

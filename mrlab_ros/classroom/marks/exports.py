@@ -1,0 +1,272 @@
+"""Who handed in which files: the exports of Moodle, ILIAS, Canvas and Gradescope, or a folder."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import PurePosixPath
+from typing import Any
+
+from mrlab_ros.classroom.marks.diagnostics import (
+    NEWEST_TAKEN,
+    NO_MOTION_FILE,
+    NONE_NAMED_SO,
+    NOT_NAMED_AS_BY,
+    SENDER_NOT_NAMED,
+    TEXT_NOT_READ,
+)
+from mrlab_ros.core.base.diagnostic import Diagnostic
+
+MOODLE = re.compile(
+    r"(?P<name>.+)_(?P<id>\d+)_assignsubmission_(?P<kind>file|onlinetext|comments)(_(?P<file>.*))?"
+)
+ILIAS = re.compile(r"(?P<last>[^_]+)_(?P<first>[^_]+)_(?P<login>.+)_(?P<id>\d+)")
+CANVAS = re.compile(
+    r"(?P<name>[^\W_]([^\W_]|-)*)_(?P<late>LATE_)?(?P<id>\d+)_"
+    r"(?:(?P<submission>\d+)_(?P<file>.+)|(?P<text>text)\.html)",
+    re.IGNORECASE,
+)
+GRADESCOPE = re.compile(r"submission_(?P<id>\d+)")
+METADATA = "submission_metadata.yml"
+# Canvas and browsers number the attempts: motion-1.mat, motion (2).mat
+ATTEMPT = re.compile(r"(?:-| ?\()(\d{1,2})\)?$")
+JUNK = re.compile(r"(^|/)(__MACOSX/|\._|\.DS_Store$|Thumbs\.db$|desktop\.ini$)", re.IGNORECASE)
+ARCHIVE = ".zip"
+GERMAN = str.maketrans(
+    {"ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss", "Ä": "Ae", "Ö": "Oe", "Ü": "Ue"}
+)
+MOST_KEY = 60  # characters
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A file of an export. path: with /, from its top; modified: sortable, newest last."""
+
+    path: str
+    size: int = 0
+    modified: tuple[int, ...] = ()
+
+
+@dataclass(frozen=True)
+class Submission:
+    """What one student handed in.
+
+    key: a file name of its own for this student, stable for the same export. identifier: the
+    number by which the system knows the student or the submission, or empty. folder: how the
+    export names it, for feedback that is sent back. candidates: files that may hold the motion,
+    the first to be tried first. notes: what a teacher shall know.
+    """
+
+    key: str
+    name: str
+    form: str
+    identifier: str = ""
+    folder: str = ""
+    email: str = ""
+    late: bool = False
+    candidates: tuple[Entry, ...] = ()
+    others: tuple[str, ...] = ()
+    notes: tuple[Diagnostic, ...] = ()
+
+
+@dataclass(frozen=True)
+class Roster:
+    """All submissions of an export, by name. left_out: path and why of what belongs to nobody."""
+
+    form: str
+    submissions: tuple[Submission, ...]
+    left_out: tuple[tuple[str, Diagnostic], ...] = ()
+
+
+@dataclass
+class _Found:
+    name: str
+    identifier: str
+    folder: str
+    late: bool = False
+    files: list[tuple[Entry, str]] = field(default_factory=list)
+    notes: list[Diagnostic] = field(default_factory=list)
+    text: bool = False
+    email: str = ""
+
+
+def recognise(
+    entries: Iterable[Entry],
+    suffixes: Sequence[str],
+    *,
+    pattern: str = "",
+    metadata: Mapping[str, Any] | None = None,
+) -> Roster:
+    """Return who handed in what.
+
+    suffixes: endings of files that may hold a motion. pattern: a file name pattern such as
+    "motion*.mat", which decides among several. metadata: the content of Gradescope's
+    submission_metadata.yml.
+    """
+    kept, left_out = [], []
+    for entry in sorted(entries, key=lambda e: e.path):
+        if JUNK.search(entry.path):
+            continue
+        if PurePosixPath(entry.path).name == METADATA:
+            continue
+        kept.append(entry)
+    forms = Counter(form for e in kept if (form := _form(e.path)))
+    form = forms.most_common(1)[0][0] if forms else "folder"
+    students: dict[tuple[str, str], _Found] = {}
+    top = _wrapper(kept) if form == "folder" else 0
+    for entry in kept:
+        parts = PurePosixPath(entry.path).parts[top:]
+        found = _plain(parts, suffixes) if form == "folder" else _named(parts, form)
+        if found is None:
+            why = NO_MOTION_FILE() if form == "folder" else NOT_NAMED_AS_BY(form=form)
+            left_out.append((entry.path, why))
+            continue
+        one, rest = found
+        known = students.setdefault((one.name, one.identifier), one)
+        known.late |= one.late
+        known.text |= one.text
+        if not one.text:
+            known.files.append((entry, rest))
+    if form == "Gradescope":
+        _names_of_gradescope(students, metadata or {})
+    ordered = sorted(students.values(), key=lambda s: (s.name.casefold(), s.identifier))
+    taken: set[str] = set()
+    submissions = tuple(_submission(s, form, suffixes, pattern, taken) for s in ordered)
+    return Roster(form, submissions, tuple(left_out))
+
+
+def renamed(submission: Submission, name: str, key: str) -> Submission:
+    """Return a submission that says nothing of who handed it in."""
+    count = len(submission.candidates)
+    notes = (NEWEST_TAKEN(count=count),) if count > 1 else ()
+    return replace(
+        submission, key=key, name=name, identifier="", folder=key, email="", others=(), notes=notes
+    )
+
+
+def slug(text: str) -> str:
+    """Return a text as a file name that every system takes: a-z, 0-9 and -."""
+    plain = unicodedata.normalize("NFKD", unicodedata.normalize("NFC", text).translate(GERMAN))
+    ascii_only = plain.encode("ascii", "ignore").decode().lower()
+    return re.sub(r"[^a-z0-9]+", "-", ascii_only).strip("-")[:MOST_KEY]
+
+
+def _form(path: str) -> str:
+    for part in PurePosixPath(path).parts:
+        if MOODLE.fullmatch(part):
+            return "Moodle"
+        if GRADESCOPE.fullmatch(part):
+            return "Gradescope"
+        if CANVAS.fullmatch(part):
+            return "Canvas"
+    return "ILIAS" if any(map(ILIAS.fullmatch, PurePosixPath(path).parts[:-1])) else ""
+
+
+def _named(parts: Sequence[str], form: str) -> tuple[_Found, str] | None:
+    """Return the student of a path in an export, and the file's name without the student's."""
+    for number, part in enumerate(parts):
+        rest = "/".join(parts[number + 1 :])
+        if form == "Moodle" and (match := MOODLE.fullmatch(part)):
+            name, within = match["name"].replace("_", " "), match["file"] or ""
+            file = "/".join(each for each in (within, rest) if each)
+            text = match["kind"] != "file"
+            return _Found(name, match["id"], part if rest else "", text=text), file
+        if form == "ILIAS" and rest and (match := ILIAS.fullmatch(part)):
+            name = f"{match['first']} {match['last']}"
+            return _Found(name, match["login"], part), rest
+        if form == "Canvas" and (match := CANVAS.fullmatch(part)):
+            file = "/".join(each for each in (match["file"], rest) if each)
+            late, text = bool(match["late"]), bool(match["text"])
+            return _Found(match["name"], match["id"], "", late, text=text), file
+        if form == "Gradescope" and rest and (match := GRADESCOPE.fullmatch(part)):
+            return _Found(part, match["id"], part), rest
+    return None
+
+
+def _plain(parts: Sequence[str], suffixes: Sequence[str]) -> tuple[_Found, str] | None:
+    if len(parts) > 1:
+        name = parts[0].removesuffix(ARCHIVE)
+        return _Found(name, "", parts[0]), "/".join(parts[1:])
+    ending = _ending(parts[0], suffixes)
+    if not ending:
+        return None
+    return _Found(parts[0][: -len(ending)] or parts[0], "", ""), parts[0]
+
+
+def _wrapper(entries: Sequence[Entry]) -> int:
+    """Return how many folders are around all files and are no student's."""
+    depth = 0
+    paths = [PurePosixPath(e.path).parts for e in entries]
+    while paths and min(map(len, paths)) > depth + 1:
+        if len({parts[depth] for parts in paths}) != 1 or paths[0][depth].endswith(ARCHIVE):
+            break
+        depth += 1
+    return depth
+
+
+def _names_of_gradescope(
+    students: Mapping[tuple[str, str], _Found], metadata: Mapping[str, Any]
+) -> None:
+    for found in students.values():
+        about = metadata.get(found.folder)
+        submitters = about.get(":submitters") if isinstance(about, Mapping) else None
+        people = [p for p in submitters or () if isinstance(p, Mapping)]
+        if not people:
+            found.notes.append(SENDER_NOT_NAMED(file=METADATA, folder=found.folder))
+            continue
+        found.name = ", ".join(str(p.get(":name") or "?") for p in people)
+        found.identifier = ", ".join(str(p[":sid"]) for p in people if p.get(":sid"))
+        found.email = ", ".join(str(p[":email"]) for p in people if p.get(":email"))
+
+
+def _submission(
+    found: _Found, form: str, suffixes: Sequence[str], pattern: str, taken: set[str]
+) -> Submission:
+    key = slug(f"{found.name} {found.identifier}") or "student"
+    base, number = key, 1
+    while key in taken:
+        number += 1
+        key = f"{base}-{number}"
+    taken.add(key)
+    can: list[tuple[Entry, str]] = []
+    cannot: list[tuple[Entry, str]] = []
+    for entry, name in found.files:
+        (can if _ending(name, suffixes) else cannot).append((entry, name))
+    notes = list(found.notes)
+    if found.text:
+        notes.append(TEXT_NOT_READ())
+    matching = [each for each in can if pattern and PurePosixPath(each[1]).match(pattern)]
+    if pattern and can and not matching:
+        notes.append(NONE_NAMED_SO(pattern=pattern))
+    chosen = matching or can
+    tries = [_attempt(name, suffixes) for _, name in chosen]
+    counted = len({stem for stem, _ in tries}) == 1  # attempts at one file, numbered
+    newest = sorted(
+        zip(chosen, tries, strict=True),
+        key=lambda each: (each[1][1] * counted, each[0][0].modified, each[0][1]),
+        reverse=True,
+    )
+    chosen = [each for each, _ in newest]
+    if len(can) > 1:
+        names = [name for _, name in chosen]
+        rule = pattern if matching and len(matching) < len(can) else None
+        notes.append(NEWEST_TAKEN(count=len(can), pattern=rule, files=names))
+    return Submission(
+        key, found.name, form, found.identifier, found.folder, found.email, found.late,
+        tuple(entry for entry, _ in chosen), tuple(name for _, name in cannot), tuple(notes),
+    )  # fmt: skip
+
+
+def _ending(name: str, suffixes: Sequence[str]) -> str:
+    lower = name.lower()
+    return max((s for s in suffixes if lower.endswith(s)), key=len, default="")
+
+
+def _attempt(name: str, suffixes: Sequence[str]) -> tuple[str, int]:
+    """Return a name without the number of its attempt, and that number, 0 without."""
+    stem = name[: -len(_ending(name, suffixes)) or None]
+    match = ATTEMPT.search(stem)
+    return (stem[: match.start()], int(match[1])) if match else (stem, 0)

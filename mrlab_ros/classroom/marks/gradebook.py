@@ -1,0 +1,159 @@
+"""Marks as other programs read them: Excel, Moodle's worksheet, Gradescope."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from mrlab_ros.classroom.marks.diagnostics import MAXIMUM_DIFFERS, NO_WORKSHEET, NOT_IN_WORKSHEET
+from mrlab_ros.classroom.marks.graded import Student
+from mrlab_ros.classroom.marks.result import Result
+from mrlab_ros.classroom.rubrics.rubric import Rubric
+from mrlab_ros.core.base.diagnostic import Diagnostic, from_plain
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.foreign_text import for_table
+
+BOM = "\ufeff"  # by which Excel takes a table for UTF-8
+NUMBER = re.compile(r"\d+")
+# Columns of Moodle's worksheet, in English and German.
+IDENTIFIERS = ("identifier", "id", "kennung")
+GRADES = ("grade", "bewertung")
+MOST = ("maximum grade", "bestwertung")
+COMMENTS = ("feedback comments", "feedback als kommentar")
+
+
+def cell(value: Any) -> Any:
+    """Return a value that no table program computes."""
+    return for_table(value) if isinstance(value, str) else value
+
+
+def table(rubric: Rubric, students: Sequence[Student]) -> str:
+    """Return the marks of a class as CSV, a row a student."""
+    written = io.StringIO()
+    writer = csv.writer(written, lineterminator="\r\n")
+    head = ("key", "name", "identifier", "email", "late", "points", "of", "outcome", "verdict")
+    writer.writerow([*head, *(cell(t.name) for t in rubric.tests), "file", "words", "notes"])
+    for student in students:
+        one, result = student.submission, student.result
+        writer.writerow(
+            [
+                *map(cell, (one.key, one.name, one.identifier, one.email)),
+                "yes" if one.late else "no",
+                number(result.points),
+                number(result.of),
+                result.outcome,
+                result.verdict,
+                *(number(m["points"]) for m in result.marks["tests"]),
+                *map(cell, (result.file, text(result.found), " ".join(map(str, one.notes)))),
+            ]
+        )
+    return BOM + written.getvalue()
+
+
+def text(found: Mapping[str, Any]) -> str:
+    """Return the text of a diagnostic as JSON has it."""
+    return str(from_plain(found))
+
+
+def number(value: float) -> str:
+    """Return points without trailing zeros."""
+    return f"{value:.6g}"
+
+
+def filled(template: str, students: Sequence[Student], name: str) -> tuple[str, list[Diagnostic]]:
+    """Return Moodle's grading worksheet with the grades in it, and what did not fit.
+
+    The number of the column Identifier is the one in the folder names of the export. Cells that
+    are not grades or comments stay as they are. Raises BadInput where it is no worksheet.
+    """
+    content = template.removeprefix(BOM)
+    first = content.partition("\n")[0]
+    delimiter = max(",;\t", key=first.count)
+    rows = list(csv.reader(io.StringIO(content), delimiter=delimiter))
+    heads = [head.strip().lower() for head in rows[0]] if rows else []
+    identifier, grade = _column(heads, IDENTIFIERS), _column(heads, GRADES)
+    if identifier is None or grade is None:
+        raise BadInput(NO_WORKSHEET(file=name, count=len(heads), columns=heads))
+    most, comments = _column(heads, MOST), _column(heads, COMMENTS)
+    by_number = {s.submission.identifier: s for s in students if s.submission.identifier}
+    met, maxima = set(), set()
+    for row in rows[1:]:
+        found = NUMBER.search(row[identifier]) if len(row) > identifier else None
+        student = by_number.get(found[0]) if found else None
+        if student is None:
+            continue
+        met.add(student.key)
+        row += [""] * (len(heads) - len(row))
+        points = number(student.result.points)
+        row[grade] = points.replace(".", ",") if delimiter == ";" else points
+        if most is not None and _differs(row[most], student.result.of):
+            maxima.add((row[most], student.result.of))
+        if comments is not None:
+            row[comments] = str(cell(comment(student.result)))
+    problems = [MAXIMUM_DIFFERS(found=said, points=of) for said, of in sorted(maxima)]
+    problems += [
+        NOT_IN_WORKSHEET(student=s.submission.name)
+        for s in students
+        if s.key not in met and s.submission.form == "Moodle"
+    ]
+    written = io.StringIO()
+    csv.writer(written, delimiter=delimiter, lineterminator="\r\n").writerows(rows)
+    return (BOM if template.startswith(BOM) else "") + written.getvalue(), problems
+
+
+def comment(result: Result) -> str:
+    """Return what a student reads beside the grade: each public test, and hints."""
+    lines = [
+        f"{m['name']}: {number(m['points'])} of {number(m['of'])}. {text(m['found'])}"
+        + (f" {m['hint']}" if m["hint"] and not m["passed"] else "")
+        for m in result.public["tests"]
+    ]
+    return "\n".join([*lines, *result.public["hints"]])
+
+
+def gradescope(result: Result) -> dict[str, Any]:
+    """Return results.json as Gradescope's autograders write it; tests in the rubric's order.
+
+    Hidden tests stay hidden from students; their hints stand in the output for all.
+    """
+    tests = [
+        {
+            "number": str(place),
+            "name": m["name"],
+            "score": m["points"],
+            "max_score": m["of"],
+            "status": "passed" if m["passed"] else "failed",
+            "output": _output(m),
+            "visibility": "hidden" if m["hidden"] else "visible",
+        }
+        for place, m in enumerate(result.marks["tests"], 1)
+    ]
+    return {
+        "score": result.points,
+        "output": "\n".join([text(result.found), *result.public["hints"]]),
+        "output_format": "text",
+        "visibility": "visible",
+        "tests": tests,
+        "extra_data": {"file": result.file, "report": result.report, "outcome": result.outcome},
+    }
+
+
+def _output(mark: Any) -> str:
+    words = text(mark["found"])
+    if mark["time"] is not None:
+        words = f"at {mark['time']:.2f} s: {words}"
+    return f"{words}\n{mark['hint']}" if mark["hint"] and not mark["passed"] else words
+
+
+def _column(heads: Sequence[str], names: Sequence[str]) -> int | None:
+    return next((heads.index(name) for name in names if name in heads), None)
+
+
+def _differs(text: str, points: float) -> bool:
+    try:
+        return abs(float(text.replace(",", ".")) - points) > 1e-6
+    except ValueError:
+        return False

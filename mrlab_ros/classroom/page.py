@@ -1,0 +1,106 @@
+"""The page of a graded class; it reads ClassDocument of web/src/classroom/class_document.ts."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mrlab_ros.adapters.pages import ingredients
+from mrlab_ros.classroom.marks.graded import REFERENCE, SCHEMA, GradedClass, Student
+from mrlab_ros.classroom.marks.result import MARKED, Result
+from mrlab_ros.core.base.diagnostic import plain
+from mrlab_ros.core.show import static
+from mrlab_ros.core.show.page import page
+
+MOST_FINDINGS, MOST_TESTS = 6, 8
+MOST_LEFT_OUT = 200
+
+
+def class_document(graded: GradedClass) -> dict[str, Any]:
+    """Return the class: a row a student, what is common, and who is alike."""
+    rubric, figures, common = graded.rubric, graded.statistics(), graded.similar()
+    return {
+        "schema": SCHEMA,
+        "title": rubric.name,
+        "form": graded.form,
+        "robot": rubric.robot,
+        "scene": rubric.scene,
+        "points": rubric.points,
+        "tests": [
+            {"name": test.name, "points": test.points, "hidden": test.hidden}
+            for test in rubric.tests
+        ],
+        "statistics": {
+            "mean": figures.mean,
+            "median": figures.median,
+            "full": figures.full,
+            "bins": list(figures.bins),
+            "tests": [vars(test) for test in figures.tests[:MOST_TESTS]],
+            "findings": [
+                {"severity": one.severity, "students": one.students, "said": one.example}
+                for one in figures.findings[:MOST_FINDINGS]
+            ],
+        },
+        "students": [_row(student) for student in graded.students],
+        "reference": None if graded.reference is None else _result(REFERENCE, graded.reference),
+        "similar": {
+            "threshold": common.threshold,
+            "usual": common.usual,
+            "as_reference": len(common.as_reference),
+            "groups": [
+                {"keys": list(group.keys), "apart": group.apart, "equal": group.equal}
+                for group in common.groups
+            ],
+        },
+        "left_out": [
+            {"file": file, "why": plain(why)} for file, why in graded.left_out[:MOST_LEFT_OUT]
+        ],
+        "left_out_count": len(graded.left_out),
+    }
+
+
+def _row(student: Student) -> dict[str, Any]:
+    one, result = student.submission, student.result
+    return {
+        **_result(student.key, result),
+        "name": one.name,
+        "identifier": one.identifier,
+        "late": one.late,
+        "notes": plain(one.notes),
+    }
+
+
+def _result(key: str, result: Result) -> dict[str, Any]:
+    """Return what became of a submission; path: mm, page: relative to the class' own."""
+    return {
+        "key": key,
+        "marked": result.outcome == MARKED,
+        "said": result.found,
+        "file": result.file,
+        "points": result.points,
+        "of": result.of,
+        "duration": result.duration,
+        "marks": [_mark(mark) for mark in result.marks["tests"]],
+        "page": f"pages/{key}.html" if result.has_page else None,
+        "path": (np.array(result.path) * 1e3).round().astype(int).tolist(),
+    }
+
+
+def _mark(mark: Mapping[str, Any]) -> dict[str, Any]:
+    return {
+        "points": mark["points"],
+        "passed": mark["passed"],
+        "time": mark["time"],
+        "found": mark["found"],
+    }
+
+
+def class_page(graded: GradedClass, share: Path) -> str:
+    """Return one HTML file about a class. share: folder with the built pages."""
+    document = class_document(graded)
+    return page(
+        graded.rubric.name, static.classroom(document), document, {}, ingredients.code(share)
+    )

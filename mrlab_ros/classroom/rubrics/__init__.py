@@ -1,0 +1,1 @@
+"""Rubrics: what a motion is for, as named tests with points."""

@@ -1,0 +1,126 @@
+"""What every submission of a class is checked with, and by what its result is known again."""
+
+from __future__ import annotations
+
+import hashlib
+import pickle
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import mrlab_ros
+from mrlab_ros.adapters import share
+from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.app.check.file import Setting, entry_of
+from mrlab_ros.app.check.stage import Stage
+from mrlab_ros.classroom.rubrics.rubric import Rubric
+from mrlab_ros.core.checking.report import digest
+from mrlab_ros.core.conversion.options import Options
+from mrlab_ros.core.scene import document as scene_document
+from mrlab_ros.core.scene.document import SceneDocument
+
+MiB = 1 << 20
+
+
+class SteadyLibrary(RobotLibrary):
+    """A library whose files do not change while a class is checked: each is read once."""
+
+    def __init__(self, folder: Path) -> None:
+        super().__init__(folder)
+        self._facts: dict[str, dict[str, Any]] = {}
+        self._described: dict[tuple[str, str], str] = {}
+
+    def facts(self, robot_id: str) -> dict[str, Any]:
+        """Return the content of robot.yaml."""
+        if robot_id not in self._facts:
+            self._facts[robot_id] = super().facts(robot_id)
+        return self._facts[robot_id]
+
+    def description(self, robot_id: str, end_effector: str | None = None) -> str:
+        """Return the URDF of a robot with its end effector."""
+        asked = (robot_id, end_effector or "")
+        if asked not in self._described:
+            self._described[asked] = super().description(robot_id, end_effector)
+        return self._described[asked]
+
+
+@dataclass(frozen=True)
+class Bounds:
+    """What one submission may take. memory: bytes; time: s of a processor."""
+
+    memory: int = 3072 * MiB
+    time: float = 60.0
+
+    @property
+    def wall(self) -> float:
+        """Return after how many s, on however busy a machine, a submission is given up."""
+        return 10 * self.time + 30
+
+
+@dataclass(frozen=True)
+class Setup:
+    """How a class is checked. reference: name and bytes of the solution, None where there is none.
+
+    pages: write a page for each. It travels to the processes that check, so it holds everything.
+    """
+
+    rubric: Rubric
+    scene: SceneDocument
+    options: Options = field(default_factory=Options)
+    reference: tuple[str, bytes] | None = None
+    bounds: Bounds = field(default_factory=Bounds)
+    pages: bool = True
+
+    @cached_property
+    def digest(self) -> str:
+        """Return the sha256 of all that marks depend on beside the submission."""
+        folder = share.directory()
+        setting = self.setting(folder)
+        entry = entry_of(setting)
+        inputs = {}
+        if entry.model:
+            stage = setting.stage
+            robot = stage.robot(entry.name, entry.model, entry.end_effector, entry.pose)
+            inputs = stage.inputs([robot], self.scene)
+        reference = hashlib.sha256(self.reference[1]).hexdigest() if self.reference else ""
+        return digest(
+            {
+                "version": mrlab_ros.__version__,
+                "rubric": repr(replace(self.rubric, origin="", plain=None)),
+                "scene": scene_document.plain(self.scene),
+                "options": {k: v for k, v in vars(self.options).items() if v},
+                "reference": reference,
+                "inputs": inputs,
+            }
+        )
+
+    def setting(self, folder: Path) -> Setting:
+        """Return the setting of a check. folder: the package's share."""
+        rubric = self.rubric
+        return Setting(
+            Stage(folder, SteadyLibrary(folder / "robots")), self.scene, rubric.scene,
+            rubric.robot, rubric.tool, self.options, rubric.closest,
+        )  # fmt: skip
+
+    @cached_property
+    def packed(self) -> bytes:
+        """Return the setup as it travels."""
+        return pickle.dumps(replace(self))
+
+
+@dataclass(frozen=True)
+class Task:
+    """One submission to check. shown: what its motion is called on pages, without folder.
+
+    files: name and bytes of the candidates; the first that holds a motion is taken.
+    """
+
+    key: str
+    shown: str
+    files: tuple[tuple[str, bytes], ...]
+
+    def digest(self, setup: str) -> str:
+        """Return the sha256 by which the result of a task is known again."""
+        parts = [[name, hashlib.sha256(data).hexdigest()] for name, data in self.files]
+        return digest([setup, self.shown, parts])

@@ -1,1 +1,0 @@
-"""`mrlab class`: marks all submissions of an export by a rubric."""

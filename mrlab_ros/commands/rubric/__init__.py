@@ -1,1 +1,0 @@
-"""`mrlab rubric`: named tests with points."""

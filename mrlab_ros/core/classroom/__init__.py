@@ -1,1 +1,0 @@
-"""A class of submissions: who handed in what, its marks, and what it has in common."""

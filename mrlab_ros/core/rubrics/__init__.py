@@ -1,1 +1,0 @@
-"""Rubrics: named tests with points, and what a checked motion gets for each."""

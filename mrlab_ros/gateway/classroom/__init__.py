@@ -1,1 +1,0 @@
-"""A graded class, as `mrlab class` left it in a folder, for its teachers."""

@@ -1,0 +1,100 @@
+"""Marks: sums, parts, hidden tests, files without a motion."""
+
+from __future__ import annotations
+
+import json
+import math
+
+from hypothesis import given
+from hypothesis import strategies as st
+from made_motions import checked
+
+from mrlab_ros.classroom.rubrics.diagnostics import NO_MOTION_TO_MARK
+from mrlab_ros.classroom.rubrics.marking import mark, points_of
+from mrlab_ros.classroom.rubrics.rubric import LENGTH, Outcome, Rubric, Test, Threshold
+from mrlab_ros.core.base.diagnostic import Diagnostic, Severity
+from mrlab_ros.core.checking.checked import Checked
+from mrlab_ros.core.checking.report import CheckReport
+
+FOUND = checked()
+
+
+class Fixed:
+    def __init__(self, share, time=1.0):
+        self.share, self.time = share, time
+
+    def assess(self, given, reference):
+        return Outcome(self.share, NO_MOTION_TO_MARK(), self.time)
+
+
+SHARES = st.floats(0, 1)
+POINTS = st.floats(0.01, 100)
+TESTS = st.lists(st.tuples(SHARES, POINTS, st.booleans()), min_size=1, max_size=12)
+
+
+def rubric(entries):
+    return Rubric("r", tuple(
+        Test(f"t{i}", "no collision", Fixed(share), points, f"h{i}", hidden)
+        for i, (share, points, hidden) in enumerate(entries)
+    ))  # fmt: skip
+
+
+@given(TESTS)
+def test_marks_are_the_sum_of_their_tests_and_never_more_than_the_points(entries):
+    marks = mark(rubric(entries), FOUND)
+    assert 0 <= marks.points <= marks.of + 1e-6
+    assert math.isclose(marks.points, sum(m.points for m in marks.tests), abs_tol=1e-5)
+    assert (marks.points == marks.of) == (not marks.lost)
+    for one, (share, points, _) in zip(marks.tests, entries, strict=True):
+        assert one.passed == (share >= 1 - 1e-9)
+        assert one.points <= points
+        assert abs(one.points - share * points) <= 0.01 + 1e-6
+        assert (one.time is None) == one.passed
+        assert (one.found.severity is Severity.INFO) == one.passed
+        assert one.found.refuses == (not one.passed and one.points == 0)
+
+
+@given(TESTS)
+def test_what_a_student_sees_holds_nothing_of_hidden_tests_but_hints(entries):
+    marks = mark(rubric(entries), FOUND).public()
+    hidden = {f"t{i}" for i, e in enumerate(entries) if e[2]}
+    assert not hidden & {m.name for m in marks.tests}
+    assert math.isclose(marks.of, sum(p for _, p, h in entries if not h), abs_tol=1e-4)
+    lost = {f"h{i}" for i, (s, _, h) in enumerate(entries) if h and s < 1 - 1e-9}
+    assert set(marks.hints) == lost
+
+
+@given(TESTS, st.randoms())
+def test_the_order_of_tests_changes_no_mark(entries, random):
+    given_marks = {m.name: m.points for m in mark(rubric(entries), FOUND).tests}
+    tests = list(rubric(entries).tests)
+    random.shuffle(tests)
+    assert {m.name: m.points for m in mark(Rubric("r", tuple(tests)), FOUND).tests} == given_marks
+
+
+@given(POINTS, st.lists(SHARES, min_size=2, max_size=2))
+def test_a_larger_share_never_earns_less(points, shares):
+    low, high = sorted(shares)
+    assert points_of(points, low) <= points_of(points, high) <= points
+
+
+@given(st.floats(0.001, 1), st.floats(0.001, 1), st.lists(st.floats(0, 3), min_size=2, max_size=2))
+def test_a_threshold_falls_evenly_from_its_limit_to_its_end(limit, span, values):
+    near, far = sorted(values)
+    rule = Threshold(LENGTH, limit, limit + span)
+    assert 1 >= rule.share(near) >= rule.share(far) >= 0
+    assert rule.share(limit) == 1
+    assert rule.share(limit + span) < 1e-9
+    assert math.isclose(rule.share(limit + span / 2), 0.5, abs_tol=1e-6)
+    least = Threshold(LENGTH, limit + span, limit, at_least=True)
+    assert math.isclose(least.share(limit + span / 2), 0.5, abs_tol=1e-6)
+
+
+def test_a_file_without_a_motion_gets_nothing_and_is_told_why_once():
+    finding = Diagnostic("not_numbers", Severity.ERROR, "'q' is text.", "Save numbers.")
+    refused = Checked(CheckReport("f", {}, (), (finding,)), {})
+    marks = mark(rubric([(1.0, 3.0, False), (0.5, 1.0, True)]), refused)
+    assert (marks.points, marks.of, marks.note) == (0.0, 4.0, finding)
+    assert {m.found.code for m in marks.tests} == {NO_MOTION_TO_MARK.code}
+    assert all(m.time is None for m in marks.tests)
+    assert json.loads(json.dumps(marks.public().plain()))["hints"] == ["h1"]

@@ -1,0 +1,239 @@
+"""`mrlab class` as a whole: five students, two processes, the blocks of docs/class.md."""
+
+from __future__ import annotations
+
+import csv
+import json
+import shutil
+import textwrap
+from pathlib import Path
+
+import numpy as np
+import orjson
+import pytest
+import scipy.io
+from page_document import document_in
+from refusals import command_refuses
+from typer.testing import CliRunner
+
+from mrlab_ros.classroom import commands, worker
+from mrlab_ros.classroom.grader import Grader
+from mrlab_ros.classroom.rubrics.rubric import Rubric, Test
+from mrlab_ros.classroom.setup import Bounds, MiB, Setup, Task
+from mrlab_ros.cli import make_app
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.scene.document import SceneDocument
+
+# two processes start, import everything and check the reference: slow on a busy machine
+pytestmark = [pytest.mark.slow, pytest.mark.timeout(400)]
+
+ROOT = Path(__file__).parents[3]
+PICK = ROOT / "examples" / "pick_and_place_ur5e.mat"
+RUBRIC = ROOT / "examples" / "rubrics" / "pick_and_place.yaml"
+SHEET = "Identifier,Full name,Grade,Maximum Grade\n" + "".join(
+    f"Participant {n},X,,15\n" for n in (1, 2, 3, 4, 5)
+)
+
+
+def grade(*words):
+    return CliRunner().invoke(make_app(["class"]), ["class", *map(str, words)])
+
+
+@pytest.fixture(scope="module")
+def submissions(tmp_path_factory):
+    """Five students: a solution, one that is late at the cube, text, nothing, two files."""
+    folder = tmp_path_factory.mktemp("class") / "submissions"
+    names = ("Änne Groß", "Ben", "Cem", "Dora", "Eva")
+    places = [folder / f"{n}_{i}_assignsubmission_file_" for i, n in enumerate(names, 1)]
+    for place in places:
+        place.mkdir(parents=True)
+    shutil.copy(PICK, places[0] / "run.mat")
+    content = scipy.io.loadmat(PICK)
+    q, closed = content["q"], content["q"][:, 6].copy()
+    late = np.concatenate([np.zeros(120), closed[:-120]])
+    values = {"q": np.column_stack([q[:, :6], late]), "fs": content["fs"]}
+    scipy.io.savemat(places[1] / "run.mat", values)
+    (places[2] / "run.mat").write_text("this is not a workspace")
+    (places[3] / "report.pdf").write_bytes(b"%PDF-1.4")
+    shutil.copy(PICK, places[4] / "a.mat")
+    (places[4] / "b.mat").write_bytes(b"")
+    return folder
+
+
+def results(folder):
+    return {
+        path.relative_to(folder).as_posix(): path.read_bytes()
+        for path in sorted(folder.rglob("*"))
+        if path.is_file()
+    }
+
+
+def test_a_class_is_marked_kept_and_the_same_however_it_is_run(submissions, tmp_path):
+    out = tmp_path / "marked"
+    said = grade(submissions, "--rubric", RUBRIC, "--out", out, "--jobs", 2)
+    assert said.exit_code == 0, said.stderr
+    assert "5 students, read as Moodle" in said.stdout
+    found = json.loads((out / "class.json").read_text())
+    rows = {s["name"]: s for s in found["students"]}
+    assert [rows[n]["points"] for n in ("Änne Groß", "Cem", "Dora", "Eva")] == [15, 0, 0, 15]
+    assert 0 < rows["Ben"]["points"] < 15
+    assert rows["Dora"]["outcome"] == "no_file"
+    assert rows["Dora"]["found"]["code"] == "no_file_handed_in"
+    assert rows["Dora"]["found"]["values"]["files"] == ["report.pdf"]
+    assert rows["Eva"]["file"] == "a.mat"
+    assert rows["Eva"]["notes"][0]["code"] == "newest_taken"
+    assert rows["Eva"]["notes"][0]["values"]["count"] == 2
+    assert found["reference"]["points"] == 15
+    lost = [m for m in rows["Ben"]["marks"] if not m["passed"]]
+    shown = {s["key"]: s for s in document_in(out / "index.html")["students"]}
+    of_ben = shown[rows["Ben"]["key"]]["marks"]
+    assert [m["time"] for m in of_ben if not m["passed"]] == [m["time"] for m in lost]
+    # both as the reference: no pair
+    assert found["similar"]["groups"] == []
+    assert len(found["similar"]["as_reference"]) >= 2
+    key = rows["Änne Groß"]["key"]
+    assert "Keeps away from the bin" in json.dumps(document_in(out / "pages" / f"{key}.html"))
+    feedback = out / "feedback" / f"{key}.html"
+    assert "Keeps away from the bin" not in json.dumps(document_in(feedback))
+    assert "Keeps away from the bin" not in feedback.read_text()
+
+    before = results(out)
+    # as after a kill between two files
+    (out / "trajectories" / f"{rows['Ben']['key']}.json").unlink()
+    (out / "pages" / f"{key}.html").unlink()
+    sheet = tmp_path / "sheet.csv"
+    sheet.write_text(SHEET)
+    archive = shutil.make_archive(str(tmp_path / "moodle"), "zip", submissions)
+    words = ("--out", out, "--csv-template", sheet, "--jobs", 1)
+    said = grade(archive, "--rubric", RUBRIC, *words)
+    assert said.exit_code == 0, said.stderr
+    assert results(out) == before
+    filled = list(csv.DictReader((tmp_path / "marked-sheet.csv").open()))
+    assert [row["Grade"] for row in filled][::2] == ["15", "0", "15"]
+
+    shared, one = tmp_path / "shared", tmp_path / "one"
+    shutil.copytree(next(submissions.glob("Änne*")), one / "Änne Groß_1_assignsubmission_file_")
+    sheet.write_text("Identifier,Full name,Grade\nParticipant 1,Änne Groß,\n")
+    words = ("--out", shared, "--pseudonyms", "--no-pages", "--json", "--jobs", 1)
+    words = (*words, "--csv-template", sheet)
+    said = grade(one, "--rubric", RUBRIC, *words)
+    assert said.exit_code == 0, said.stderr
+    assert [s["points"] for s in json.loads(said.stdout)["students"]] == [15]
+    told = b"\n".join([*results(shared).values(), *map(str.encode, results(shared))]).lower()
+    assert not [n for n in ("änne", "aenne", "groß") if n.encode() in told]
+    names = tmp_path / "shared-names.json"
+    assert "Änne Groß" in names.read_text()
+    assert "Participant 1,Änne Groß,15" in (tmp_path / "shared-sheet.csv").read_text()
+    assert names.stat().st_mode & 0o077 == 0
+
+
+def test_cells_of_a_class_reach_their_own_motions_only(tmp_path):
+    rubric = tmp_path / "rubric.yaml"
+    rubric.write_text(
+        "name: A cell\nscene: handover\ntests:\n"
+        "  - {name: Nothing is hit, expect: no collision, points: 2}\n"
+    )
+    handed_in, kept = tmp_path / "submissions", tmp_path / "kept"
+    for name in ("anna", "ben"):
+        (handed_in / name).mkdir(parents=True)
+    kept.mkdir()
+    cell = (ROOT / "examples" / "handover_cell.yaml").read_text()
+    for motion in ROOT.glob("examples/two_robot_handover_*.mat"):
+        shutil.copy(motion, handed_in / "anna")
+        shutil.copy(motion, kept)
+    (handed_in / "anna" / "cell.yaml").write_text(cell)
+    others = cell.replace("trajectory: ", f"trajectory: {kept}/")
+    (handed_in / "ben" / "cell.yaml").write_text(others)
+    out = tmp_path / "marked"
+    said = grade(handed_in, "--rubric", rubric, "--out", out, "--jobs", 1, "--no-pages")
+    assert said.exit_code == 0, said.stdout + said.stderr
+    found = {s["name"]: s for s in json.loads((out / "class.json").read_text())["students"]}
+    assert (found["anna"]["points"], found["anna"]["file"]) == (2, "cell.yaml")
+    assert found["ben"]["points"] == 0
+    refused = found["ben"]["found"]
+    assert refused["code"] == "member_refused"
+    assert refused["values"]["why"]["code"] == "unreadable"
+
+
+@pytest.mark.parametrize(
+    ("words", "code", "values"),
+    [
+        (("nowhere", "--rubric", RUBRIC), "no_export", {"file": "nowhere"}),
+        ((RUBRIC, "--rubric", RUBRIC), "no_zip", {}),
+        ((ROOT / "config", "--rubric", ROOT / "nowhere.yaml"), "file_missing", {}),
+        ((ROOT / "examples", "--rubric", RUBRIC, "--out", ROOT / "config"), "no_class_folder",
+         {"folder": str(ROOT / "config")}),
+        ((ROOT / "examples", "--rubric", RUBRIC, "--jobs", "-1"), "option_out_of_range",
+         {"option": "jobs", "value": -1}),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_marked_ends_with_2_and_a_code(words, code, values):
+    with command_refuses(commands, code, **values):
+        assert grade(*words).exit_code == 2
+
+
+RUDE = """
+    import ctypes
+    from dataclasses import dataclass
+    from mrlab_ros.classroom.rubrics.diagnostics import NOTHING_TOUCHED
+    from mrlab_ros.classroom.rubrics.rubric import Outcome
+
+    @dataclass(frozen=True)
+    class Rude:
+        def assess(self, checked, reference):
+            file = checked.trajectory.source.file
+            if file == "crashes.mat":
+                ctypes.string_at(0)
+            if file == "reaches.mat":
+                open(__file__ + ".key").read()
+            if file == "hungers.mat":
+                bytearray(1 << 40)
+            while file == "hangs.mat":
+                pass
+            return Outcome(1.0, NOTHING_TOUCHED())
+"""
+
+
+def test_what_a_submission_does_to_its_check_harms_no_other(tmp_path, monkeypatch):
+    package = tmp_path / "package"
+    package.mkdir()
+    (package / "rude.py").write_text(textwrap.dedent(RUDE))
+    (package / "rude.py.key").symlink_to(tmp_path / "key")
+    (tmp_path / "key").write_text("a key")
+    monkeypatch.syspath_prepend(package)
+    monkeypatch.setenv("PYTHONPATH", str(package))
+    import rude
+
+    tests = (Test("fine", "fine", rude.Rude(), 1.0),)
+    rubric = Rubric("rude", tests, robot="ur5e", scene="")
+    bounds = Bounds(2048 * MiB, 6.0)
+    grader = Grader(Setup(rubric, SceneDocument(), bounds=bounds, pages=False))
+    said = {}
+    try:
+        for name in ("crashes", "reaches", "hungers", "hangs", "behaves"):
+            files = ((f"{name}.mat", PICK.read_bytes()),)
+            said[name] = orjson.loads(grader.check(Task(name, name, files))[worker.RESULT])
+    finally:
+        grader.close()
+    assert [said[n]["outcome"] for n in said] == ["failed"] * 4 + ["marked"]
+    codes = {name: found["found"]["code"] for name, found in said.items()}
+    assert codes == {
+        "crashes": "submission_crashed",
+        "reaches": "submission_failed",
+        "hungers": "submission_out_of_memory",
+        "hangs": "submission_ended",
+        "behaves": "check_ready",
+    }
+    assert "PermissionError" in said["reaches"]["found"]["values"]["error"]
+    assert said["behaves"]["marks"]["points"] == 1.0
+
+
+def test_a_reference_without_a_motion_is_said_before_anything_is_marked(tmp_path):
+    rubric = Rubric("bad", (), robot="ur5e", reference="x.mat")
+    setup = Setup(rubric, SceneDocument(), reference=("x.mat", b"no motion"), pages=False)
+    grader = Grader(setup)
+    try:
+        with pytest.raises(BadInput, match="reference"):
+            grader.check(Task("a", "a", (("a.mat", b""),)))
+    finally:
+        grader.close()

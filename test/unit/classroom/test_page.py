@@ -1,0 +1,65 @@
+"""A graded class as a document of its page."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import orjson
+
+from mrlab_ros.classroom.marks.diagnostics import NO_FILE_HANDED_IN, NO_MOTION_FILE
+from mrlab_ros.classroom.marks.exports import Entry, recognise
+from mrlab_ros.classroom.marks.graded import GradedClass, Student
+from mrlab_ros.classroom.marks.result import MARKED, NO_FILE, Result, without_marks
+from mrlab_ros.classroom.page import class_document
+from mrlab_ros.classroom.rubrics.diagnostics import NOTHING_TOUCHED
+from mrlab_ros.classroom.rubrics.marking import Mark, Marks
+from mrlab_ros.classroom.rubrics.rubric import Outcome, Rubric, Test
+from mrlab_ros.core.base.diagnostic import plain
+from mrlab_ros.core.show import static
+
+FOUND = NOTHING_TOUCHED()
+
+
+class Never:
+    def assess(self, checked, reference):
+        return Outcome(0.0, FOUND)
+
+
+RUBRIC = Rubric(
+    "Task <1>", (Test("no collision", "no collision", Never(), 6.0, hidden=True),), robot="ur5e"
+)
+PATHS = [f"{n}_{i}_assignsubmission_file_/a.mat" for n, i in (("Anna", 11), ("Jörg", 12))]
+
+
+def graded():
+    marks = Marks((Mark("no collision", 0.0, 6.0, False, FOUND, time=1.5),))
+    result = Result(MARKED, plain(FOUND), marks.plain(), marks.public().plain(), "a.mat", "digest")
+    result = replace(result, path=((0.1, 0.2, 0.30004), (0.1, 0.2, 0.4)), has_page=True)
+    results = [result, without_marks(RUBRIC, NO_FILE, NO_FILE_HANDED_IN())]
+    submissions = recognise([Entry(p) for p in PATHS], (".mat",)).submissions
+    students = tuple(Student(s, r) for s, r in zip(submissions, results, strict=True))
+    return GradedClass(
+        RUBRIC, "Moodle", students, (("x.txt", NO_MOTION_FILE()),), reference=result
+    )
+
+
+def test_a_row_leads_to_its_page_and_has_its_way_in_millimetres():
+    found = orjson.loads(orjson.dumps(class_document(graded())))
+    anna, joerg = found["students"]
+    assert (anna["page"], anna["marked"]) == (f"pages/{anna['key']}.html", True)
+    assert anna["path"] == [[100, 200, 300], [100, 200, 400]]
+    assert (anna["marks"][0]["passed"], anna["marks"][0]["time"]) == (False, 1.5)
+    assert joerg["said"]["code"] == "no_file_handed_in"
+    assert (joerg["page"], joerg["marked"], joerg["path"]) == (None, False, [])
+    assert found["reference"]["page"] == "pages/reference.html"
+    assert found["tests"][0]["hidden"]
+    assert found["left_out_count"] == 1
+
+
+def test_without_a_script_there_is_a_row_a_student_and_no_name_runs():
+    document = class_document(graded())
+    document["students"][0]["name"] = "<script>\u202e"
+    page = static.classroom(document)
+    assert page.count("<tr>") == 3
+    assert "Task &lt;1&gt;" in page
+    assert "<td>&lt;script&gt;\\u202e</td>" in page
