@@ -18,12 +18,13 @@ from mrlab_ros.core.base.clock import PlaybackClock
 from mrlab_ros.core.base.diagnostic import Diagnostic, Severity
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome
 from mrlab_ros.core.conversion.preview import Preview
+from mrlab_ros.core.recording.recorded_motion import RecordedMotion, RecordedObject
 from mrlab_ros.core.recording.report import Contact, ReportedState, SessionReport
 from mrlab_ros.core.recording.run_finding import runs_of
 from mrlab_ros.core.recording.runs import Course, RunJoint
 from mrlab_ros.core.show import static
 from mrlab_ros.core.show.page import page
-from mrlab_ros.core.show.session import RecordedMotion, RecordedObject, session
+from mrlab_ros.core.show.session import session
 from mrlab_ros.core.trajectory.channels import ProxyCoefficients, derive
 from mrlab_ros.core.trajectory.trajectory import Source, Trajectory
 

@@ -14,9 +14,9 @@ from mrlab_ros.adapters.bags.reader import Bag
 from mrlab_ros.adapters.bags.session import Decoder
 from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.recording.recorded_motion import RecordedMotion, RecordedObject, RecordedRobot
 from mrlab_ros.core.recording.run_finding import time_of
 from mrlab_ros.core.robots.frames import without_frames
-from mrlab_ros.core.show.session import RecordedMotion, RecordedObject, RecordedRobot
 
 TYPES = {
     "sensor_msgs/msg/JointState",

@@ -14,7 +14,7 @@ from PIL import Image
 from mrlab_ros.adapters.robots import drawing
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.core.base.geometry import Array
-from mrlab_ros.core.show.document import ShownRobot
+from mrlab_ros.core.robots.model import ShownRobot
 
 SIZE = 440  # pixels, width and height
 FINER = 2  # points are drawn so many times finer and averaged

@@ -43,8 +43,7 @@ from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.names import close_to
 from mrlab_ros.core.physics.grasp.load import Tool
 from mrlab_ros.core.physics.grasp.states import Gripper
-from mrlab_ros.core.robots.model import RobotModel
-from mrlab_ros.core.show.document import ShownJoint, ShownRobot
+from mrlab_ros.core.robots.model import RobotModel, ShownJoint, ShownRobot
 
 END_EFFECTORS = "end_effectors"
 TIP = "tool0"

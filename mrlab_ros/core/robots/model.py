@@ -198,3 +198,24 @@ def _pose_major(pose: Array, shape: tuple[int, ...]) -> Array:
     result[:, :3] = pose.transpose(2, 0, 1)
     result[:, 3, 3] = 1.0
     return result.reshape(*shape, 4, 4)
+
+
+@dataclass(frozen=True)
+class ShownJoint:
+    """A moving joint. kind: revolute, continuous or prismatic; limits rad or m, None: no limit."""
+
+    name: str
+    kind: str
+    lower: float | None
+    upper: float | None
+    velocity: float | None
+
+
+@dataclass(frozen=True)
+class ShownRobot:
+    """A robot to draw. urdf: with package:// URIs, its end effector included."""
+
+    model: str
+    end_effector: str
+    urdf: str
+    joints: tuple[ShownJoint, ...]

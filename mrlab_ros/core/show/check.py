@@ -16,9 +16,10 @@ from mrlab_ros.core.checking.rehearsed import Course, Distances, Rehearsed
 from mrlab_ros.core.checking.report import CheckReport
 from mrlab_ros.core.physics.catalogue import ObjectType
 from mrlab_ros.core.physics.engine import Kind, Shape
+from mrlab_ros.core.recording.recorded_motion import Track
 from mrlab_ros.core.scene.surfaces import Surface
 from mrlab_ros.core.show.packed import packed
-from mrlab_ros.core.show.session import SCHEMA, Track, drawn
+from mrlab_ros.core.show.session import SCHEMA, drawn, track_document
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 
 # The numbers of shape_msgs/SolidPrimitive.
@@ -68,7 +69,7 @@ def check_document(
                 "urdf": robot.urdf,
                 "joints": list(robot.joints),
                 "track": _track(recorded.robots[robot.name]),
-                "base": Track([0.0], [list(robot.base)]).document(),
+                "base": track_document(Track([0.0], [list(robot.base)])),
                 "states": _states(recorded, robot.name),
                 "there": [],
                 "collisions": [],
@@ -132,7 +133,7 @@ def _surface(surface: Surface) -> dict[str, Any]:
 
 
 def _track(course: Course) -> dict[str, Any]:
-    return Track(course.times, course.values).document()
+    return track_document(Track(course.times, course.values))
 
 
 def _shape(kind: ObjectType) -> dict[str, Any]:

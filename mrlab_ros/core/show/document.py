@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -17,33 +17,13 @@ from mrlab_ros.core.base.diagnostic import Diagnostic, plain
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome
 from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE
 from mrlab_ros.core.conversion.preview import Preview
+from mrlab_ros.core.robots.model import ShownRobot
 from mrlab_ros.core.show.packed import packed
 from mrlab_ros.core.trajectory.trajectory import Source, Trajectory
 
 SCHEMA = "mrlab.motion.1"
 # A longer trajectory is shown by every k-th frame: 200 s at 100 Hz, 0.5 MB of angles.
 MOST_FRAMES = 20_000
-
-
-@dataclass(frozen=True)
-class ShownJoint:
-    """A moving joint. kind: revolute, continuous or prismatic; limits rad or m, None: no limit."""
-
-    name: str
-    kind: str
-    lower: float | None
-    upper: float | None
-    velocity: float | None
-
-
-@dataclass(frozen=True)
-class ShownRobot:
-    """A robot to draw. urdf: with package:// URIs, its end effector included."""
-
-    model: str
-    end_effector: str
-    urdf: str
-    joints: tuple[ShownJoint, ...]
 
 
 def motion(

@@ -6,8 +6,6 @@ qz, qw in the frame world, m.
 
 from __future__ import annotations
 
-from collections.abc import Collection
-from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import Any
 
@@ -15,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrlab_ros.core.base.geometry import Array
+from mrlab_ros.core.recording.recorded_motion import RecordedMotion, Track
 from mrlab_ros.core.recording.report import Hop, Series, SessionReport
 from mrlab_ros.core.recording.runs import Run
 from mrlab_ros.core.show.packed import packed
@@ -28,91 +27,25 @@ MOST_RUNS, MOST_SERIES = 40, 16
 CURVE = 600
 
 
-@dataclass
-class Track:
-    """Samples over time: values one row a time."""
-
-    times: list[float] = field(default_factory=list)
-    values: list[list[float]] = field(default_factory=list)
-
-    def add(self, time: float, values: list[float]) -> None:
-        self.times.append(time)
-        self.values.append(values)
-
-    def document(self) -> dict[str, Any]:
-        """Return the samples, thinned; what stood still between two samples stays so."""
-        if not self.times:
-            return {
-                "times": packed(np.zeros(0), "float32"),
-                "values": packed(np.zeros((0, 0)), "float32"),
-            }
-        times, values = np.array(self.times), np.array(self.values)
-        step = -(-len(times) // MOST_SAMPLES)
-        moved = np.ones(len(times), dtype=bool)
-        moved[1:-1] = (values[1:-1] != values[:-2]).any(axis=1) | (values[1:-1] != values[2:]).any(
-            axis=1
-        )
-        kept = moved & (np.arange(len(times)) % step == 0)
-        kept[0] = kept[-1] = True
+def track_document(track: Track) -> dict[str, Any]:
+    """Return the samples of a track, thinned; a value that stood still between two stays so."""
+    if not track.times:
         return {
-            "times": packed(times[kept], "float32"),
-            "values": packed(values[kept], "float32"),
+            "times": packed(np.zeros(0), "float32"),
+            "values": packed(np.zeros((0, 0)), "float32"),
         }
-
-
-@dataclass
-class RecordedRobot:
-    """What was recorded of a robot; joints: names in the order of track's values.
-
-    there: from when to when the scene had it, s, the end None where it was there to the last;
-    empty: nothing says.
-    """
-
-    urdf: str = ""
-    model: str = ""
-    end_effector: str = ""
-    joints: list[str] = field(default_factory=list)
-    track: Track = field(default_factory=Track)
-    base: Track = field(default_factory=Track)
-    there: list[tuple[float, float | None]] = field(default_factory=list)
-
-
-@dataclass
-class RecordedObject:
-    """What was recorded of an object. shape: the fields of SceneObject that are drawn."""
-
-    shape: dict[str, Any]
-    first: float
-    last: float
-    track: Track = field(default_factory=Track)
-    # (time, robot), robot empty: free
-    holders: list[tuple[float, str]] = field(default_factory=list)
-
-
-@dataclass
-class RecordedMotion:
-    """Everything of a bag that moves."""
-
-    robots: dict[str, RecordedRobot] = field(default_factory=dict)
-    objects: dict[str, RecordedObject] = field(default_factory=dict)
-
-    def robot(self, name: str) -> RecordedRobot:
-        return self.robots.setdefault(name, RecordedRobot())
-
-    def scene(self, time: float, names: Collection[str]) -> None:
-        """Take note of which robots the scene has from a time on, s.
-
-        Those that it had first were there from the beginning: the recorder heard of them late.
-        """
-        if not any(robot.there for robot in self.robots.values()):
-            time = 0.0
-        for name in names:
-            there = self.robot(name).there
-            if not there or there[-1][1] is not None:
-                there.append((time, None))
-        for name, robot in self.robots.items():
-            if name not in names and robot.there and robot.there[-1][1] is None:
-                robot.there[-1] = (robot.there[-1][0], time)
+    times, values = np.array(track.times), np.array(track.values)
+    step = -(-len(times) // MOST_SAMPLES)
+    moved = np.ones(len(times), dtype=bool)
+    moved[1:-1] = (values[1:-1] != values[:-2]).any(axis=1) | (values[1:-1] != values[2:]).any(
+        axis=1
+    )
+    kept = moved & (np.arange(len(times)) % step == 0)
+    kept[0] = kept[-1] = True
+    return {
+        "times": packed(times[kept], "float32"),
+        "values": packed(values[kept], "float32"),
+    }
 
 
 def session(title: str, report: SessionReport, motion: RecordedMotion) -> dict[str, Any]:
@@ -129,8 +62,8 @@ def session(title: str, report: SessionReport, motion: RecordedMotion) -> dict[s
                 "end_effector": robot.end_effector,
                 "urdf": robot.urdf,
                 "joints": robot.joints,
-                "track": robot.track.document(),
-                "base": robot.base.document(),
+                "track": track_document(robot.track),
+                "base": track_document(robot.base),
                 "states": [[span.start, span.label] for span in _states(report, name)],
                 "there": [list(span) for span in robot.there],
                 "collisions": _collisions(report, name),
@@ -144,7 +77,7 @@ def session(title: str, report: SessionReport, motion: RecordedMotion) -> dict[s
                 **thing.shape,
                 "first": thing.first,
                 "last": thing.last,
-                "track": thing.track.document(),
+                "track": track_document(thing.track),
                 "holders": [list(change) for change in thing.holders],
             }
             for name, thing in motion.objects.items()

@@ -13,7 +13,7 @@ from fastapi.responses import StreamingResponse
 from mrlab_ros.adapters.robots.library import TIP, RobotLibrary, from_library, shown_robot
 from mrlab_ros.core.base.errors import BadInput, LabError, Unavailable
 from mrlab_ros.core.bridge.assets import ROBOTS_DOCUMENT
-from mrlab_ros.core.show.document import ShownRobot
+from mrlab_ros.core.robots.model import ShownRobot
 from mrlab_ros.gateway.assets.cache import AssetCache
 from mrlab_ros.gateway.diagnostics import ASSET_TOO_LARGE, GATEWAY_WITHOUT_LAB, ROBOT_NOWHERE
 from mrlab_ros.gateway.pages import Page, is_known, respond

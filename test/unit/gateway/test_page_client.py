@@ -49,7 +49,7 @@ def fields(interface: str) -> set[str]:
     """Return the names of an interface's fields, those of interfaces in it left out."""
     texts = (API / "types.ts").read_text() + (WORDS / "diagnostic.ts").read_text()
     text = re.sub(r"/\*\*.*?\*/", "", texts, flags=re.DOTALL)
-    match = re.search(rf"export interface {interface}\b[^{{]*\{{(.*?)\n\}}", text, re.DOTALL)
+    match = re.search(rf"interface {interface}\b[^{{]*\{{(.*?)\n\}}", text, re.DOTALL)
     assert match, interface
     return set(re.findall(r"^  readonly (\w+)\??:", match[1], re.MULTILINE))
 

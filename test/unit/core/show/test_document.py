@@ -12,6 +12,7 @@ from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, Severity
 from mrlab_ros.core.conversion.candidates import Candidate
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome
 from mrlab_ros.core.conversion.preview import Preview
+from mrlab_ros.core.robots.model import ShownJoint, ShownRobot
 from mrlab_ros.core.show import document
 from mrlab_ros.core.show.packed import packed, unpacked
 from mrlab_ros.core.trajectory.channels import ProxyCoefficients, derive
@@ -20,13 +21,13 @@ from mrlab_ros.core.trajectory.trajectory import Source, Trajectory
 WEB = Path(__file__).parents[4] / "web" / "src"
 CONTRACT = WEB / "playback" / "motion.ts"
 DIAGNOSTIC = WEB / "words" / "diagnostic.ts"
-ROBOT = document.ShownRobot(
+ROBOT = ShownRobot(
     "two",
     "",
     "<robot name='two'/>",
     (
-        document.ShownJoint("a", "revolute", -1.0, 1.0, 2.0),
-        document.ShownJoint("b", "continuous", None, None, 2.0),
+        ShownJoint("a", "revolute", -1.0, 1.0, 2.0),
+        ShownJoint("b", "continuous", None, None, 2.0),
     ),
 )
 LIMIT = Diagnostic(

@@ -9,12 +9,13 @@ import orjson
 from mrlab_ros.core.base.clock import PlaybackClock
 from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.recording.moves import ObjectTrack, Placed
+from mrlab_ros.core.recording.recorded_motion import RecordedMotion, RecordedObject, Track
 from mrlab_ros.core.recording.report import Contact, Hop, ReportedState, Series, SessionReport
 from mrlab_ros.core.recording.run_finding import runs_of
 from mrlab_ros.core.recording.runs import Course, RunJoint
 from mrlab_ros.core.show import session as module
 from mrlab_ros.core.show.packed import unpacked
-from mrlab_ros.core.show.session import RecordedMotion, RecordedObject, Track, session
+from mrlab_ros.core.show.session import session, track_document
 
 CONTRACT = Path(__file__).parents[4] / "web" / "src" / "playback" / "session.ts"
 SHAPE = {
@@ -107,7 +108,7 @@ def test_what_stands_still_takes_two_samples():
     track = Track()
     for time in range(100):
         track.add(float(time), [float(time < 50), 3.0])
-    found = track.document()
+    found = track_document(track)
     assert unpacked(found["times"]).tolist() == [0, 49, 50, 99]
     assert unpacked(found["values"])[:, 0].tolist() == [1, 1, 0, 0]
 
@@ -116,13 +117,13 @@ def test_a_long_track_is_thinned_and_keeps_its_ends():
     track = Track()
     for time in range(4 * module.MOST_SAMPLES):
         track.add(float(time), [np.sin(time)])
-    times = unpacked(track.document()["times"])
+    times = unpacked(track_document(track)["times"])
     assert len(times) <= module.MOST_SAMPLES + 1
     assert (times[0], times[-1]) == (0, 4 * module.MOST_SAMPLES - 1)
 
 
 def test_an_empty_track_is_empty():
-    assert Track().document()["times"]["shape"] == [0]
+    assert track_document(Track())["times"]["shape"] == [0]
 
 
 def test_a_robot_is_drawn_while_the_scene_has_it():
