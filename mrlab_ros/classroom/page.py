@@ -8,12 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from mrlab_ros.adapters.pages import ingredients
+from mrlab_ros.app.show import ingredients, static
+from mrlab_ros.app.show.page import page
 from mrlab_ros.classroom.marks.graded import REFERENCE, SCHEMA, GradedClass, Student
 from mrlab_ros.classroom.marks.result import MARKED, Result
 from mrlab_ros.core.base.diagnostic import plain
-from mrlab_ros.core.show import static
-from mrlab_ros.core.show.page import page
 
 MOST_FINDINGS, MOST_TESTS = 6, 8
 MOST_LEFT_OUT = 200

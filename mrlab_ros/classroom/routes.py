@@ -13,10 +13,10 @@ from fastapi.concurrency import run_in_threadpool
 from pydantic import BaseModel
 
 from mrlab_ros.adapters.trajectories import formats
+from mrlab_ros.app.show import document
 from mrlab_ros.classroom.diagnostics import NO_CLASS
 from mrlab_ros.classroom.shown import REFERENCE, ClassFolder, findings
 from mrlab_ros.core.base.diagnostic import Fix, from_plain
-from mrlab_ros.core.show import document
 from mrlab_ros.gateway.checks.desk import CheckFinding
 from mrlab_ros.gateway.errors import NotFound
 from mrlab_ros.gateway.store.shelf import Shelf, shelf_of

@@ -38,6 +38,7 @@ from mrlab_ros.adapters.workspaces.reader import Limits, opened
 from mrlab_ros.adapters.workspaces.results import Task, converted, refused
 from mrlab_ros.app.check.file import CELLS, CheckedFile, Setting
 from mrlab_ros.app.convert import of_trajectory_file_here
+from mrlab_ros.app.show.page import packed
 from mrlab_ros.classroom.diagnostics import NO_FILE, NO_ROBOT_IN_RUBRIC, REFERENCE_NOT_MARKED
 from mrlab_ros.classroom.mark import check_rubric_file
 from mrlab_ros.classroom.marks.diagnostics import SUBMISSION_FAILED, SUBMISSION_OUT_OF_MEMORY
@@ -58,7 +59,6 @@ from mrlab_ros.core.checking.checked import Checked
 from mrlab_ros.core.conversion.convert import ConversionResult, id_from
 from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE, Options
 from mrlab_ros.core.conversion.workspace import Workspace
-from mrlab_ros.core.show.page import packed
 
 
 class Inside:
@@ -144,8 +144,8 @@ class Warm:
             signal.setitimer(signal.ITIMER_REAL, 0)
         if setup.pages:
             # what all pages need is imported and packed once, for all forks
-            from mrlab_ros.adapters.pages import check  # noqa: F401
-            from mrlab_ros.adapters.pages.ingredients import code
+            from mrlab_ros.app.show import check  # noqa: F401
+            from mrlab_ros.app.show.ingredients import code
 
             packed(code(self.share).script)
 

@@ -244,7 +244,7 @@ def reported(
     out = Path(folder)
     if form:
         from mrlab_ros.adapters import share
-        from mrlab_ros.adapters.pages.session import session_page
+        from mrlab_ros.app.show.session import session_page
 
         page = session_page(found, share.directory(), session)
         (out / "report.html").write_text(page, encoding="utf-8")

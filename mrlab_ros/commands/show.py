@@ -86,9 +86,9 @@ def _page(
 ) -> tuple[str, ConversionResult | None]:
     """Return the page, and what became of the file; None for a recorded session."""
     from mrlab_ros.adapters import share
-    from mrlab_ros.adapters.pages.motion import motion_page
     from mrlab_ros.adapters.robots.library import RobotLibrary
     from mrlab_ros.app.convert import converted
+    from mrlab_ros.app.show.motion import motion_page
 
     folder = share.directory()
     recorded = _recorded(file)
@@ -121,7 +121,7 @@ def _recorded(file: Path) -> str | None:
 def session_of(bag: str, page: str) -> bool:
     """Write the page of a session; return whether the bag holds one, not a mere trajectory."""
     from mrlab_ros.adapters import share
-    from mrlab_ros.adapters.pages.session import session_page
+    from mrlab_ros.app.show.session import session_page
     from mrlab_ros.commands.bag import opened
 
     found = opened(bag)

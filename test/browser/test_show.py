@@ -11,9 +11,11 @@ import pytest
 from browser_side import DEADLINE_MS, Watched, difference, eventually, pixels
 from playwright.sync_api import Browser, expect
 
-from mrlab_ros.adapters.pages import ingredients
-from mrlab_ros.adapters.pages.motion import motion_page
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.app.show import ingredients, static
+from mrlab_ros.app.show.motion import motion_page
+from mrlab_ros.app.show.page import page
+from mrlab_ros.app.show.session import session
 from mrlab_ros.core.base.clock import PlaybackClock
 from mrlab_ros.core.base.diagnostic import Diagnostic, Severity
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome
@@ -22,9 +24,6 @@ from mrlab_ros.core.recording.recorded_motion import RecordedMotion, RecordedObj
 from mrlab_ros.core.recording.report import Contact, ReportedState, SessionReport
 from mrlab_ros.core.recording.run_finding import runs_of
 from mrlab_ros.core.recording.runs import Course, RunJoint
-from mrlab_ros.core.show import static
-from mrlab_ros.core.show.page import page
-from mrlab_ros.core.show.session import session
 from mrlab_ros.core.trajectory.channels import ProxyCoefficients, derive
 from mrlab_ros.core.trajectory.trajectory import Source, Trajectory
 
@@ -163,7 +162,7 @@ def test_a_missing_mesh_is_said(shown: Open, monkeypatch: pytest.MonkeyPatch) ->
         "mesh_path",
         lambda uri: ROOT / "none.glb" if "upper_arm" in uri and "hull" not in uri else whole(uri),
     )
-    monkeypatch.setattr("mrlab_ros.adapters.pages.motion.poster", lambda *_: "data:,")
+    monkeypatch.setattr("mrlab_ros.app.show.motion.poster", lambda *_: "data:,")
     watched = shown(accepted())
     note = watched.page.get_by_role("status").first
     expect(note).to_contain_text("upper_arm_link.glb", timeout=DEADLINE_MS)

@@ -22,10 +22,10 @@ import scipy.io
 from typer.testing import CliRunner
 
 from mrlab_ros.adapters import share
-from mrlab_ros.adapters.pages.motion import motion_page
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.trajectories import formats
 from mrlab_ros.app.convert import Wanted, convert_files
+from mrlab_ros.app.show.motion import motion_page
 from mrlab_ros.cli import make_app
 from mrlab_ros.commands import output
 from mrlab_ros.commands.convert import report

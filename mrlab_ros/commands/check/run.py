@@ -149,8 +149,7 @@ def write_page(
     marks: by a rubric, as JSON has them. title: empty: the file's name.
     with_film: see `check_page`. Raises BadInput where it cannot be written.
     """
-    from mrlab_ros.adapters.pages.check import check_page
-    from mrlab_ros.core.show.check import PlayedRobot
+    from mrlab_ros.app.show.check import PlayedRobot, check_page
 
     assert found.played is not None
     motions = {m.robot.name: (m.trajectory, m.figures) for m in found.checked.motions}

@@ -325,7 +325,7 @@ def _plot(result: ConversionResult, robot: RobotModel, path: Path) -> None:
 
 
 def _write_page(result: ConversionResult, robot: str, path: Path) -> None:
-    from mrlab_ros.adapters.pages.motion import motion_page  # trimesh, which plots do not need
+    from mrlab_ros.app.show.motion import motion_page
 
     tool = result.trajectory.end_effector if result.trajectory is not None else None
     folder = share.directory()

@@ -16,8 +16,8 @@ from fastapi.responses import StreamingResponse
 from starlette.background import BackgroundTask
 
 from mrlab_ros.adapters.store import keys
+from mrlab_ros.app.show import document
 from mrlab_ros.core.base.errors import BadInput, Unavailable
-from mrlab_ros.core.show import document
 from mrlab_ros.core.trajectory.catalogue import Record, Version
 from mrlab_ros.gateway.diagnostics import GATEWAY_WITHOUT_LAB
 from mrlab_ros.gateway.errors import NotAllowed

@@ -16,9 +16,9 @@ from mrlab_ros.adapters import private_folder
 from mrlab_ros.adapters.store.port import ObjectStore
 from mrlab_ros.adapters.trajectories.catalogue import Catalogue
 from mrlab_ros.adapters.trajectories.files import TrajectoryFiles
+from mrlab_ros.app.show.document import findings
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.bridge.access import Policy, Verb
-from mrlab_ros.core.show.document import findings
 from mrlab_ros.core.trajectory.catalogue import Record, Version
 from mrlab_ros.core.trajectory.document import warnings_of
 from mrlab_ros.gateway.assets.routes import Robots

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import orjson
 
+from mrlab_ros.app.show import static
 from mrlab_ros.classroom.marks.diagnostics import NO_FILE_HANDED_IN, NO_MOTION_FILE
 from mrlab_ros.classroom.marks.exports import Entry, recognise
 from mrlab_ros.classroom.marks.graded import GradedClass, Student
@@ -15,7 +16,6 @@ from mrlab_ros.classroom.rubrics.diagnostics import NOTHING_TOUCHED
 from mrlab_ros.classroom.rubrics.marking import Mark, Marks
 from mrlab_ros.classroom.rubrics.rubric import Outcome, Rubric, Test
 from mrlab_ros.core.base.diagnostic import plain
-from mrlab_ros.core.show import static
 
 FOUND = NOTHING_TOUCHED()
 

@@ -1,7 +1,7 @@
 import type { Diagnostic } from '../words/diagnostic'
 
 /** A motion to look at: an accepted trajectory, or the rows of a refused one. The gateway serves
- * it as JSON, `mrlab show` puts it into a page; `mrlab_ros/core/show/` writes it. */
+ * it as JSON, `mrlab show` puts it into a page; `mrlab_ros/app/show/` writes it. */
 export interface MotionDocument {
   readonly schema: 'mrlab.motion.1'
   readonly title: string

@@ -1,7 +1,7 @@
 import type { Diagnostic } from '../words/diagnostic'
 import type { PackedArray } from './motion'
 
-/** A recorded session; `mrlab_ros/core/show/session.py` writes it. Times are s from the first
+/** A recorded session; `mrlab_ros/app/show/session.py` writes it. Times are s from the first
  * message of the bag, poses x, y, z, qx, qy, qz, qw in the frame world, m. */
 export interface SessionDocument {
   readonly schema: 'mrlab.session.1'

@@ -16,7 +16,7 @@ import { type Plotted, StripPlot } from './plot/strip_plot'
 import { Go } from './run'
 import { Film, useSession } from './session'
 
-/** The result of a check; `mrlab_ros/core/show/check.py` writes it. */
+/** The result of a check; `mrlab_ros/app/show/check.py` writes it. */
 export interface CheckFacts {
   readonly verdict: 'ready' | 'not_ready'
   readonly summary: Diagnostic

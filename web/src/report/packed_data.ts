@@ -13,7 +13,7 @@ interface Head {
 }
 
 /** Read the data of a page: 4 bytes with the length of the head, little-endian, the head as JSON,
- * the meshes. `mrlab_ros/core/show/page.py` writes it. */
+ * the meshes. `mrlab_ros/app/show/page.py` writes it. */
 export function unpackData(data: ArrayBuffer): ShownData {
   const length = new DataView(data).getUint32(0, true)
   const head = JSON.parse(new TextDecoder().decode(new Uint8Array(data, 4, length))) as Head

@@ -13,8 +13,8 @@ from gateway_side import Gateway, code_of, kind_of, values_of
 
 from mrlab_ros.adapters.store import keys
 from mrlab_ros.adapters.store.memory import MemoryStore
+from mrlab_ros.app.show.packed import unpacked
 from mrlab_ros.core.bridge.rules import Role
-from mrlab_ros.core.show.packed import unpacked
 from mrlab_ros.gateway.lab.definitions import installed_definitions
 from mrlab_ros.gateway.lab.fake_lab import FakeLab
 from mrlab_ros.gateway.uploads import receive

@@ -5,7 +5,7 @@ from pathlib import Path
 from refusals import refused
 
 from mrlab_ros.adapters.diagnostics import REPORT_NOT_BUILT
-from mrlab_ros.adapters.pages import ingredients
+from mrlab_ros.app.show import ingredients
 from mrlab_ros.core.base.errors import BadInput
 
 URDF = """<robot name="r"><link name="a">

@@ -6,6 +6,9 @@ from pathlib import Path
 import numpy as np
 import orjson
 
+from mrlab_ros.app.show import session as module
+from mrlab_ros.app.show.packed import unpacked
+from mrlab_ros.app.show.session import session, track_document
 from mrlab_ros.core.base.clock import PlaybackClock
 from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.recording.moves import ObjectTrack, Placed
@@ -13,9 +16,6 @@ from mrlab_ros.core.recording.recorded_motion import RecordedMotion, RecordedObj
 from mrlab_ros.core.recording.report import Contact, Hop, ReportedState, Series, SessionReport
 from mrlab_ros.core.recording.run_finding import runs_of
 from mrlab_ros.core.recording.runs import Course, RunJoint
-from mrlab_ros.core.show import session as module
-from mrlab_ros.core.show.packed import unpacked
-from mrlab_ros.core.show.session import session, track_document
 
 CONTRACT = Path(__file__).parents[4] / "web" / "src" / "playback" / "session.ts"
 SHAPE = {

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from mrlab_ros.app.show.check import _distances
+from mrlab_ros.app.show.packed import unpacked
 from mrlab_ros.core.checking.rehearsed import Distances, Rehearsed
 from mrlab_ros.core.physics.engine import Kind, Near
-from mrlab_ros.core.show.check import _distances
-from mrlab_ros.core.show.packed import unpacked
 
 
 def test_the_least_distance_comes_first_and_what_is_far_is_a_gap() -> None:

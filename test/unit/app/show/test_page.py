@@ -9,9 +9,9 @@ import zlib
 
 import numpy as np
 
-from mrlab_ros.core.show import static
-from mrlab_ros.core.show.packed import packed
-from mrlab_ros.core.show.page import Code, page
+from mrlab_ros.app.show import static
+from mrlab_ros.app.show.packed import packed
+from mrlab_ros.app.show.page import Code, page
 
 CODE = Code(b"const text = '</script>'", "body { color: red }</style>")
 

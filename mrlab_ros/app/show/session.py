@@ -1,4 +1,4 @@
-"""A recorded session as a page reads it: SessionDocument of web/src/playback/session.ts.
+"""The report page of a recorded session: SessionDocument of web/src/playback/session.ts.
 
 Times are s from the bag's first message; positions rad or m as float32; poses x, y, z, qx, qy,
 qz, qw in the frame world, m.
@@ -7,16 +7,22 @@ qz, qw in the frame world, m.
 from __future__ import annotations
 
 from itertools import pairwise
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mrlab_ros.adapters.bags.motion import mesh_files, read_motion
+from mrlab_ros.adapters.bags.reader import Bag
+from mrlab_ros.adapters.bags.session import read_session
+from mrlab_ros.app.show import ingredients, static
+from mrlab_ros.app.show.packed import packed
+from mrlab_ros.app.show.page import page
 from mrlab_ros.core.base.geometry import Array
 from mrlab_ros.core.recording.recorded_motion import RecordedMotion, Track
 from mrlab_ros.core.recording.report import Hop, Series, SessionReport
 from mrlab_ros.core.recording.runs import Run
-from mrlab_ros.core.show.packed import packed
 
 SCHEMA = "mrlab.session.1"
 # Of one robot or object; of more samples every k-th is taken.
@@ -166,3 +172,19 @@ def drawn(values: Array) -> NDArray[np.int64]:
         for of in (low, -high)
     ]
     return np.unique(np.concatenate([[0, count - 1], *peaks]))
+
+
+def session_page(bag: Bag, share: Path, report: SessionReport | None = None) -> str:
+    """Return one HTML file that shows what a bag recorded.
+
+    share: folder with the built pages. report: of the bag, where it was read already.
+    """
+    said = report or read_session(bag)
+    motion = read_motion(bag)
+    title = bag.path.name
+    document = session(title, said, motion)
+    with mesh_files(bag, share) as resolve:
+        meshes = ingredients.meshes_of((robot["urdf"] for robot in document["robots"]), resolve)
+        objects = {thing["mesh"] for thing in document["objects"] if thing["mesh"]}
+        meshes |= ingredients.small(objects, resolve)
+    return page(title, static.session(document), document, meshes, ingredients.code(share))

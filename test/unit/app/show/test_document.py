@@ -8,13 +8,13 @@ import numpy as np
 import orjson
 import pytest
 
+from mrlab_ros.app.show import document
+from mrlab_ros.app.show.packed import packed, unpacked
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, Severity
 from mrlab_ros.core.conversion.candidates import Candidate
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome
 from mrlab_ros.core.conversion.preview import Preview
 from mrlab_ros.core.robots.model import ShownJoint, ShownRobot
-from mrlab_ros.core.show import document
-from mrlab_ros.core.show.packed import packed, unpacked
 from mrlab_ros.core.trajectory.channels import ProxyCoefficients, derive
 from mrlab_ros.core.trajectory.trajectory import Source, Trajectory
 

@@ -7,14 +7,13 @@ from pathlib import Path
 import numpy as np
 
 from mrlab_ros.adapters.diagnostics import NOTHING_TO_SHOW
-from mrlab_ros.adapters.pages import ingredients
-from mrlab_ros.adapters.pages.poster import poster
 from mrlab_ros.adapters.robots.library import RobotLibrary, from_library
+from mrlab_ros.app.show import document, ingredients, static
+from mrlab_ros.app.show.packed import unpacked
+from mrlab_ros.app.show.page import page
+from mrlab_ros.app.show.poster import poster
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.conversion.convert import ConversionResult
-from mrlab_ros.core.show import document, static
-from mrlab_ros.core.show.packed import unpacked
-from mrlab_ros.core.show.page import page
 
 
 def motion_page(

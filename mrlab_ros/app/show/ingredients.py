@@ -7,8 +7,8 @@ from pathlib import Path
 
 from mrlab_ros.adapters.diagnostics import REPORT_NOT_BUILT
 from mrlab_ros.adapters.robots import mesh_files, urdf
+from mrlab_ros.app.show.page import Code
 from mrlab_ros.core.base.errors import BadInput
-from mrlab_ros.core.show.page import Code
 
 
 def code(share: Path) -> Code:

@@ -3,8 +3,8 @@
 import numpy as np
 import trimesh
 
-from mrlab_ros.adapters.pages.poster import SIZE, picture
 from mrlab_ros.adapters.robots import drawing
+from mrlab_ros.app.show.poster import SIZE, picture
 
 
 def box(colour, at):

@@ -12,9 +12,9 @@ from typing import Any
 
 import numpy as np
 
+from mrlab_ros.app.show.packed import unpacked
 from mrlab_ros.core.base.foreign_text import for_html as escape
 from mrlab_ros.core.recording.report_text import lasting
-from mrlab_ros.core.show.packed import unpacked
 
 Json = Mapping[str, Any]
 MOST_ROWS = 500

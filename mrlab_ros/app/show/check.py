@@ -1,13 +1,20 @@
-"""A check as a page shows it: a session document of the rehearsal, and what it says."""
+"""The report page of a check: the rehearsal in 3D, a filmstrip, findings on the plots."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from mrlab_ros.adapters.robots.library import RobotLibrary, from_library
+from mrlab_ros.app.show import ingredients, static
+from mrlab_ros.app.show.packed import packed
+from mrlab_ros.app.show.page import page
+from mrlab_ros.app.show.poster import poster
+from mrlab_ros.app.show.session import SCHEMA, drawn, track_document
 from mrlab_ros.core.base.diagnostic import plain
 from mrlab_ros.core.base.geometry import Array
 from mrlab_ros.core.checking.diagnostics import CLAIM
@@ -18,8 +25,6 @@ from mrlab_ros.core.physics.catalogue import ObjectType
 from mrlab_ros.core.physics.engine import Kind, Shape
 from mrlab_ros.core.recording.recorded_motion import Track
 from mrlab_ros.core.scene.surfaces import Surface
-from mrlab_ros.core.show.packed import packed
-from mrlab_ros.core.show.session import SCHEMA, drawn, track_document
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 
 # The numbers of shape_msgs/SolidPrimitive.
@@ -216,3 +221,55 @@ def _motion(robot: PlayedRobot, start: float) -> dict[str, Any]:
 def _curve(times: Array, values: Array) -> dict[str, Any]:
     kept = drawn(values.reshape(len(values), -1))
     return {"times": packed(times[kept], "float64"), "values": packed(values[kept], "float32")}
+
+
+PREFIX = "package://mrlab_ros/"
+FRAMES = 4  # of the filmstrip
+
+
+def check_page(
+    report: CheckReport,
+    digest: str,
+    recorded: Rehearsed,
+    robots: Sequence[PlayedRobot],
+    objects: dict[str, ObjectType],
+    library: RobotLibrary,
+    share: Path,
+    marks: Mapping[str, Any] | None = None,
+    *,
+    with_film: bool = True,
+) -> str:
+    """Return one HTML file that shows what was rehearsed and what is to be said of it.
+
+    share: folder with the built pages. marks: by a rubric, as JSON has them.
+    with_film: draw pictures for where nothing draws in 3D, which takes seconds.
+    """
+    document = check_document(report, recorded, robots, objects, digest, marks)
+
+    def resolve(uri: str) -> Path:
+        return library.mesh_path(uri) if "/robots/" in uri else share / uri.removeprefix(PREFIX)
+
+    meshes = ingredients.meshes_of((robot.urdf for robot in robots), resolve)
+    things = {thing["mesh"] for thing in document["objects"] if thing["mesh"]}
+    meshes |= ingredients.small(things, resolve)
+    film = _film(recorded, robots, library) if with_film else []
+    body = static.check(document, film)
+    return page(report.title, body, document, meshes, ingredients.code(share))
+
+
+def _film(
+    recorded: Rehearsed, robots: Sequence[PlayedRobot], library: RobotLibrary
+) -> list[tuple[float, str]]:
+    """Return pictures of a robot along the motion, for where nothing draws in 3D."""
+    moving = [robot for robot in robots if robot.trajectory is not None]
+    if len(moving) != 1:
+        return []
+    robot = moving[0]
+    shown = from_library(library, robot.model, robot.end_effector or None)
+    course = recorded.robots[robot.name]
+    film = []
+    for k in range(FRAMES):
+        at = round(k * (len(course.times) - 1) / (FRAMES - 1))
+        positions = dict(zip(robot.joints, course.values[at], strict=True))
+        film.append((course.times[at], poster(library, shown, positions)))
+    return film

@@ -1,0 +1,1 @@
+"""Report pages: the JSON of each report, its still parts, and the one file."""

@@ -1,1 +1,0 @@
-"""What a page needs to show a motion or a recorded session."""
