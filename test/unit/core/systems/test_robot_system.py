@@ -260,6 +260,12 @@ def test_seek_in_sequential_mode_puts_those_before_at_their_end_and_those_behind
     assert world.frames("c") == list(range(101))
 
 
+def test_a_stop_rewinds_the_timeline():
+    world = playing(make(TWO), 0.1)
+    world.system.stop(world.now)
+    assert (world.system.state, world.system.clock.position) == (SystemState.READY, 0.0)
+
+
 def test_seek_while_playing_plays_on_from_there():
     world = playing(make(TWO), 0.2)
     world.system.seek(world.now, 0.8)
@@ -436,6 +442,7 @@ def test_a_member_that_obeys_nobody_any_more_pauses_the_system_and_is_claimed_ag
 def test_a_restarted_system_stands_in_place_and_takes_its_members_back():
     world = playing(make(TWO), 0.3)
     come_back(world, 0.2, 1.0)
+    assert said(world)[0] == "coordinator_restarted"
     assert (world.system.state, world.system.clock.position) == (SystemState.PAUSED, 0.2)
     # They still play for the one that is gone.
     for robot in TWO:
