@@ -23,6 +23,7 @@ from mrlab_ros.core.trajectory.trajectory import Array
 
 # A column that counts time and leaves the joint limits by this factor is no joint.
 BEYOND = 1.2
+UNITS_S = (1.0, 1e-3, 1e-6, 1e-9)
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,8 +53,13 @@ def clocks_among(
     vectors: dict[int, list[Variable]],
     low: Array,
     high: Array,
+    rates: tuple[float, ...] = (),
 ) -> tuple[ClockColumn, ...]:
-    """Return the columns of a finite matrix that count time."""
+    """Return the columns of a finite matrix that count time.
+
+    rates: Hz, those that the file says for certain; a column that contradicts all of them, and
+    that nothing else shows to be time, is none.
+    """
     values = variable.values
     assert values is not None
     rows, columns = values.shape
@@ -90,6 +96,8 @@ def clocks_among(
         if why is not None:
             found.append(ClockColumn(c, True, first, last, why))
             continue
+        if rates and not _is_at(rates, (last - first) / (rows - 1)):
+            continue
         largest = max(abs(first), abs(last))
         within = sum(max(abs(low[i]), abs(high[i])) <= BEYOND * farthest for i in others)
         if largest > BEYOND * farthest and within >= 0.7 * len(others):
@@ -102,6 +110,11 @@ def clocks_among(
             why = CLOCK(rises="even")
             found.append(ClockColumn(c, False, first, last, why, likely=False))
     return tuple(found)
+
+
+def _is_at(rates: tuple[float, ...], step: float) -> bool:
+    """Say whether a step is that of one of the rates, Hz, in s, ms, us or ns."""
+    return any(abs(step * unit * rate - 1) < 0.1 for rate in rates for unit in UNITS_S)
 
 
 def _begins_like_a_clock(column: NDArray[Any]) -> bool:

@@ -17,6 +17,7 @@ from mrlab_ros.core.conversion import (
     datevec,
     dimensions,
     discovery,
+    fixes,
     frame_rate,
     joining,
     kinematics_match,
@@ -139,6 +140,20 @@ def convert(
     """
     trajectory_id = checked_id(trajectory_id or id_from(file))
     found = _Found()
+
+    def tried(refused: ConversionResult) -> ConversionResult:
+        """Return a refusal with those of its fixes that lead to a motion."""
+        if found.workspace is None or found.workspace.count > fixes.MOST_VALUES:
+            return refused
+        alone = replace(found.workspace, confirm=None)
+
+        def attempt(changed: Options) -> tuple[Diagnostic, ...]:
+            sizes: dict[str, Any] = {"default_frame_rate": default_frame_rate, "rows": most_rows}
+            return _findings(file, alone, changed, robot, **sizes)
+
+        said = fixes.vetted(refused.diagnostics, options, attempt)
+        return replace(refused, diagnostics=tuple(found.said(list(said))))
+
     try:
         options.checked_rate()
         options.factor()
@@ -152,8 +167,9 @@ def convert(
             rows=most_rows,
         )
         if isinstance(checked, ConversionResult):
-            return checked
-        found.variable = None  # its numbers are not needed any more, and may be many
+            return tried(checked)
+        # the numbers are not needed any more, and may be many
+        found.variable = found.workspace = None
         arm, rate = checked.layout.arm, checked.rate
         trajectory = Trajectory(
             id=trajectory_id,
@@ -171,18 +187,48 @@ def convert(
     except BadInput as refused:
         found.notes.append(refused.diagnostic)
         notes = dimensions.with_lines(found.notes, found.squeezed)
-        return _rejected(file, found.said(notes), found.variable)
+        return tried(_rejected(file, found.said(notes), found.variable))
     return ConversionResult(file, Outcome.ACCEPTED, trajectory, (), _worst_first(found.notes))
+
+
+def _findings(
+    file: str,
+    workspace: Workspace,
+    options: Options,
+    robot: RobotModel,
+    *,
+    default_frame_rate: float,
+    rows: int,
+) -> tuple[Diagnostic, ...]:
+    """Return the findings of a conversion, worst first, without its trajectory."""
+    found = _Found()
+    try:
+        checked = _checked(
+            found,
+            file,
+            lambda: workspace,
+            options,
+            robot,
+            default_frame_rate=default_frame_rate,
+            rows=rows,
+        )
+    except BadInput as refused:
+        return _worst_first([*found.notes, refused.diagnostic])
+    if isinstance(checked, ConversionResult):
+        return checked.diagnostics
+    return _worst_first(found.notes)
 
 
 @dataclass(eq=False)
 class _Found:
     """What a conversion has found until it ends: what to say, and the matrix it is about.
 
+    workspace: as it was read; None once it is not needed any more.
     unspeakable: paths of variables that MATLAB would take for more than a name.
     """
 
     notes: list[Diagnostic] = field(default_factory=list)
+    workspace: Workspace | None = None
     variable: Variable | None = None
     squeezed: dict[str, dimensions.Squeezed] = field(default_factory=dict)
     unspeakable: tuple[str, ...] = ()
@@ -222,7 +268,7 @@ def _checked(
 ) -> _Checked | ConversionResult:
     """Find the matrix and check it; return it, or the result where there is none to play."""
     notes = found.notes
-    held = read()
+    held = found.workspace = read()
     paths = [v.path for v in held.variables]
     found.unspeakable = tuple(p for p in paths if not MATLAB_PATH.fullmatch(p))
     stored, squeezed = dimensions.flattened(held, robot)

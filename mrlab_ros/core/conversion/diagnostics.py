@@ -674,7 +674,7 @@ JOINT_NAMES = Code(
 ORDER_STATED = Code(
     "order_stated",
     "'{source}' says which joint each column of '{variable}' holds ({words}); the columns were "
-    "put into the order of {robot}.",
+    "put into the order of {model}.",
     "Check that the robot moves as it should. If the columns are in the robot's order already, "
     "take them by their numbers.",
     severity=WARNING,
@@ -689,7 +689,7 @@ ORDER_UNCLEAR = Code(
 )
 NAMES_OTHER = Code(
     "names_other",
-    "'{source}' names the columns of '{variable}' {words}, which are not the joints of {robot}: "
+    "'{source}' names the columns of '{variable}' {words}, which are not the joints of {model}: "
     "{joints:list}.",
     "Are the columns these joints in this order all the same? Then name the matrix; else choose "
     "the robot that the file was made for.",
@@ -697,8 +697,8 @@ NAMES_OTHER = Code(
 )
 ROBOT_STATED = Code(
     "robot_stated",
-    "'{source}' says '{words}', and {robot} was chosen.",
-    "Is the motion for {robot} all the same? Then name the matrix; else choose the robot that the "
+    "'{source}' says '{words}', and {model} was chosen.",
+    "Is the motion for {model} all the same? Then name the matrix; else choose the robot that the "
     "file names.",
     meaning="The file names another robot than the one that was chosen.",
 )

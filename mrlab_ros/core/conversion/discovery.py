@@ -157,6 +157,9 @@ def doubts(chosen: Assessment, *, asked: bool) -> list[Diagnostic]:
         reasons = [*chosen.objections, *reasons]
         if name.hint in (Hint.AGAINST, Hint.DOUBTFUL) and not chosen.objections:
             notes.append(DOUBTFUL_NAME(variable=path, why=name.why))
+        elif not (name.hint is Hint.POSITIONS or reasons) and chosen.score < PLAUSIBLE:
+            # it would have been asked about: the doubt stays although it was answered
+            reasons = [name.why, *chosen.reasons[1:]]
     elif name.hint is not Hint.POSITIONS and not chosen.confirmed:
         fixes = (Fix("variable", path, saving(path)),)
         seen = chosen.reasons[1:]

@@ -295,7 +295,7 @@ def clocks_of(variable: Variable, survey: Survey) -> tuple[ClockColumn, ...]:
         low, high = values.min(axis=0).astype(float), values.max(axis=0).astype(float)
     if not (np.isfinite(low).all() and np.isfinite(high).all()):
         return ()
-    return clocks_among(variable, survey.robot, survey.time_vectors, low, high)
+    return clocks_among(variable, survey.robot, survey.time_vectors, low, high, survey.rates)
 
 
 def time_finding(
@@ -389,17 +389,20 @@ def wide(variable: Variable, survey: Survey) -> Diagnostic:
         meant = len(left) if len(left) > 1 else None
         return wrong_shape(variable, survey.robot, meant=meant, **hints)
     block = _block_of_joints(variable, left, survey)
+    if block is None:
+        return wrong_shape(variable, survey.robot, **hints)
     text = columns_text(block)
     line = f"q = {matlab_name(variable.path)}(:, {text}); save('traj.mat', 'q')"
     fixes = (Fix("columns", text, line),)
     return wrong_shape(variable, survey.robot, columns=text, fixes=fixes, **hints)
 
 
-def _block_of_joints(variable: Variable, left: list[int], survey: Survey) -> list[int]:
-    """Return the columns, from 0, of a wide matrix that are likeliest the joints.
+def _block_of_joints(variable: Variable, left: list[int], survey: Survey) -> list[int] | None:
+    """Return the columns, from 0, of a wide matrix that are likeliest the joints, or None.
 
     Blocks of as many columns as there are joints: the one whose derivative another one is, else
-    the first, with a gripper where one column is left behind it.
+    the first, with a gripper where one column is left behind it. None where columns are left
+    over that nothing explains, such as those of a mobile base.
     """
     joints = len(survey.robot.joints)
     values = variable.values
@@ -421,9 +424,9 @@ def _block_of_joints(variable: Variable, left: list[int], survey: Survey) -> lis
         for i, _ in pairs:
             if i not in derived:
                 return blocks[i]
-    if len(left) == joints + 1 and has_states(values[:, left[-1]]):
-        return left
-    return blocks[0]
+    if len(left) == joints + 1:
+        return left if has_states(values[:, left[-1]]) else None
+    return blocks[0] if len(left) == joints or len(blocks) > 1 else None
 
 
 def _in_pieces(found: Series, workspace: Workspace) -> Diagnostic:

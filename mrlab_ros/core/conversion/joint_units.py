@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -67,7 +68,8 @@ def in_radians(
             arm *= factor
             notes += _converted(arm, assessment, said, factor)
         else:
-            _refuse_other_units(arm, assessment, robot)
+            unread = any(n.code == UNIT_UNREAD.code for n in notes)
+            _refuse_other_units(arm, assessment, robot, unread=unread)
     if options.unwrap:
         arm = np.unwrap(arm, axis=0)
         notes.append(UNWRAP_APPLIED(variable=path))
@@ -145,8 +147,13 @@ def _stated_factor(
     return first.unit.factor
 
 
-def _refuse_other_units(arm: Array, assessment: Assessment, robot: RobotModel) -> None:
-    """Raise BadInput where the values are no radians of the robot, by their range."""
+def _refuse_other_units(
+    arm: Array, assessment: Assessment, robot: RobotModel, *, unread: bool
+) -> None:
+    """Raise BadInput where the values are no radians of the robot, by their range.
+
+    unread: the file says a unit that is not known, so that none is advised.
+    """
     evidence, path = assessment.unit, assessment.path
     if assessment.by_name or assessment.variable.is_message:
         ends = (arm.min(axis=0), arm.max(axis=0))
@@ -166,7 +173,10 @@ def _refuse_other_units(arm: Array, assessment: Assessment, robot: RobotModel) -
             why = LIKE_POSES(why=assessment.poses.strong)
             size, fix = assessment.variable.size, Fix(matlab="save('traj.mat', 'q')")
             raise BadInput(LOOKS_LIKE(variable=path, size=size, why=why, fixes=(fix,)))
-        raise BadInput(_unit_finding(arm, assessment, evidence.why, robot))
+        found = _unit_finding(arm, assessment, evidence.why, robot)
+        if unread:
+            found = replace(found, fixes=tuple(Fix(matlab=fix.matlab) for fix in found.fixes))
+        raise BadInput(found)
 
 
 def _spanning_little(arm: Array) -> list[int]:
@@ -227,7 +237,11 @@ def _unit_finding(
     if evidence.unit == "deg":
         percent = "percent" if _in_percent(arm) else ""
         return DEGREES(unit="deg", percent=percent, **words)
-    return COUNTS(counts=evidence.counts, **words)
+    found = COUNTS(counts=evidence.counts, **words)
+    if evidence.alone:
+        return found
+    # a scale that fits several units is no advice
+    return replace(found, fixes=tuple(Fix(matlab=fix.matlab) for fix in found.fixes))
 
 
 def _in_metres(arm: Array, robot: RobotModel, options: Options) -> Array:

@@ -113,7 +113,7 @@ def lay_out(chosen: Chosen, survey: Survey, options: Options, notes: list[Diagno
     if column is None and values.shape[1] > joints and not chosen.without_gripper:
         column = values[:, joints]
         if not (options.columns or options.gripper) and assessment.last_is_joint:
-            raise BadInput(_seven_axes(column, robot, path))
+            raise BadInput(_seven_axes(column, values[:, 0], robot, path))
     held = None if column is None else _gripper(column, options, path, chosen, joints, notes)
     if column is None and not chosen.without_gripper:
         notes += _gripper_beside(survey.workspace, path, len(arm))
@@ -175,10 +175,18 @@ def _misfit(variable: Variable, survey: Survey) -> Diagnostic:
     return near_miss(variable, survey) or wrong_shape(variable, survey.robot, size=size)
 
 
-def _seven_axes(column: NDArray[Any], robot: RobotModel, path: str) -> Diagnostic:
+def _seven_axes(
+    column: NDArray[Any], first: NDArray[Any], robot: RobotModel, path: str
+) -> Diagnostic:
     joints = len(robot.joints)
     name = matlab_name(path)
     found = grippers.meaning(column)
+    line = f"q = [{name}(:, 1:{joints}) {name}(:, end) > 0.5];"
+    fixes: tuple[Fix, ...] = (Fix(matlab=f"q = {name}(:, 1:{joints});"), Fix(matlab=line))
+    if _is_gripper(first):
+        fixes = (Fix("gripper", "1", f"q = [{name}(:, 2:end) {name}(:, 1)];"),)
+    elif found:
+        fixes = (Fix("gripper", str(joints + 1), line), fixes[0])
     return SEVEN_AXES(
         variable=path,
         first_row=1,
@@ -190,11 +198,13 @@ def _seven_axes(column: NDArray[Any], robot: RobotModel, path: str) -> Diagnosti
         model=robot.id,
         joints=joints,
         meaning=found.meaning if found else "",
-        fixes=(
-            Fix("columns", f"1:{joints}", f"q = {name}(:, 1:{joints});"),
-            Fix("gripper", str(joints + 1), f"q = [{name}(:, 1:{joints}) {name}(:, end) > 0.5];"),
-        ),
+        fixes=fixes,
     )
+
+
+def _is_gripper(column: NDArray[Any]) -> bool:
+    """Say whether a column opens and closes, and is 0 or 1."""
+    return set(np.unique(column).tolist()) == {0.0, 1.0}
 
 
 def _gripper(

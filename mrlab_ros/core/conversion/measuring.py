@@ -49,9 +49,16 @@ def is_coarse(arm: NDArray[Any]) -> bool:
 
 
 def measured(
-    variable: Variable, name: Name, robot: RobotModel, vectors: dict[int, list[Variable]]
+    variable: Variable,
+    name: Name,
+    robot: RobotModel,
+    vectors: dict[int, list[Variable]],
+    rates: tuple[float, ...] = (),
 ) -> Assessment:
-    """Return what the numbers and the name of one matrix say by themselves."""
+    """Return what the numbers and the name of one matrix say by themselves.
+
+    rates: Hz, those that the file says for certain.
+    """
     values = variable.values
     assert values is not None
     rows, columns = values.shape
@@ -64,7 +71,7 @@ def measured(
     base = Assessment(variable, name, low, high, finite, does_fit, by_name)
     if not finite or rows < 2:
         return base
-    clocks = clocks_among(variable, robot, vectors, low, high)
+    clocks = clocks_among(variable, robot, vectors, low, high, rates)
     base = replace(base, clocks=clocks)
     if not does_fit or by_name or variable.is_message:
         return base

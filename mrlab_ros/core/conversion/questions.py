@@ -79,7 +79,7 @@ def _robots(workspace: Workspace, variable: Variable, robot: RobotModel) -> list
                 variable=variable.path,
                 source=claim.source,
                 words=claim.text[:80],
-                robot=robot.id,
+                model=robot.id,
                 fixes=_yes(variable)
                 if claim.other_maker
                 else (Fix(matlab=saving(variable.path)),),
@@ -113,7 +113,7 @@ def _orders(said: list[Statement], variable: Variable, robot: RobotModel) -> lis
             continue
         if claim.is_clear:
             kept = (Fix("columns", f"1:{joints}", saving(path)),)
-            return [ORDER_STATED(robot=robot.id, fixes=kept, **words)]
+            return [ORDER_STATED(model=robot.id, fixes=kept, **words)]
         columns = [claim.joints.index(j) for j in range(joints)]
         fixes = tuple(
             Fix(
@@ -134,7 +134,7 @@ def _orders(said: list[Statement], variable: Variable, robot: RobotModel) -> lis
                     variable=path,
                     source=names.source,
                     words=" ".join(shortened(list(names.names))),
-                    robot=robot.id,
+                    model=robot.id,
                     joints=list(robot.joint_names),
                     fixes=_yes(variable),
                 )

@@ -125,6 +125,12 @@ def scalars(workspace: Workspace, path: str, rows: int, coarse: bool) -> list[Sc
     return [scalar for _, _, scalar in found]
 
 
+def sure_rates(workspace: Workspace) -> tuple[float, ...]:
+    """Return the rates, Hz, that numbers at the top of a workspace say for certain."""
+    found = scalars(workspace, "", 0, coarse=False)
+    return tuple(s.rate for s in found if s.sure and s.rate and "." not in s.path)
+
+
 def _by_words(name: str, number: float, unit: str, rows: int) -> tuple[float | None, bool]:
     """Return the rate that the words of a name make of a number, 0 for none, and if it is sure.
 

@@ -11,6 +11,7 @@ from mrlab_ros.core.conversion.comparison import relate
 from mrlab_ros.core.conversion.evidence.names import Name
 from mrlab_ros.core.conversion.labels import name_of
 from mrlab_ros.core.conversion.measuring import fits, measured
+from mrlab_ros.core.conversion.rate_scalars import sure_rates
 from mrlab_ros.core.conversion.scoring import judged
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 from mrlab_ros.core.robots.model import RobotModel
@@ -33,10 +34,17 @@ class Survey:
         """Return the assessment of a matrix that has values, with what its company says."""
         known = self._known.get(id(variable))
         if known is None:
-            alone = measured(variable, self.name(variable), self.robot, self.time_vectors)
+            alone = measured(
+                variable, self.name(variable), self.robot, self.time_vectors, self.rates
+            )
             known = judged(alone, self.robot)
             self._known[id(variable)] = known
         return known
+
+    @cached_property
+    def rates(self) -> tuple[float, ...]:
+        """The rates, Hz, that numbers of the file say for certain."""
+        return sure_rates(self.workspace)
 
     @cached_property
     def time_vectors(self) -> dict[int, list[Variable]]:
@@ -59,7 +67,8 @@ def survey(workspace: Workspace, robot: RobotModel, *, columns_asked: bool = Fal
     vectors = time_vectors(workspace)
     fitting = [v for v in workspace.variables if fits(v, robot)]
     form = workspace.file_format
-    found = {v.path: measured(v, name_of(v, form, robot), robot, vectors) for v in fitting}
+    rates = sure_rates(workspace)
+    found = {v.path: measured(v, name_of(v, form, robot), robot, vectors, rates) for v in fitting}
     relate(found, workspace, robot)
     assessed = {path: judged(a, robot) for path, a in found.items()}
     known = {id(v): assessed[v.path] for v in fitting}

@@ -19,6 +19,8 @@ TOLERANCE = 1e-3  # rad
 # degrees may pass a limit by this much of it and still be meant as degrees
 LOOSELY = 1.5
 CENTIDEGREES, MILLIDEGREES = 36_000, 360_000  # counts a turn
+MILLIRADIANS = 2000 * np.pi  # a turn
+LEAST_REACH = 0.25  # rad; a unit in which a motion stays below is not meant
 LEAST_COUNTS = 1000.0
 COUNTS = tuple(2**n for n in range(9, 25))
 
@@ -27,12 +29,13 @@ COUNTS = tuple(2**n for n in range(9, 25))
 class UnitEvidence:
     """The unit that values are likely in.
 
-    unit: rad, deg, counts, or empty where none fits. counts: of a turn, else 0. why: what speaks
-    for a unit that has to be named; None for rad.
+    unit: rad, deg, counts, or empty where none fits. counts: of a turn, else 0. alone: no other
+    number of counts fits. why: what speaks for a unit that has to be named; None for rad.
     """
 
     unit: str
     counts: int = 0
+    alone: bool = True
     why: Diagnostic | None = None
 
 
@@ -73,15 +76,22 @@ def evidence(
         scale = 2 * np.pi / per_turn
         if inside(low * scale, high * scale, limits):
             why = UNIT_REACHES(largest=largest, model=robot.id, fits=name)
-            return UnitEvidence("counts", per_turn, why)
+            return UnitEvidence("counts", per_turn, _fits_once(arm, low, high, limits), why)
     if largest >= LEAST_COUNTS and _is_whole(arm):
         for per_turn in COUNTS:
             scale = 2 * np.pi / per_turn
             if inside(low * scale, high * scale, limits):
-                return UnitEvidence(
-                    "counts", per_turn, UNIT_REACHES(largest=largest, counted="counts")
-                )
+                why = UNIT_REACHES(largest=largest, counted="counts")
+                return UnitEvidence("counts", per_turn, False, why)
     return UnitEvidence("")
+
+
+def _fits_once(arm: NDArray[Any], low: Array, high: Array, limits: Array) -> bool:
+    """Say whether values are within the limits in one unit alone of those that are in use."""
+    per_turn = [CENTIDEGREES, MILLIDEGREES, MILLIRADIANS, *(COUNTS if _is_whole(arm) else ())]
+    largest = float(max(np.abs(low).max(), np.abs(high).max()))
+    scales = [2 * np.pi / n for n in per_turn if largest * 2 * np.pi / n >= LEAST_REACH]
+    return sum(inside(low * k, high * k, limits) for k in scales) == 1
 
 
 def _is_whole(values: NDArray[Any]) -> bool:

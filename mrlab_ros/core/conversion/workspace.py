@@ -94,6 +94,11 @@ class Workspace:
         return {v.path: v for v in reversed(self.variables)}
 
     @cached_property
+    def count(self) -> int:
+        """How many numbers the variables hold together."""
+        return sum(v.values.size for v in self.variables if v.values is not None)
+
+    @cached_property
     def small(self) -> tuple[Variable, ...]:
         """The texts and the numbers, at most 64, that may say something of a matrix."""
         return tuple(

@@ -189,7 +189,8 @@ def misleading(robot: str) -> Iterator[Case]:
         "q_rel": q - q[0], "hip_angles": s, "q_cumsum": 0.3 * s, "eye_angles": s, "q_fft": s,
     }.items():  # fmt: skip
         word = [w for w in name.lower().split("_") if w not in ("q", "theta", "joint", "angles")]
-        yield case(name, mat(**{name: values, "fs": 50.0}), " ".join([*word, "unit"]))
+        truth = q if name in ("q_pi", "q_tours") else None
+        yield case(name, mat(**{name: values, "fs": 50.0}), " ".join([*word, "unit"]), truth)
     for name in OTHERS.split():
         yield case(f"other_{name}", mat(**{name: 0.3 * v, "fs": 50.0}), "name speed current")
     labelled = {"values": s, "label": "q (deg)"}
@@ -260,7 +261,6 @@ def misleading(robot: str) -> Iterator[Case]:
     ramp = np.column_stack([q, np.linspace(0, 1, rows)])
     yield case("gripper_ramp", mat(q=ramp, fs=100.0), "column gripper", q, 100.0)
     yield case("milliradians", mat(q=np.round(1000 * q), fs=50.0), "unit", q)
-    yield case("gon", mat(q=q * 200 / np.pi, fs=50.0), "degree", None)
     yield case("lerobot", mat(action=q, observation={"state": q + 0.002}, fs=50.0), "action", q)
 
 

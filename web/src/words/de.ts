@@ -2018,7 +2018,7 @@ export const diagnostics: Templates = {
   ],
   names_not_known: ['Das ist nicht lesbar; die Namen sind darum nicht bekannt: {why:problem}.'],
   names_other: [
-    "'{source}' nennt die Spalten von '{variable}' {words}; das sind nicht die Gelenke von {robot}: {joints:list}.",
+    "'{source}' nennt die Spalten von '{variable}' {words}; das sind nicht die Gelenke von {model}: {joints:list}.",
     'Sind es trotzdem diese Gelenke in dieser Reihenfolge? Dann nenne die Matrix; sonst wähle den Roboter, für den die Datei gemacht ist.',
   ],
   near_joint_limit: [
@@ -2617,7 +2617,7 @@ export const diagnostics: Templates = {
     'Gib dem Labor Schlüssel, nimm nur 127.0.0.1, oder lass es ausdrücklich zu.',
   ],
   order_stated: [
-    "'{source}' sagt, welches Gelenk jede Spalte von '{variable}' enthält ({words}); die Spalten wurden in die Reihenfolge von {robot} gebracht.",
+    "'{source}' sagt, welches Gelenk jede Spalte von '{variable}' enthält ({words}); die Spalten wurden in die Reihenfolge von {model} gebracht.",
     'Prüfe, ob sich der Roboter richtig bewegt. Stehen die Spalten schon in der Reihenfolge des Roboters, wähle sie nach Nummern.',
   ],
   order_unclear: [
@@ -3077,8 +3077,8 @@ export const diagnostics: Templates = {
     'Schreibe <limit velocity=> aus dem Datenblatt in die URDF, und importiere sie noch einmal.',
   ],
   robot_stated: [
-    "'{source}' sagt '{words}', und gewählt wurde {robot}.",
-    'Ist die Bewegung trotzdem für {robot}? Dann nenne die Matrix; sonst wähle den Roboter, den die Datei nennt.',
+    "'{source}' sagt '{words}', und gewählt wurde {model}.",
+    'Ist die Bewegung trotzdem für {model}? Dann nenne die Matrix; sonst wähle den Roboter, den die Datei nennt.',
   ],
   robot_still: ["'{joint}' bewegt weder den Arm noch seine Hand; das Labor lässt es auf 0."],
   robot_velocity: [

@@ -51,7 +51,7 @@ T = np.arange(300) / 50.0
         ([var("q", np.column_stack([Q, T]))], {}, ("columns", "1:6")),
         ([var("q", np.column_stack([Q[:, :2], T, Q[:, 2:]]))], {}, ("columns", "[1 2 4 5 6 7]")),
         ([var("q", np.degrees(Q))], {}, ("units", "deg")),
-        ([var("q", np.round(np.degrees(Q) * 100))], {}, ("units", "counts:36000")),
+        ([var("q", np.degrees(Q) * 100)], {}, ("units", "counts:36000")),
         ([var("q", np.vstack([Q, np.zeros((9, 6))]))], {}, ("variable", "q(1:300, :)")),
         ([var("q", np.vstack([Q, np.full((9, 6), np.nan)]))], {}, ("variable", "q(1:300, :)")),
         ([var(f"q{i + 1}", Q[:, i]) for i in range(6)], {}, ("join", "q1..q6")),
