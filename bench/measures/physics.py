@@ -34,7 +34,7 @@ from mrlab_ros.core.base.clock import SECOND, PlaybackClock
 from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.physics import catalogue as kinds
 from mrlab_ros.core.physics.engine import BodyState
-from mrlab_ros.core.physics.grasp.states import Gripper
+from mrlab_ros.core.physics.grasp.kinds import NONE
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.simulated_robot import Playing
 from mrlab_ros.core.physics.world import World
@@ -117,7 +117,7 @@ class Cell:
         """Add a robot and let its run begin; what it passes is kept for scrubbing."""
         names, apart = LIBRARY.model(model).joint_names, LIBRARY.never_touch(model)
         description = LIBRARY.description(model)
-        self.world.add_robot(name, description, names, place, Gripper.NONE, apart)
+        self.world.add_robot(name, description, names, place, NONE, apart)
         clock = PlaybackClock(self.now_ns, 0.0, 1.0)
         frames = round(RATE * LONGEST)
         playing = Playing(State.PLAYING, "wave", clock, 0, frames, RATE, LONGEST)

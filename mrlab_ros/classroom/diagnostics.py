@@ -22,7 +22,7 @@ REFERENCE_NOT_READ = Code(
 PROCESSES_KILLED = Code(
     "processes_killed",
     "Processes that check were killed {count:integer} times; the memory may not suffice.",
-    "What is done is kept: give fewer --jobs and run the same command again.",
+    "What is done is kept: run the same command again with fewer jobs.",
 )
 STOPPED = Code(
     "stopped_class",

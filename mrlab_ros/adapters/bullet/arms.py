@@ -29,7 +29,7 @@ from mrlab_ros.core.physics.diagnostics import (
     JOINT_STATE_SIZE,
 )
 from mrlab_ros.core.physics.engine import BodyState, LinkPairs
-from mrlab_ros.core.physics.grasp.load import PAD_FRICTION
+from mrlab_ros.core.physics.grasp.kinds import PAD_FRICTION
 
 # Height of the first removed arm, m, and most removed arms that wait: one costs 25 us a step.
 PARKED_AT, MOST_PARKED = -500.0, 8

@@ -41,8 +41,9 @@ from mrlab_ros.core.base.checks import bad_value
 from mrlab_ros.core.base.diagnostics import FIELD, ONE_OF
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.names import close_to
+from mrlab_ros.core.physics.grasp import kinds
+from mrlab_ros.core.physics.grasp.kinds import KINDS, Gripper
 from mrlab_ros.core.physics.grasp.load import Tool
-from mrlab_ros.core.physics.grasp.states import Gripper
 from mrlab_ros.core.robots.model import RobotModel, ShownJoint, ShownRobot
 
 END_EFFECTORS = "end_effectors"
@@ -132,13 +133,12 @@ class RobotLibrary:
         Raises BadInput for an unknown id, and where its file does not say a way that there is.
         """
         if not end_effector:
-            return Gripper.FINGERS
+            return kinds.FINGERS
         said = self.end_effector_facts(end_effector).get("gripper")
-        ways = [way.value for way in Gripper]
-        if said not in ways:
+        if said not in KINDS:
             file = f"{END_EFFECTORS}/{end_effector}/end_effector.yaml"
-            raise bad_value(FIELD(place=file, key="gripper"), said, ONE_OF(choices=ways))
-        return Gripper(said)
+            raise bad_value(FIELD(place=file, key="gripper"), said, ONE_OF(choices=[*KINDS]))
+        return KINDS[said]
 
     def hand_facts(self, robot_id: str, end_effector: str) -> Tool:
         """Return what is stated of a robot's hand; raise BadInput for an unknown id."""

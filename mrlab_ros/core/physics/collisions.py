@@ -11,7 +11,6 @@ from mrlab_ros.core.base.geometry import Pose, add
 from mrlab_ros.core.physics import contact_rules
 from mrlab_ros.core.physics.clearance import Halt
 from mrlab_ros.core.physics.engine import BodyState, Kind, Touch
-from mrlab_ros.core.physics.grasp.states import Gripper
 from mrlab_ros.core.physics.objects import surface_body
 from mrlab_ros.core.physics.simulated_robot import Robot
 from mrlab_ros.core.physics.world_state import CollisionChanged, Contact, WorldState
@@ -22,8 +21,6 @@ from mrlab_ros.core.scene.surfaces import Surface
 LEFT = 0.002
 # Deeper than this, m, no arm presses an object into anything.
 SQUEEZED = 0.0005
-# How far, m, a cup gives way when it is pressed on something.
-STROKE = 0.005
 
 
 class Collisions:
@@ -81,8 +78,7 @@ class Collisions:
         if thing is None or thing.held_by:
             return False
         if touch.other in robot.passing:
-            cup = robot.gripper is Gripper.VACUUM
-            return touch.depth > (STROKE if cup else self._world_state.settings.set_down)
+            return touch.depth > (robot.gripper.yields or self._world_state.settings.set_down)
         # Fingers press with little force on obstacles that they may touch.
         if counts or touch.depth > SQUEEZED or touch.link not in robot.finger_links:
             way = self._engine.squeezed(robot.name, touch.other, touch.normal)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from mrlab_ros.core.base.geometry import dot, rotate
 from mrlab_ros.core.physics.engine import Kind, Touch
-from mrlab_ros.core.physics.grasp.states import INWARDS, Gripper
+from mrlab_ros.core.physics.grasp.states import INWARDS
 from mrlab_ros.core.physics.simulated_robot import Pressed, Robot
 from mrlab_ros.core.physics.world_state import WorldState
 
@@ -46,11 +46,9 @@ def may_touch(robot: Robot, touch: Touch, name: str, link: str = "") -> bool:
         return link in robot.arm.grip_links
     if name in robot.leaving and link in robot.arm.grip_links | robot.arm.tool_links:
         return True
-    if robot.gripper is Gripper.FINGERS:
+    if robot.gripper.closes:
         return link in robot.finger_links and robot.closed and touch.grip >= INWARDS
-    return (
-        robot.gripper is Gripper.VACUUM and link in robot.arm.tool_links and touch.grip >= INWARDS
-    )
+    return robot.gripper.pulls and link in robot.arm.tool_links and touch.grip >= INWARDS
 
 
 def _held_counts(state: WorldState, robot: Robot, touch: Touch) -> bool:

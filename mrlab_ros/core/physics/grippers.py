@@ -24,12 +24,12 @@ from mrlab_ros.core.physics.diagnostics import (
     HOLDS_NOTHING,
     NOT_MOVED_YET,
     OUT_OF_ATTACH_REACH,
-    SIDE_OF_CUP,
     TOO_WIDE,
 )
 from mrlab_ros.core.physics.engine import BodyState, Kind, Touch
+from mrlab_ros.core.physics.grasp import kinds
 from mrlab_ros.core.physics.grasp.load import Grip, fingers_grip
-from mrlab_ros.core.physics.grasp.states import INWARDS, Grasp, GraspEvent, Gripper
+from mrlab_ros.core.physics.grasp.states import INWARDS, Grasp, GraspEvent
 from mrlab_ros.core.physics.holding import Holding
 from mrlab_ros.core.physics.seal import OUT, leak, lip
 from mrlab_ros.core.physics.simulated_robot import COMMANDING, Robot
@@ -108,7 +108,7 @@ class Grippers:
         robot.lost, robot.reason = robot.held, reason
         self.let_go(robot)
         robot.fire(GraspEvent.LOST)
-        if not robot.closed or robot.gripper is Gripper.NONE:
+        if not robot.closed or robot.gripper is kinds.NONE:
             # It was attached by service; the gripper itself was not closed.
             robot.fire(GraspEvent.OPEN)
             self._engine.drive_fingers(robot.name, robot.finger_velocities())
@@ -194,18 +194,18 @@ class Grippers:
 
         A bare flange has nothing to close.
         """
-        if closed and robot.gripper is Gripper.NONE:
+        if closed and robot.gripper is kinds.NONE:
             return False
         return robot.fire(GraspEvent.CLOSE if closed else GraspEvent.OPEN)
 
     def _watch(self, robot: Robot, now_ns: int) -> None:
         found: tuple[SceneObject, Grip | None] | None = None
         shut, reason = False, None
-        if robot.gripper is Gripper.VACUUM:
-            found, reason = self._sucked(robot)
+        if robot.gripper.pulls:
+            found, reason = self._pulled(robot)
             waited = (now_ns - robot.closing_since_ns) / SECOND
             shut = waited > self._world_state.settings.grasp_timeout
-        elif robot.gripper is Gripper.FINGERS and robot.grasp is Grasp.CLOSING:
+        elif robot.gripper.closes and robot.grasp is Grasp.CLOSING:
             states = self._engine.fingers(robot.name)
             # Fingers do not press on what they pass into.
             touches = [touch for touch in robot.touches if touch.other not in robot.passing]
@@ -223,7 +223,7 @@ class Grippers:
             robot.reason = reason or robot.reason
             robot.fire(GraspEvent.SHUT)
             self.announce(robot)
-        elif reason is not None and robot.gripper is Gripper.VACUUM:
+        elif reason is not None and robot.gripper.pulls:
             self._holding.remark(robot, reason)
 
     def _pinched(
@@ -256,12 +256,12 @@ class Grippers:
             return thing.kept_for in ("", robot.name)
         return robot.takes_over and robot.closing_since_ns >= holder.held_since_ns
 
-    def _sucked(
+    def _pulled(
         self, robot: Robot
     ) -> tuple[tuple[SceneObject, Grip | None] | None, Diagnostic | None]:
-        """Return the first object, by name, on which the cup seals, and why there is none.
+        """Return the first object, by name, that a face pulls, and why there is none.
 
-        What was taken from it is not grasped again before the next gripper command, or two cups
+        What was taken from it is not grasped again before the next gripper command, or two faces
         on one object would take it from each other at every step.
         """
         objects = self._world_state.objects
@@ -279,7 +279,7 @@ class Grippers:
         for name in sorted(reached):
             inwards = [touch for touch in reached[name] if touch.grip >= INWARDS]
             if not inwards:
-                reason = reason or SIDE_OF_CUP(object=name)
+                reason = reason or robot.gripper.beside(object=name)
                 continue
             grip, leaks = self._sealed(robot, name, inwards)
             if leaks is None:
@@ -290,7 +290,7 @@ class Grippers:
     def _sealed(
         self, robot: Robot, name: str, touches: Sequence[Touch]
     ) -> tuple[Grip | None, Diagnostic | None]:
-        """Return the grip of a cup on an object that it touches, and why it does not seal."""
+        """Return the grip of a face on an object that it touches, and why it does not hold."""
         radius = robot.tool.lip_radius
         if not radius:
             return None, None
@@ -298,7 +298,9 @@ class Grippers:
         axis = rotate(tool.orientation, OUT)
         depth = max(dot(subtract(touch.point, tool.position), axis) for touch in touches)
         found = lip(tool, depth, radius)
-        leaks = leak(name, found, self._engine.rays(name, found.starts, found.ends))
+        leaks = None
+        if robot.gripper.seals:
+            leaks = leak(name, found, self._engine.rays(name, found.starts, found.ends))
         hand = self._world_state.hand(robot).pose
         point = relative(hand, Pose(found.middle)).position
-        return Grip(point, (self._in_hand(hand, axis),), radius, vacuum=True), leaks
+        return Grip(point, (self._in_hand(hand, axis),), radius, robot.gripper), leaks

@@ -16,7 +16,7 @@ from mrlab_ros.core.base.geometry import (
     scale,
     subtract,
 )
-from mrlab_ros.core.physics.diagnostics import CAME_OFF_CUP, SLIPPED_OUT
+from mrlab_ros.core.physics.diagnostics import SLIPPED_OUT
 from mrlab_ros.core.physics.engine import BodyState
 from mrlab_ros.core.physics.grasp.load import Grip, Load, attached, bears, remark
 from mrlab_ros.core.physics.simulated_robot import Held, Robot
@@ -128,7 +128,6 @@ class Holding:
         motion = self._engine.object(thing.name)
         if held.grip is None:
             return attached(tool0, motion, thing.type.mass, robot.payload)
-        vacuum = held.grip.vacuum
         return bears(
             held.grip,
             self._world_state.hand(robot),
@@ -138,7 +137,7 @@ class Holding:
             thing.type.mass,
             robot.payload,
             thing.type.body.friction,
-            robot.tool.cup_force if vacuum else robot.arm.grip_force,
+            robot.tool.force if held.grip.kind.pulls else robot.arm.grip_force,
         )
 
     @staticmethod
@@ -162,8 +161,8 @@ class Holding:
         if self._stands(robot):
             held.slip_speed = 0.0
             return None
-        if held.grip.vacuum:
-            return _fallen(CAME_OFF_CUP, robot, load)
+        if held.grip.kind.pulls:
+            return _fallen(held.grip.kind.came_off, robot, load)
         held.slip_speed = max(held.slip_speed + load.excess * duration, 0.0)
         way = held.slip_speed * duration
         held.slid += way

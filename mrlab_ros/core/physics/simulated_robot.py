@@ -14,8 +14,9 @@ from mrlab_ros.core.base.geometry import Pose, Vector
 from mrlab_ros.core.base.state_machine import Machine
 from mrlab_ros.core.physics.clearance import Clearance
 from mrlab_ros.core.physics.engine import Arm, Kind, Touch
+from mrlab_ros.core.physics.grasp.kinds import Gripper
 from mrlab_ros.core.physics.grasp.load import Grip, Load, Tool
-from mrlab_ros.core.physics.grasp.states import TABLE, Grasp, GraspEvent, Gripper, StallWatch
+from mrlab_ros.core.physics.grasp.states import TABLE, Grasp, GraspEvent, StallWatch
 from mrlab_ros.core.physics.joint_stream import Joints, JointStream
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.snapshots import Snapshot, Snapshots

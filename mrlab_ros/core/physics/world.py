@@ -18,8 +18,9 @@ from mrlab_ros.core.physics.catalogue import Catalogue
 from mrlab_ros.core.physics.collisions import Collisions
 from mrlab_ros.core.physics.diagnostics import ALREADY_IN_WORLD
 from mrlab_ros.core.physics.engine import BodyState, Engine, LinkPairs
+from mrlab_ros.core.physics.grasp import kinds
+from mrlab_ros.core.physics.grasp.kinds import Gripper
 from mrlab_ros.core.physics.grasp.load import Tool
-from mrlab_ros.core.physics.grasp.states import Gripper
 from mrlab_ros.core.physics.grippers import Grippers
 from mrlab_ros.core.physics.objects import Inventory
 from mrlab_ros.core.physics.scrubbing import Rewind
@@ -135,8 +136,8 @@ class World:
         if name in self._robots:
             raise Misuse(ALREADY_IN_WORLD(name=name))
         arm = self._engine.add_arm(name, urdf, joints, pose, apart)
-        if not arm.fingers and gripper is Gripper.FINGERS:
-            gripper = Gripper.NONE
+        if not arm.fingers and gripper.closes:
+            gripper = kinds.NONE
         self._robots[name] = Robot(
             name, joints, pose, arm, gripper, self._settings, tool or Tool()
         )

@@ -20,8 +20,8 @@ from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.physics.diagnostics import LET_GO
 from mrlab_ros.core.physics.engine import LinkPairs
+from mrlab_ros.core.physics.grasp.kinds import Gripper
 from mrlab_ros.core.physics.grasp.load import Tool
-from mrlab_ros.core.physics.grasp.states import Gripper
 from mrlab_ros.core.physics.simulated_robot import GripperProgram, Playing
 from mrlab_ros.core.physics.world import World
 from mrlab_ros.core.robots.frames import without_frames

@@ -9,7 +9,7 @@ import numpy as np
 
 from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.physics.engine import Body, Part, Shape
-from mrlab_ros.core.physics.grasp.load import PAD_FRICTION
+from mrlab_ros.core.physics.grasp.kinds import PAD_FRICTION
 
 STEP = 0.001  # s
 # Servos of arm joints: N*m/rad, N*m*s/rad, and the inertia of their rotors, kg*m^2.

@@ -13,8 +13,10 @@ from mrlab_ros.core.base.clock import SECOND, PlaybackClock
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.geometry import Pose, quaternion_from_rpy
 from mrlab_ros.core.physics import catalogue
+from mrlab_ros.core.physics.grasp import kinds
+from mrlab_ros.core.physics.grasp.kinds import Gripper
 from mrlab_ros.core.physics.grasp.load import Tool
-from mrlab_ros.core.physics.grasp.states import Grasp, Gripper
+from mrlab_ros.core.physics.grasp.states import Grasp
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.simulated_robot import GripperProgram, Playing
 from mrlab_ros.core.physics.world import World
@@ -118,7 +120,7 @@ class Cell:
     ) -> None:
         """Add a gantry with its tool0 at `at`: x, y, z m and optionally yaw, tilt rad."""
         vacuum = hand == "vacuum_cup"
-        kind = Gripper.VACUUM if vacuum else Gripper.FINGERS
+        kind = kinds.CUP if vacuum else kinds.FINGERS
         tool = CUP if vacuum else Tool(payload)
         text = self.library.description("gantry", hand)
         self.join(name, text, JOINTS, (*at, *(0.0,) * (5 - len(at))), kind, tool)

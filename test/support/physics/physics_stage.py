@@ -13,7 +13,8 @@ from mrlab_ros.adapters.scenes.files import SceneFiles
 from mrlab_ros.adapters.yaml_files import read_yaml
 from mrlab_ros.core.base.clock import SECOND, PlaybackClock
 from mrlab_ros.core.physics import catalogue
-from mrlab_ros.core.physics.grasp.states import Grasp, Gripper
+from mrlab_ros.core.physics.grasp import kinds
+from mrlab_ros.core.physics.grasp.states import Grasp
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.simulated_robot import GripperProgram, Playing
 from mrlab_ros.core.physics.world import World
@@ -47,7 +48,7 @@ class Stage:
                 LIBRARY.description(robot.model, robot.end_effector),
                 model.joint_names,
                 robot.pose,
-                Gripper.FINGERS,
+                kinds.FINGERS,
                 LIBRARY.never_touch(robot.model),
             )
             if not files:

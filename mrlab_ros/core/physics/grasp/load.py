@@ -16,12 +16,9 @@ from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.geometry import Vector, add, cross, dot, rotate, scale, subtract
 from mrlab_ros.core.physics.diagnostics import OVER_PAYLOAD, SLIPS
 from mrlab_ros.core.physics.engine import BodyState
+from mrlab_ros.core.physics.grasp.kinds import FINGERS, Gripper
 
 GRAVITY: Vector = (0.0, 0.0, -9.80665)  # m/s^2, the standard value
-# Coefficient of a rubber pad; an object's own coefficient is multiplied with it, as in the engine.
-PAD_FRICTION = 1.5
-# The same of a dry cup: suppliers reckon with 0.5 on metal, glass, wood (VDI 2259 tables).
-CUP_FRICTION = 1.0
 # Effective radius of a finger pad, m: two thirds of the radius of a pad of 12 mm.
 PAD_RADIUS = 0.008
 # Friction needed where nothing presses on the object any more.
@@ -39,11 +36,11 @@ ON_A_LINE = 0.35
 @dataclass(frozen=True)
 class Tool:
     """Stated figures of a robot's hand. payload: kg of the robot at its flange, 0: not stated;
-    cup_force: N that a vacuum cup holds; lip_radius: m; tip: the link of the tool's frame, empty:
-    tool0."""
+    force: N with which a face pulls; lip_radius: m, of that face; tip: the link of the tool's
+    frame, empty: tool0."""
 
     payload: float = 0.0
-    cup_force: float = 0.0
+    force: float = 0.0
     lip_radius: float = 0.0
     tip: str = ""
 
@@ -51,13 +48,13 @@ class Tool:
 @dataclass(frozen=True)
 class Grip:
     """How an object is gripped, in the frame of the hand. point: m, the middle of the contacts;
-    axes: unit, their normals, or one, out of a vacuum cup; spread: m, from the contacts to the
-    point, or the radius of the cup's lip."""
+    axes: unit, their normals, or one, out of a face that pulls; spread: m, from the contacts to
+    the point, or the radius of the face."""
 
     point: Vector
     axes: tuple[Vector, ...]
     spread: float
-    vacuum: bool = False
+    kind: Gripper = FINGERS
 
 
 @dataclass(frozen=True)
@@ -126,8 +123,8 @@ def bears(
     point = add(hand.pose.position, rotate(turn, grip.point))
     moment = cross(subtract(thing.pose.position, point), load)
     axes = [rotate(turn, axis) for axis in grip.axes]
-    mu = friction * (CUP_FRICTION if grip.vacuum else PAD_FRICTION)
-    if grip.vacuum:
+    mu = friction * grip.kind.friction
+    if grip.kind.pulls:
         axis = axes[0]
         across, twist = _apart(load, axis)[1], dot(moment, axis)
         peel = _length(subtract(moment, scale(axis, twist)))

@@ -20,14 +20,6 @@ LEAST_WAY = 0.002
 INWARDS = 0.5
 
 
-class Gripper(Enum):
-    """How an end effector holds."""
-
-    NONE = "none"
-    FINGERS = "fingers"
-    VACUUM = "vacuum"
-
-
 class Grasp(Enum):
     """The states; the values are those of mrlab_msgs/Grasp."""
 
@@ -65,7 +57,7 @@ TABLE: Table[Grasp, GraspEvent] = Table(
         (G.EMPTY, E.OPEN): G.OPEN,
         (G.EMPTY, E.SEIZED): G.HOLDING,
     },
-    # A vacuum cup that grasped nothing in time stays switched on.
+    # A face that grasped nothing in time stays switched on.
     ignored={E.SHUT: (G.EMPTY,)},
     commands=tuple(GraspEvent),
 )

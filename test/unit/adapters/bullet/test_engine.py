@@ -23,7 +23,8 @@ from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics.engine import Body, BodyState, Kind, Part, Shape
-from mrlab_ros.core.physics.grasp.states import Grasp, Gripper
+from mrlab_ros.core.physics.grasp import kinds
+from mrlab_ros.core.physics.grasp.states import Grasp
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.simulated_robot import GripperProgram, Playing
 from mrlab_ros.core.physics.world import World
@@ -105,7 +106,7 @@ def test_what_the_arm_hits_gets_the_arms_speed_and_the_arm_keeps_its_own(engine)
 
 @pytest.mark.parametrize("speed", [3.0, 6.0])
 def test_a_fast_thin_tool_does_not_pass_a_thin_plate(world, speed):
-    world.add_robot("a", beam(1.0, 0.004), ("j",), Pose(), Gripper.NONE)
+    world.add_robot("a", beam(1.0, 0.004), ("j",), Pose(), kinds.NONE)
     # Upright, 5 mm thick, across the way of the tip.
     world.spawn("plate", pose=Pose((0.9, 0.5, 0.5), (0.7071068, 0, 0, 0.7071068)))
     held = Pose((0.85, 0.5, 0.5), (0.7071068, 0, 0, 0.7071068))
@@ -124,7 +125,7 @@ def run(seconds: float = 3.0, stall: tuple[float, float] = (0.0, 0.0)):
     world = World(engine, TYPES, Settings())
     model = LIBRARY.model("ur5e")
     description = LIBRARY.description("ur5e", "parallel_gripper")
-    world.add_robot("a", description, model.joint_names, Pose(), Gripper.FINGERS)
+    world.add_robot("a", description, model.joint_names, Pose(), kinds.FINGERS)
     tool = model.chain.tool0(model.home)
     center = tool[:3, 3] + 0.162 * tool[:3, 2]
     world.spawn("pedestal", pose=Pose(tuple(float(v) for v in center - [0, 0, 0.2251])))
@@ -185,7 +186,7 @@ def test_a_stall_changes_nothing_of_what_happens(stall):
 
 
 def test_attaching_moves_nothing_and_the_held_object_follows_the_hand(world):
-    world.add_robot("a", beam(), ("j",), Pose(), Gripper.NONE)
+    world.add_robot("a", beam(), ("j",), Pose(), kinds.NONE)
     drive(world, "a", np.zeros((3, 1)))
     world.spawn("cube", pose=Pose((0.9, 0.06, 0.55)))
     before = world.motion("cube_1").pose
@@ -211,7 +212,7 @@ def test_attaching_moves_nothing_and_the_held_object_follows_the_hand(world):
 
 
 def test_what_sleeps_on_something_held_falls_when_a_seek_takes_that_away(world):
-    world.add_robot("a", beam(), ("j",), Pose((-1.0, 0.0, 0.3)), Gripper.NONE)
+    world.add_robot("a", beam(), ("j",), Pose((-1.0, 0.0, 0.3)), kinds.NONE)
     for i in range(2):
         world.spawn("cube", pose=Pose((0.0, 0.0, 0.0255 + 0.05 * i)))
     drive(world, "a", np.full((20, 1), 0.5))
@@ -225,7 +226,7 @@ def test_what_sleeps_on_something_held_falls_when_a_seek_takes_that_away(world):
 def test_a_vacuum_cup_holds_what_it_touches_and_another_robot_takes_it_over(world):
     model = LIBRARY.model("ur5e")
     description = LIBRARY.description("ur5e", "vacuum_cup")
-    world.add_robot("a", description, model.joint_names, Pose(), Gripper.VACUUM)
+    world.add_robot("a", description, model.joint_names, Pose(), kinds.CUP)
     tool = model.chain.tool0(model.home)
     below = tool[:3, 3] + (0.012 + 0.13) * tool[:3, 2]
     world.spawn("pedestal", pose=Pose(tuple(float(v) for v in below - [0, 0, 0.249])))
@@ -237,7 +238,7 @@ def test_a_vacuum_cup_holds_what_it_touches_and_another_robot_takes_it_over(worl
     assert world.robot("a").held == "cube_1"
     assert not collisions(events)
     world.playback("a", replace(playing, state=State.PAUSED))
-    world.add_robot("b", beam(), ("j",), Pose((1.0, 1.0, 0.0)), Gripper.NONE)
+    world.add_robot("b", beam(), ("j",), Pose((1.0, 1.0, 0.0)), kinds.NONE)
     drive(world, "b", np.zeros((3, 1)), start_ns=610 * MS)
     world.attach("b", "cube_1", reach=2.0)
     assert world.robot("a").grasp is Grasp.EMPTY
@@ -249,7 +250,7 @@ def test_a_vacuum_cup_holds_what_it_touches_and_another_robot_takes_it_over(worl
 @pytest.mark.parametrize("robot", LIBRARY.ids())
 def test_every_robot_stands_at_home_without_touching_itself_or_the_floor(world, robot):
     model = LIBRARY.model(robot)
-    world.add_robot("a", LIBRARY.description(robot), model.joint_names, Pose(), Gripper.NONE)
+    world.add_robot("a", LIBRARY.description(robot), model.joint_names, Pose(), kinds.NONE)
     assert not collisions(drive(world, "a", np.tile(model.home, (5, 1))))
 
 
@@ -330,7 +331,7 @@ def test_a_robot_that_comes_again_is_the_body_that_was_put_aside(world, engine):
     world.spawn("cube", pose=Pose((0.9, 0.3, 0.5)))
     seen = set()
     for k in range(12):
-        world.add_robot("a", beam(), ("j",), Pose((0.0, 0.0, 0.1 * (k % 2))), Gripper.NONE)
+        world.add_robot("a", beam(), ("j",), Pose((0.0, 0.0, 0.1 * (k % 2))), kinds.NONE)
         seen.add(engine._arms["a"].body)
         drive(world, "a", np.zeros((3, 1)), start_ns=k * SECOND)
         world.remove_robot("a")
@@ -340,7 +341,7 @@ def test_a_robot_that_comes_again_is_the_body_that_was_put_aside(world, engine):
     height = world.motion("cube_1").pose.position[2]
     assert height == pytest.approx(0.025, abs=0.002)
     world.move("cube_1", Pose((0.9, 0.1, 0.5)), (0, 0, 0), (0, 0, 0), held=True)
-    world.add_robot("a", beam(), ("j",), Pose(), Gripper.NONE)
+    world.add_robot("a", beam(), ("j",), Pose(), kinds.NONE)
     events = drive(world, "a", np.arange(30)[:, None] * 0.01, start_ns=14 * SECOND)
     assert collisions(events)[0].contact.touch.other == "cube_1"
 

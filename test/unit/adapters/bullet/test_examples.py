@@ -7,7 +7,8 @@ import pytest
 from physics_stage import HANDOVER, LIBRARY, SCENES, Stage
 
 from mrlab_ros.core.base.clock import SECOND
-from mrlab_ros.core.physics.grasp.states import Grasp, Gripper
+from mrlab_ros.core.physics.grasp import kinds
+from mrlab_ros.core.physics.grasp.states import Grasp
 from mrlab_ros.core.physics.world_state import GraspChanged
 
 
@@ -69,7 +70,7 @@ def test_after_a_seek_the_fingers_are_at_what_is_held_and_without_them_it_falls(
     assert stage.world.remove_robot("ur5e_1") == "cube_1"
     bare = LIBRARY.description("ur5e", "")
     said = "cube_1 was let go"
-    stage.world.add_robot("ur5e_1", bare, robot.joints, robot.pose, Gripper.FINGERS, reason=said)
+    stage.world.add_robot("ur5e_1", bare, robot.joints, robot.pose, kinds.FINGERS, reason=said)
     stage.world.set_program("ur5e_1", robot.program)
     (told,) = [e for e in stage.world.take_events() if isinstance(e, GraspChanged)]
     assert (told.state, told.object, told.reason) == (Grasp.OPEN, "", said)

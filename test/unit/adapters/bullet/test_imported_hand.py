@@ -11,7 +11,8 @@ from physics_cell import ROOT, Cell
 from mrlab_ros.adapters.robots import checks
 from mrlab_ros.adapters.robots.importing import import_robot
 from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.core.physics.grasp.states import Grasp, Gripper
+from mrlab_ros.core.physics.grasp import kinds
+from mrlab_ros.core.physics.grasp.states import Grasp
 
 # m: height of the shoulder, length of both arms, from the wrist to the middle of the pads.
 SHOULDER, ARM, GRIP = 0.3, 0.4, 0.13
@@ -68,7 +69,7 @@ def test_an_imported_hand_picks_a_cube_and_sets_it_down(tmp_path: Path):
     cube = cell.put("cube", (0.5, 0.0, 0.025))
     tool = library.hand_facts("own", "")
     above = reach(0.5, 0.0, 0.15)
-    cell.join("a", library.description("own"), model.joint_names, above, Gripper.FINGERS, tool)
+    cell.join("a", library.description("own"), model.joint_names, above, kinds.FINGERS, tool)
     cell.wait(0.1)
     for position in cell.world.fingers("a").values():
         assert abs(position) == pytest.approx(0.04, abs=1e-4), "it begins open"

@@ -6,12 +6,14 @@ import contextlib
 import math
 import pickle
 import re
+import sys
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from refusals import refused
 
+from mrlab_ros.classroom.rubrics import measures
 from mrlab_ros.classroom.rubrics.diagnostics import (
     BEYOND_MOST,
     NEGATIVE,
@@ -138,3 +140,28 @@ def test_a_quantity_reads_what_it_was_written_as(quantity, number, which, spaced
 def test_any_text_is_read_or_refused(text):
     with contextlib.suppress(BadInput):
         read(text)
+
+
+ADDED = """
+from dataclasses import dataclass
+
+from mrlab_ros.classroom.rubrics.sentences import Form
+
+
+@dataclass(frozen=True)
+class Waves:
+    robot: str
+
+
+FAMILY = "manners"
+FORMS = (Form("waves [by ROBOT]", lambda gaps, given: Waves(gaps.get("robot") or ""), "Hello."),)
+"""
+
+
+def test_a_file_in_the_folder_is_a_measure(tmp_path, monkeypatch):
+    (tmp_path / "manners.py").write_text(ADDED)
+    monkeypatch.setattr(measures, "__path__", [*measures.__path__, str(tmp_path)])
+    monkeypatch.delitem(sys.modules, f"{measures.__name__}.manners", raising=False)
+    (form,) = measures.families()["manners"]
+    found, gaps = form_of("waves by ur5e_1", (*FORMS, form))
+    assert (found, gaps["robot"]) == (form, "ur5e_1")

@@ -14,7 +14,7 @@ from mrlab_ros.core.checking.rehearsal import FARTHEST, Actor, Rehearsal
 from mrlab_ros.core.checking.report import CheckReport, digest, in_order
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics.engine import Kind
-from mrlab_ros.core.physics.grasp.states import Gripper
+from mrlab_ros.core.physics.grasp import kinds
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.world import World
 from mrlab_ros.core.scene.surfaces import Surface
@@ -43,7 +43,7 @@ def rehearsed(*actors, wall=None, post=None):
         square = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0.0]])
         world.set_surfaces([Surface("wall", "wall", Pose((wall, 0.0, 0.0)), square, none)])
     for actor in actors:
-        world.add_robot(actor.name, "<robot/>", ("j1", "j2"), Pose(), Gripper.NONE)
+        world.add_robot(actor.name, "<robot/>", ("j1", "j2"), Pose(), kinds.NONE)
     if post is not None:
         world.spawn("post", "post", Pose(post))
     rehearsal = Rehearsal(world, engine, actors)

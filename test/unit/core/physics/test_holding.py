@@ -12,7 +12,7 @@ from mrlab_ros.core.base.errors import Misuse
 from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics.diagnostics import FIXED_OBJECT
-from mrlab_ros.core.physics.grasp.states import Gripper
+from mrlab_ros.core.physics.grasp import kinds
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.world import CLOSING_NS, PendingGrasp, World
 from mrlab_ros.core.physics.world_state import HAND
@@ -39,7 +39,7 @@ def grasp():
 
 
 def add_robot(world, *, placed: bool = True) -> None:
-    world.add_robot("a", "<robot/>", ("j1", "j2"), Pose(), Gripper.NONE)
+    world.add_robot("a", "<robot/>", ("j1", "j2"), Pose(), kinds.NONE)
     if placed:
         world.joint_state("a", 1, np.zeros(2), np.zeros(2))
         world.advance(1)

@@ -47,7 +47,9 @@ from mrlab_ros.core.physics.diagnostics import (
     SURFACE_TOO_FINE,
 )
 from mrlab_ros.core.physics.engine import BodyState, Kind, Touch
-from mrlab_ros.core.physics.grasp.states import Grasp, Gripper
+from mrlab_ros.core.physics.grasp import kinds
+from mrlab_ros.core.physics.grasp.kinds import Gripper
+from mrlab_ros.core.physics.grasp.states import Grasp
 from mrlab_ros.core.physics.joint_stream import JointStream
 from mrlab_ros.core.physics.objects import surface_body
 from mrlab_ros.core.physics.settings import Settings
@@ -68,8 +70,8 @@ TYPES["post"] = {"shape": "sphere", "size": [0.05], "fixed": True}
 class Lab:
     """A world with one robot whose time the test moves, 10 ms at a time."""
 
-    def __init__(self, *, gripper: Gripper = Gripper.NONE, settings: Settings | None = None):
-        self.engine = FakeEngine(fingers=gripper is Gripper.FINGERS)
+    def __init__(self, *, gripper: Gripper = kinds.NONE, settings: Settings | None = None):
+        self.engine = FakeEngine(fingers=gripper is kinds.FINGERS)
         types = catalogue.parse({"objects": TYPES})
         self.world = World(self.engine, types, settings or Settings())
         self.world.add_robot("a", "<robot/>", ("j1", "j2"), Pose(), gripper)
@@ -189,7 +191,7 @@ def test_a_silent_arm_is_waited_for_a_while_and_a_foreign_clock_is_not():
 
 
 def test_what_the_playback_does_holds_from_its_stamp_on():
-    lab = Lab(gripper=Gripper.FINGERS)
+    lab = Lab(gripper=kinds.FINGERS)
     lab.world.set_program("a", GripperProgram((0.0, 1.0), (True, False)))
     lab.play()
     lab.go(0.1, 500 * MS)
@@ -217,7 +219,7 @@ def test_fast_motion_is_looked_at_in_small_parts():
 
 
 def test_a_jump_is_no_motion_and_takes_along_what_the_hand_holds():
-    lab = Lab(gripper=Gripper.FINGERS)
+    lab = Lab(gripper=kinds.FINGERS)
     lab.world.spawn("ball", "ball", Pose((0.02, 0.0, 0.5)))
     lab.world.spawn("post", "between", Pose((0.5, 0.0, 0.5)))
     lab.world.attach("a", "ball")
@@ -283,7 +285,7 @@ def test_a_slow_stream_is_shown_a_period_late():
 
 
 def test_two_opposing_stalled_fingers_hold_and_opening_lets_go_with_the_hands_velocity():
-    lab = Lab(gripper=Gripper.FINGERS)
+    lab = Lab(gripper=kinds.FINGERS)
     lab.world.spawn("ball", "ball", Pose((0.0, 0.0, 0.47)))
     lab.engine.pinched, lab.engine.block = "ball", 0.02
     before = lab.world.motion("ball").pose
@@ -303,7 +305,7 @@ def test_two_opposing_stalled_fingers_hold_and_opening_lets_go_with_the_hands_ve
 
 
 def test_closing_on_nothing_is_an_empty_grasp():
-    lab = Lab(gripper=Gripper.FINGERS)
+    lab = Lab(gripper=kinds.FINGERS)
     lab.world.set_program("a", GripperProgram((0.1,), (True,)))
     lab.play()
     lab.go(0.0, 1500 * MS)
@@ -311,8 +313,8 @@ def test_closing_on_nothing_is_an_empty_grasp():
 
 
 def test_attaching_by_hand_takes_from_another_and_detaching_leaves_an_open_gripper():
-    lab = Lab(gripper=Gripper.FINGERS, settings=Settings(attach_reach=0.5))
-    lab.world.add_robot("b", "<robot/>", ("j1", "j2"), Pose((1.0, 0, 0)), Gripper.FINGERS)
+    lab = Lab(gripper=kinds.FINGERS, settings=Settings(attach_reach=0.5))
+    lab.world.add_robot("b", "<robot/>", ("j1", "j2"), Pose((1.0, 0, 0)), kinds.FINGERS)
     lab.world.joint_state("b", lab.now_ns, [0, 0], [0, 0])
     lab.world.spawn("ball", "ball", Pose((0.5, 0.0, 0.5)))
     lab.go(0.0, 20 * MS)
@@ -361,7 +363,7 @@ class Pair(Lab):
 
 
 def test_a_cup_takes_from_another_that_does_not_take_it_back():
-    lab = Pair(Gripper.VACUUM)
+    lab = Pair(kinds.CUP)
     lab.both(0.46, 1.0, 100 * MS)
     lab.close("a")
     lab.both(0.46, 0.56, 100 * MS)
@@ -377,7 +379,7 @@ def test_a_cup_takes_from_another_that_does_not_take_it_back():
 
 
 def test_fingers_take_an_object_over_from_fingers_that_open_later():
-    lab = Pair(Gripper.FINGERS)
+    lab = Pair(kinds.FINGERS)
     lab.engine.pinched, lab.engine.block = "ball", 0.02
     lab.both(0.46, 1.5, 100 * MS)
     lab.close("a", 3.0)
@@ -396,7 +398,7 @@ def test_fingers_take_an_object_over_from_fingers_that_open_later():
 
 
 def test_what_is_kept_for_a_robot_is_taken_by_no_other_that_closes_on_it():
-    lab = Pair(Gripper.FINGERS)
+    lab = Pair(kinds.FINGERS)
     lab.engine.pinched, lab.engine.block = "ball", 0.02
     lab.both(0.46, 0.54, 100 * MS)
     place = lab.world.motion("ball").pose
@@ -410,7 +412,7 @@ def test_what_is_kept_for_a_robot_is_taken_by_no_other_that_closes_on_it():
 
 
 def test_a_gripper_that_closes_where_its_robot_was_put_takes_nothing_over():
-    lab = Pair(Gripper.FINGERS)
+    lab = Pair(kinds.FINGERS)
     lab.engine.pinched, lab.engine.block = "ball", 0.02
     lab.both(0.46, 1.5, 100 * MS)
     lab.close("a")
@@ -423,7 +425,7 @@ def test_a_gripper_that_closes_where_its_robot_was_put_takes_nothing_over():
 
 
 def test_of_two_that_close_on_an_object_together_the_first_keeps_it():
-    lab = Pair(Gripper.FINGERS)
+    lab = Pair(kinds.FINGERS)
     lab.engine.pinched, lab.engine.block = "ball", 0.02
     lab.both(0.46, 0.54, 100 * MS)
     lab.close("a")
@@ -436,7 +438,7 @@ def test_of_two_that_close_on_an_object_together_the_first_keeps_it():
 def test_a_robot_put_into_a_surface_may_move_out_of_it():
     lab = Lab()
     lab.world.set_surfaces([wall(1.4)])
-    lab.world.add_robot("b", "<robot/>", ("j1", "j2"), Pose((1.0, 0, 0)), Gripper.NONE)
+    lab.world.add_robot("b", "<robot/>", ("j1", "j2"), Pose((1.0, 0, 0)), kinds.NONE)
 
     def turn(start: int, stop: int, way: int) -> list[CollisionChanged]:
         for i in range(start, stop, way):
@@ -525,7 +527,7 @@ def test_a_world_that_begins_in_a_halt_keeps_it_while_the_arm_is_in_the_wall(sta
     lab = Lab()
     lab.world = World(lab.engine, catalogue.parse({"objects": TYPES}), Settings())
     lab.world.set_surfaces([wall(0.4)])
-    lab.world.add_robot("a", "<robot/>", ("j1", "j2"), Pose(), Gripper.NONE)
+    lab.world.add_robot("a", "<robot/>", ("j1", "j2"), Pose(), kinds.NONE)
     lab.at = np.array([0.45, 0.0])
     if state_first:
         lab.play(state=State.COLLISION_HALT)
@@ -603,7 +605,7 @@ def test_two_headsets_do_not_replace_each_others_surfaces():
 
 
 def test_scrubbing_back_puts_the_object_down_and_forward_into_the_hand_again():
-    lab = Lab(gripper=Gripper.FINGERS)
+    lab = Lab(gripper=kinds.FINGERS)
     lab.world.spawn("ball", "ball", Pose((0.0, 0.0, 0.47)))
     lab.engine.pinched, lab.engine.block = "ball", 0.02
     lab.world.set_program("a", GripperProgram((0.1,), (True,)))
@@ -720,7 +722,7 @@ def test_catalogue_entries_that_cannot_be_are_refused(entry, code, values):
 
 @pytest.mark.parametrize("by", [-5 * SECOND, 3600 * SECOND])
 def test_a_clock_that_is_set_stops_and_rewinds_nothing(by):
-    lab = Lab(gripper=Gripper.FINGERS)
+    lab = Lab(gripper=kinds.FINGERS)
     lab.world.spawn("ball", "ball", Pose((2.0, 0.0, 0.5)))
     lab.play()
     lab.go(0.1, 500 * MS)
@@ -740,7 +742,7 @@ def test_a_clock_that_is_set_stops_and_rewinds_nothing(by):
 
 
 def test_a_world_at_rest_is_stepped_less_often_and_goes_on_at_once():
-    lab = Lab(gripper=Gripper.FINGERS)
+    lab = Lab(gripper=kinds.FINGERS)
     world = lab.world
 
     def steps(duration_ns):
@@ -778,7 +780,7 @@ def test_a_world_at_rest_is_stepped_less_often_and_goes_on_at_once():
 
 
 def test_backwards_the_objects_go_back_along_the_run():
-    lab = Lab(gripper=Gripper.FINGERS)
+    lab = Lab(gripper=kinds.FINGERS)
     lab.world.spawn("ball", "ball", Pose((0.0, 0.0, 0.47)))
     lab.world.spawn("ball", "other", Pose((5.0, 0.0, 0.47)))
     lab.engine.pinched, lab.engine.block = "ball", 0.02

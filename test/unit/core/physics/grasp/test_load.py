@@ -14,8 +14,10 @@ from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics.diagnostics import NO_SEAL_AT_EDGE, OUT_OF_ATTACH_REACH
 from mrlab_ros.core.physics.engine import BodyState
+from mrlab_ros.core.physics.grasp import kinds
+from mrlab_ros.core.physics.grasp.kinds import Gripper
 from mrlab_ros.core.physics.grasp.load import Grip, Tool, bears
-from mrlab_ros.core.physics.grasp.states import Grasp, Gripper
+from mrlab_ros.core.physics.grasp.states import Grasp
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.simulated_robot import GripperProgram, Playing
 from mrlab_ros.core.physics.world import World
@@ -26,7 +28,7 @@ MS = SECOND // 1000
 G = 9.80665
 BALL = {"shape": "sphere", "size": [0.05], "mass": 0.1}
 DOWN = Pose((0.0, 0.0, 0.5), (1.0, 0.0, 0.0, 0.0))
-CUP = Tool(cup_force=45.0, lip_radius=0.02)
+CUP = Tool(force=45.0, lip_radius=0.02)
 
 
 class Leaky(FakeEngine):
@@ -43,7 +45,7 @@ class Cell:
     """A robot that plays on the spot, or moves its tip, 10 ms at a time."""
 
     def __init__(self, gripper: Gripper, at: Pose, tool: Tool | None = None) -> None:
-        self.engine = Leaky(fingers=gripper is Gripper.FINGERS)
+        self.engine = Leaky(fingers=gripper is kinds.FINGERS)
         self.world = World(self.engine, catalogue.parse({"objects": {"ball": BALL}}), Settings())
         self.world.add_robot("a", "", ("j1", "j2"), Pose(), gripper, frozenset(), tool)
         self.world.spawn("ball", "ball", at)
@@ -75,7 +77,7 @@ class Cell:
 @pytest.fixture
 def pinched():
     """Return a cell whose fingers hold the ball."""
-    cell = Cell(Gripper.FINGERS, Pose((0.0, 0.0, 0.47)))
+    cell = Cell(kinds.FINGERS, Pose((0.0, 0.0, 0.47)))
     cell.engine.pinched, cell.engine.block = "ball", 0.02
     cell.go(0.0, 1.0)
     assert cell.world.robot("a").held == "ball"
@@ -83,7 +85,7 @@ def pinched():
 
 
 def lifted_by_cup(mass: float, force: float = 45.0, beside: float = 0.0, up: float = 0.0):
-    grip = Grip((0.0, 0.0, 0.1), ((0.0, 0.0, 1.0),), 0.02, vacuum=True)
+    grip = Grip((0.0, 0.0, 0.1), ((0.0, 0.0, 1.0),), 0.02, kinds.CUP)
     thing = BodyState(Pose((beside, 0.0, 0.4)))
     return bears(grip, BodyState(DOWN), (0.0, 0.0, 0.5), thing, (0, 0, up), mass, 5.0, 0.6, force)
 
@@ -125,7 +127,7 @@ def test_a_load_that_changes_is_announced_at_once_and_twice_a_second_at_most(pin
 
 
 def test_the_reason_why_a_cup_did_not_seal_stays_in_the_last_message():
-    cell = Cell(Gripper.VACUUM, Pose((0.0, 0.0, 0.46)), CUP)
+    cell = Cell(kinds.CUP, Pose((0.0, 0.0, 0.46)), CUP)
     cell.go(0.0, 0.3)
     cell.world.move("ball", Pose((2.0, 0.0, 0.46)), (0, 0, 0), (0, 0, 0), held=False)
     cell.go(0.0, 0.5)
@@ -134,8 +136,19 @@ def test_the_reason_why_a_cup_did_not_seal_stays_in_the_last_message():
     assert last.reason == NO_SEAL_AT_EDGE(object="ball", share=0.0)
 
 
+def test_a_magnet_is_a_row_that_holds_without_a_seal():
+    loads = []
+    for friction in (0.4, 0.8):
+        cell = Cell(Gripper("magnet", pulls=True, friction=friction), Pose((0.0, 0.0, 0.46)), CUP)
+        cell.go(0.0, 0.5)
+        held = cell.said()[-1]
+        assert (held.state, held.object) == (Grasp.HOLDING, "ball")
+        loads.append(held.load.friction)
+    assert loads[1] == pytest.approx(2 * loads[0])
+
+
 def test_a_seal_that_changes_all_the_time_is_announced_twice_a_second_at_most():
-    cell = Cell(Gripper.VACUUM, Pose((0.0, 0.0, 0.46)), CUP)
+    cell = Cell(kinds.CUP, Pose((0.0, 0.0, 0.46)), CUP)
     for i in range(60):
         cell.engine.sealed = i % 14
         cell.go(0.0, 0.05)
@@ -145,7 +158,7 @@ def test_a_seal_that_changes_all_the_time_is_announced_twice_a_second_at_most():
 
 
 def test_an_object_out_of_the_hands_reach_is_not_attached():
-    cell = Cell(Gripper.FINGERS, Pose((0.8, 0.0, 0.5)))
+    cell = Cell(kinds.FINGERS, Pose((0.8, 0.0, 0.5)))
     with refused(OUT_OF_ATTACH_REACH, Misuse, object="ball", robot="a", limit=0.2):
         cell.world.attach("a", "ball")
     assert cell.world.object("ball").held_by == ""
