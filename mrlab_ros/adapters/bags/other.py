@@ -58,7 +58,10 @@ def open_bag(path: Path, installed: Callable[[str], str]) -> Bag:
 
     installed: returns the text of an installed type. Raises BadInput where `path` is no bag.
     """
-    return OtherBag(path, installed) if _is_other(path) else Bag(path)
+    for is_of_this_kind, opened_bag in READERS:
+        if is_of_this_kind(path):
+            return opened_bag(path, installed)
+    return Bag(path)
 
 
 class OtherBag(Bag):
@@ -287,3 +290,9 @@ def _is_other(path: Path) -> bool:
 def _beginning(file: Path) -> bytes:
     with open(file, "rb") as opened_file:
         return opened_file.read(4)
+
+
+# Kinds of bags beside plain MCAP files: whether a path is one, and its reader.
+READERS: list[tuple[Callable[[Path], bool], Callable[[Path, Callable[[str], str]], Bag]]] = [
+    (_is_other, OtherBag)
+]
