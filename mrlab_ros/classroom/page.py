@@ -97,9 +97,30 @@ def _mark(mark: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
+def static_text(document: Mapping[str, Any]) -> str:
+    """Return a ClassDocument as HTML, which is read without a script."""
+    tests, figures = document["tests"], document["statistics"]
+    heads = ("Student", "Points", *(test["name"] for test in tests), "")
+    rows = [
+        (
+            one["name"], f"{one['points']:g}", *(f"{mark['points']:g}" for mark in one["marks"]),
+            "" if one["marked"] else static.sentence(one["said"]),
+        )
+        for one in document["students"]
+    ]  # fmt: skip
+    return static.report(
+        document["title"],
+        (
+            document["robot"],
+            document["scene"],
+            f"mean {figures['mean']:.3g}, median {figures['median']:.3g} of "
+            f"{document['points']:g} points",
+        ),
+        tables=[static.Table("Students", heads, rows)],
+    )
+
+
 def class_page(graded: GradedClass, share: Path) -> str:
     """Return one HTML file about a class. share: folder with the built pages."""
     document = class_document(graded)
-    return page(
-        graded.rubric.name, static.classroom(document), document, {}, ingredients.code(share)
-    )
+    return page(graded.rubric.name, static_text(document), document, {}, ingredients.code(share))

@@ -157,12 +157,12 @@ def session(document: Json) -> str:
     """Return a SessionDocument as HTML."""
     told = document["report"]
     events = [
-        (lasting(one["time"]), one["robot"], _sentence(one["said"])) for one in document["events"]
+        (lasting(one["time"]), one["robot"], sentence(one["said"])) for one in document["events"]
     ]
     runs = [
         (
             str(run["number"]), run["robot"], run["trajectory"], lasting(run["start"]),
-            lasting(run["end"] - run["start"]), _sentence(run["outcome"]),
+            lasting(run["end"] - run["start"]), sentence(run["outcome"]),
         )
         for run in told["runs"]
     ]  # fmt: skip
@@ -173,7 +173,7 @@ def session(document: Json) -> str:
     ]
     return report(
         document["title"],
-        (_sentence(told["summary"]),),
+        (sentence(told["summary"]),),
         findings=told["troubles"],
         tables=(
             Table("Runs", heads, runs),
@@ -199,14 +199,14 @@ def check(document: Json, film: Sequence[tuple[float, str]]) -> str:
     ]
     if marks is not None:
         rows = [
-            (f"{test['points']:g} / {test['of']:g}", test["name"], _sentence(test["found"]))
+            (f"{test['points']:g} / {test['of']:g}", test["name"], sentence(test["found"]))
             for test in marks["tests"]
         ]
         heading = f"Marks: {marks['points']:g} of {marks['of']:g} points"
         tables.insert(0, Table(heading, ("Points", "Test", "Found"), rows))
     return report(
         document["title"],
-        (_sentence(told["summary"]), *(robot["model"] for robot in told["robots"])),
+        (sentence(told["summary"]), *(robot["model"] for robot in told["robots"])),
         outcome="accepted" if told["verdict"] == "ready" else "refused",
         pictures=[(url, f"The robot at {time:.2f} s") for time, url in film],
         findings=told["findings"],
@@ -215,28 +215,6 @@ def check(document: Json, film: Sequence[tuple[float, str]]) -> str:
     )
 
 
-def classroom(document: Json) -> str:
-    """Return a ClassDocument as HTML."""
-    tests, figures = document["tests"], document["statistics"]
-    heads = ("Student", "Points", *(test["name"] for test in tests), "")
-    rows = [
-        (
-            one["name"], f"{one['points']:g}", *(f"{mark['points']:g}" for mark in one["marks"]),
-            "" if one["marked"] else _sentence(one["said"]),
-        )
-        for one in document["students"]
-    ]  # fmt: skip
-    return report(
-        document["title"],
-        (
-            document["robot"],
-            document["scene"],
-            f"mean {figures['mean']:.3g}, median {figures['median']:.3g} of "
-            f"{document['points']:g} points",
-        ),
-        tables=[Table("Students", heads, rows)],
-    )
-
-
-def _sentence(said: Json) -> str:
+def sentence(said: Json) -> str:
+    """Return what a diagnostic says, and its remedy."""
     return f"{said['message']} {said['remedy']}".strip()
