@@ -161,7 +161,7 @@ def options(
 
 # Neither a refusal (1) nor wrong usage (2), which are verdicts of `mrlab check` and others.
 BROKEN = 3
-# What a disk that refuses lacks, by the error's number: room, or rights.
+# Causes of a disk's refusal by the error's number: no room, or no rights.
 OF_THE_DISK = {
     errno.ENOSPC: "room",
     errno.EDQUOT: "room",

@@ -23,7 +23,7 @@ POLICY = {
 
 
 class GatewaySettings(Protocol):
-    """What a gateway is started with. classroom: folder of a marked class, None: none is shown."""
+    """Settings of a gateway. classroom: folder of a marked class, None: none is shown."""
 
     @property
     def classroom(self) -> Path | None: ...

@@ -51,7 +51,7 @@ IDLE = 30  # s after which a process ends that nobody gives work
 AHEAD = 2  # tasks that wait at each process: their bytes are in memory
 EXTRAS = {"dask": "dask distributed", "ray": "ray"}
 
-# What is raised where a process that runs the function died itself.
+# The error of a function whose process died.
 Broken = BrokenProcessPool
 
 

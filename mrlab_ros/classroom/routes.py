@@ -23,7 +23,7 @@ from mrlab_ros.gateway.store.shelf import Shelf, shelf_of
 
 
 class Mark(BaseModel):
-    """What a test of the rubric gave. time: s, where points were lost; null: no instant."""
+    """The result of a test of the rubric. time: s, where points were lost; null: no instant."""
 
     name: str
     points: float

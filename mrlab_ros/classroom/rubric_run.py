@@ -1,4 +1,4 @@
-"""What `mrlab rubric` does: lint, mark, print."""
+"""The work of `mrlab rubric`: lint, mark, print."""
 
 from __future__ import annotations
 

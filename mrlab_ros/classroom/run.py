@@ -1,4 +1,4 @@
-"""What `mrlab class` does: read the export, check what is missing, write pages and tables."""
+"""The work of `mrlab class`: read the export, check what is missing, write pages and tables."""
 
 from __future__ import annotations
 

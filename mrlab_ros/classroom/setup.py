@@ -1,4 +1,4 @@
-"""What every submission of a class is checked with, and by what its result is known again."""
+"""The set-up of a class: the settings of every check, and the key of its results."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class SteadyLibrary(RobotLibrary):
 
 @dataclass(frozen=True)
 class Bounds:
-    """What one submission may take. memory: bytes; time: s of a processor."""
+    """Limits of one submission. memory: bytes; time: s of a processor."""
 
     memory: int = 3072 * MiB
     time: float = 60.0

@@ -118,7 +118,7 @@ First = tuple[CheckedFile | None, str, Diagnostic | None]
 
 
 class Warm:
-    """What all submissions share: the stage, the rubric, and the reference as it was checked."""
+    """Shared by all submissions: the stage, the rubric, and the reference as it was checked."""
 
     def __init__(self, setup: Setup, scratch: Path) -> None:
         self.setup = setup

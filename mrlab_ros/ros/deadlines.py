@@ -187,7 +187,7 @@ class Scheduler:
             while self._running:
                 now_ns, steady_ns = self._reading()
                 simulated = self.clock.simulated
-                # A tick may be long in coming: nobody waits for it in a loop.
+                # Simulated time may advance late; do not busy-wait.
                 early_ns = 0 if simulated else WAKE_NS + PREPARE_NS * len(self._players)
                 horizon_ns = now_ns + early_ns
                 batch = []

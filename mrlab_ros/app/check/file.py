@@ -36,7 +36,7 @@ OF_THE_MOTION = JUMPS | RANGES | SPEEDS
 
 @dataclass(frozen=True)
 class Setting:
-    """What files are checked in, and how; one for many files.
+    """The surroundings in which files are checked; one for many files.
 
     scene_name: what the scene was asked for by, empty: none. points: m in world, that tool0 shall
     pass within `within` m. closest: m. drawn: record where everything was. convert: what reads a

@@ -62,7 +62,7 @@ LONGEST_S = 600.0  # of a motion, s
 
 @dataclass(frozen=True, eq=False)
 class Task:
-    """What is checked. share: the package's folder. file: the trajectory, as the store keeps it;
+    """A request. share: the package's folder. file: the trajectory, as the store keeps it;
     trajectory: its id. robot: the robot of the scene that plays it."""
 
     share: Path

@@ -36,7 +36,7 @@ NOTHING_HELD: Mapping[str, Pose] = MappingProxyType({})
 
 @dataclass(frozen=True)
 class Played:
-    """What a rehearsal recorded, and the types of the objects in it, by name."""
+    """The record of a rehearsal, and the types of the objects in it, by name."""
 
     recorded: Rehearsed
     objects: dict[str, ObjectType]

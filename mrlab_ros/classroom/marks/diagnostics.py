@@ -1,4 +1,4 @@
-"""What is said of the submissions of a class."""
+"""Diagnostics of the submissions of a class."""
 
 from mrlab_ros.core.base.diagnostic import INFO, WARNING, Code
 

@@ -1,4 +1,4 @@
-"""Who handed in which files: the exports of Moodle, ILIAS, Canvas and Gradescope, or a folder."""
+"""Students and their files: the exports of Moodle, ILIAS, Canvas and Gradescope, or a folder."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class Entry:
 
 @dataclass(frozen=True)
 class Submission:
-    """What one student handed in.
+    """The submission of one student.
 
     key: a file name of its own for this student, stable for the same export. identifier: the
     number by which the system knows the student or the submission, or empty. folder: how the

@@ -1,4 +1,4 @@
-"""What became of one submission: its marks, what was found, and what compares it with others.
+"""The result of one submission: its marks, its findings, and figures that compare it with others.
 
 Pseudonyms are the same each time as long as the key is kept.
 """

@@ -37,7 +37,7 @@ class Group:
 
 @dataclass(frozen=True)
 class Similar:
-    """What a class has in common. threshold: deg RMS, below it two motions are near; usual: the
+    """Motions of a class. threshold: deg RMS, below it two motions are near; usual: the
     median distance of two. as_reference: keys of those that are near the reference."""
 
     groups: tuple[Group, ...] = ()

@@ -1,4 +1,4 @@
-"""What a rubric's tests find, what its reader refuses, and what its linter finds."""
+"""Diagnostics of a rubric: of its tests, its reader and its linter."""
 
 from mrlab_ros.core.base.diagnostic import INFO, WARNING, Code
 from mrlab_ros.core.checking.diagnostics import MET, WHO

@@ -29,7 +29,7 @@ ROUNDING = 1e-9
 
 @dataclass(frozen=True)
 class Mark:
-    """What a test gave. points: of `of`. time: s, the instant at which points were lost."""
+    """The result of a test. points: of `of`. time: s, the instant at which points were lost."""
 
     name: str
     points: float

@@ -152,7 +152,7 @@ NUMBER = Quantity("number", {"": 1.0}, "", "-3", 1e6)
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a measure found. share: of the points, 0 to 1; found: for the one who is marked, with
+    """The result of a measure. share: of the points, 0 to 1; found: for the student, with
     value, limit and unit where the measure is a number.
 
     time: s, the instant at which points are lost, None where there is none.

@@ -62,7 +62,7 @@ Gaps = Mapping[str, Any]
 
 @dataclass(frozen=True)
 class Given:
-    """What a test says beside its sentence. each: every pose earns its part of the points; until:
+    """Options of a test beside its sentence. each: every pose earns its part of the points; until:
     where no part of them is left, SI."""
 
     poses: tuple[Pose | Vector, ...] = ()

@@ -61,7 +61,7 @@ def check(
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the report as JSON.")] = False,
 ) -> None:
-    """Say whether a motion is ready for a robot, and why not: limits, collisions, grasps.
+    """Check whether a motion can run on a real robot: limits, collisions, grasps.
 
     The motion goes through the lab's physics headless, faster than real time. Ends with 0: no
     blocking findings, 1: blocking findings, 2: it could not be checked. The same inputs give the

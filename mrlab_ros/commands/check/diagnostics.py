@@ -1,4 +1,4 @@
-"""What `mrlab check` refuses, beside what the check itself finds."""
+"""Diagnostics of `mrlab check`, beside the findings of the check itself."""
 
 from mrlab_ros.core.base.diagnostic import Code
 

@@ -1,4 +1,4 @@
-"""What `mrlab check` does with one file: check, print, write the page.
+"""The work of `mrlab check` for one file: check, print, write the page.
 
 How `mrlab check` reports to a person: verdict, findings, conditions, figures, hash.
 """

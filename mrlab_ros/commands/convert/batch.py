@@ -1,4 +1,4 @@
-"""What `mrlab convert` does: a batch of files, or a message, to results and files.
+"""The work of `mrlab convert`: a batch of files, or a message, to results and files.
 
 Where `mrlab convert` writes files and pictures; what cannot be written ends no batch.
 """

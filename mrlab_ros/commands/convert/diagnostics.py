@@ -1,4 +1,4 @@
-"""What `mrlab convert`, and other commands that take a file, say of their options."""
+"""Diagnostics of the options of `mrlab convert`, and of other commands that take a file."""
 
 from __future__ import annotations
 

@@ -117,7 +117,7 @@ def load(
 
 
 def pause(robot: Name, as_json: AsJson = False) -> None:
-    """Let a robot stand where it is; mrlab resume plays on from there."""
+    """Pause a robot; `mrlab resume` continues."""
     _do(robot, lambda _, found: found.pause(), as_json=as_json)
 
 

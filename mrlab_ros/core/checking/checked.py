@@ -1,4 +1,4 @@
-"""What a check of one file leaves to be marked."""
+"""The record of one file's check, for marking."""
 
 from __future__ import annotations
 

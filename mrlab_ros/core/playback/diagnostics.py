@@ -1,4 +1,4 @@
-"""What a robot's playback says: of its state, and why a command or a goal is refused."""
+"""Diagnostics of a robot's playback: its state, and refusals of commands and goals."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What one robot's playback is at and does: its state, its joint states, its announcements.
+"""The execution of one robot's playback: its state, its joint states, its announcements.
 
 `Playback` and `External` command it: each method fires an event, has the arm do what the new state
 says, and announces it.
@@ -61,7 +61,7 @@ class Execution:
 
     @property
     def moving(self) -> bool:
-        """Whether the arm moves."""
+        """Return whether the arm moves."""
         return self.state in MOVING
 
     @property

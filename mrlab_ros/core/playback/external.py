@@ -102,7 +102,7 @@ class External:
 
     @property
     def is_live(self) -> bool:
-        """Whether a stream of joint commands stands in for a trajectory."""
+        """Return whether a stream of joint commands stands in for a trajectory."""
         trajectory = self._execution.trajectory
         return (
             trajectory is not None

@@ -60,7 +60,7 @@ class WrongGoal(BadInput):
 
 @dataclass(frozen=True)
 class Point:
-    """Where the joints are at `time` (s from the goal's start); rad, rad/s, rad/s^2, or none."""
+    """The joints at `time` (s from the goal's start); rad, rad/s, rad/s^2, or none."""
 
     time: float
     positions: Sequence[float]

@@ -1,4 +1,4 @@
-"""What a playback knows again after its process was restarted, and its journal entry."""
+"""The state of a playback that a restart restores, and its journal entry."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ ROBOTS = "robots"
 
 
 class Kept(NamedTuple):
-    """What a playback knows again after its process was restarted.
+    """State restored after a restart.
 
     position: s on the trajectory. halted: it stood in COLLISION_HALT. begun: it does not stand
     READY for the first frame. arm: (J,) rad, as last sent.

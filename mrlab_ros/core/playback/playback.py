@@ -192,7 +192,7 @@ class Playback(Execution):
         if self.moving:
             if not self.system:
                 raise Misuse(say.NOT_STANDING(state=self.state.name))
-            # The system was restarted, and knows nothing of what its member does.
+            # The restarted system has no record of its member.
             self.halt(now_ns, Event.RELEASED, None)
         self.system = system
         self.announce(say.DRIVEN_BY(system=system))
@@ -208,7 +208,7 @@ class Playback(Execution):
     # reports of physics ---------------------------------------------------------------------
 
     def collide(self, now_ns: int, why: Diagnostic) -> bool:
-        """Take that the arm collides: halt where it is.
+        """Record a collision and halt the arm.
 
         Returns False where the arm did not move anyway; then the state stays.
         """

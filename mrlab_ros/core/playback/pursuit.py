@@ -51,7 +51,7 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Instant:
-    """Where the joints should be and are at one time, (J,) rad and rad/s; elapsed: s."""
+    """The desired and the actual joints at one time, (J,) rad and rad/s; elapsed: s."""
 
     elapsed: float
     desired: Array

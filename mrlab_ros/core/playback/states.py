@@ -24,7 +24,7 @@ class State(Enum):
 
 
 class Event(Enum):
-    """What can happen to a playback. The value is the verb in "cannot <value> in <STATE>"."""
+    """Events of a playback. The value is the verb in "cannot <value> in <STATE>"."""
 
     LOAD = "load"
     UNLOAD = "unload"

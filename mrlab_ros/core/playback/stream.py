@@ -193,12 +193,12 @@ class Stream:
 
     @property
     def begin(self) -> float:
-        """Where a run of the whole trajectory begins, s: backwards at the last frame."""
+        """Return the start of a run of the whole trajectory, s: backwards the last frame."""
         return self._loaded.duration if self.rate < 0 else 0.0
 
     @property
     def end(self) -> float:
-        """Where a run of the whole trajectory ends, s: backwards at the first frame."""
+        """Return the end of a run of the whole trajectory, s: backwards the first frame."""
         return 0.0 if self.rate < 0 else self._loaded.duration
 
     @property
@@ -283,7 +283,7 @@ class Stream:
         return None if self._standing_ns is None else now_ns + self._standing_ns
 
     def _sample_off_trajectory(self, due_ns: int, velocities: Array, now_ns: int) -> Sample:
-        # What is late goes on from the present: joint states off the trajectory are not counted.
+        # A late frame continues from the present: joint states off the trajectory are not counted.
         self.next_ns = max(due_ns, now_ns - self.period_ns) + self.period_ns
         return self._off_trajectory(due_ns, velocities)
 

@@ -21,7 +21,7 @@ class Track:
 
 @dataclass
 class RecordedRobot:
-    """What was recorded of a robot; joints: names in the order of track's values.
+    """The record of a robot; joints: names in the order of track's values.
 
     there: from when to when the scene had it, s, the end None where it was there to the last;
     empty: nothing says.
@@ -38,7 +38,7 @@ class RecordedRobot:
 
 @dataclass
 class RecordedObject:
-    """What was recorded of an object. shape: the fields of SceneObject that are drawn."""
+    """The record of an object. shape: the fields of SceneObject that are drawn."""
 
     shape: dict[str, Any]
     first: float

@@ -18,7 +18,7 @@ MAY_BE_OLD = Code(
     "The process {process} did not run for {frozen:integer} s and this may have been sent before, "
     "so it was not carried out.",
     "Send it again.",
-    meaning="What does not say when it was sent is refused for a moment after a long freeze.",
+    meaning="Requests without a send time are refused for a moment after a long freeze.",
 )
 
 # other labs on the same ROS domain

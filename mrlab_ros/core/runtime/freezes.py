@@ -40,9 +40,9 @@ class Freezes:
         self._from = self._until = -math.inf
 
     def begin(self) -> None:
-        """Let one more watcher look() every LOOK_PERIOD_S, at least, until it calls end().
+        """Register a watcher that calls look() every LOOK_PERIOD_S at least, until it calls end().
 
-        While nobody watches nothing is a freeze.
+        Without a watcher nothing is a freeze.
         """
         self._watchers += 1
 

@@ -1,4 +1,4 @@
-"""What a robot system says: of its state, and why a command, a cell or a wait is refused."""
+"""Diagnostics of a robot system: its state, and refusals of commands, cells and waits."""
 
 from __future__ import annotations
 

@@ -95,7 +95,7 @@ class RobotSystem:
 
     @property
     def active(self) -> bool:
-        """Whether members move, so that time makes something due: then call poll() often."""
+        """Return whether members move, so that time makes something due: call poll() often."""
         return self.state in ACTIVE
 
     @property
@@ -401,7 +401,7 @@ class RobotSystem:
         self.message = playback.CLEAR_AGAIN()
 
     def _lose(self, now_ns: int, member: Member) -> None:
-        """Let all stand where they are: the member has no trajectory, or obeys another."""
+        """Stop all: a member was unloaded or joined another system."""
         known, member.playback_state = member.playback_state, State.IDLE
         member.ordered = False
         if known is State.IDLE or self._machine.ignores(SystemEvent.LOSE):

@@ -26,7 +26,7 @@ class SystemState(Enum):
 
 
 class SystemEvent(Enum):
-    """What can happen to a system. The value is the verb in "cannot <value> in <STATE>"."""
+    """Events of a system. The value is the verb in "cannot <value> in <STATE>"."""
 
     STAGE = "play"
     STAGED = "have all members in place"
@@ -101,7 +101,7 @@ TABLE: Table[SystemState, SystemEvent] = Table(
         (S.READY, E.RETURN_HALTED): S.COLLISION_HALT,
         (S.PAUSED, E.RETURN_HALTED): S.COLLISION_HALT,
     },
-    # What members report in a state that does not wait for it.
+    # Reports of members in a state that does not wait for them.
     ignored={
         E.STAGED: (S.READY, S.PLAYING, S.PAUSED, S.COLLISION_HALT, S.COMPLETE, S.STOPPING),
         E.COLLIDE: (S.READY, S.PAUSED, S.COLLISION_HALT, S.COMPLETE, S.STOPPING),

@@ -63,17 +63,17 @@ class Member:
 
     @property
     def end(self) -> float:
-        """Where its share of the timeline ends, s."""
+        """Return the end of its share of the timeline, s."""
         return self.start + self.duration
 
     @property
     def first(self) -> float:
-        """Where its run begins, s on its trajectory."""
+        """Return the start of its run, s on its trajectory."""
         return self.duration if self.backwards else 0.0
 
     @property
     def last(self) -> float:
-        """Where its run ends, s on its trajectory."""
+        """Return the end of its run, s on its trajectory."""
         return 0.0 if self.backwards else self.duration
 
     @property
@@ -85,7 +85,7 @@ class Member:
 
     @property
     def until(self) -> float | None:
-        """Where on its trajectory the next open wait holds the member, s; None: nowhere."""
+        """Return the place of the member's next open wait, s on its trajectory; None: none."""
         waits = self.open_waits
         return self.wait_position(waits[0]) if waits else None
 
@@ -125,12 +125,12 @@ class Timeline:
 
     @property
     def first(self) -> float:
-        """Where a whole run begins, s."""
+        """Return the start of a whole run, s."""
         return self.duration if self.backwards else 0.0
 
     @property
     def last(self) -> float:
-        """Where a whole run ends, s."""
+        """Return the end of a whole run, s."""
         return 0.0 if self.backwards else self.duration
 
     @property
@@ -145,7 +145,7 @@ class Timeline:
 
     @property
     def complete(self) -> bool:
-        """Whether every member has played to its end."""
+        """Return whether every member has played to its end."""
         return all(member.done for member in self)
 
     def check_waits(self) -> None:
@@ -280,7 +280,7 @@ class Timeline:
                 continue
             waiting_for, first = member.waiting_for, member.open_waits[:1]
             for wait in member.open_waits:
-                # Who holds an object counts only once the member has arrived at the frame.
+                # The holder of an object counts only once the member has arrived at the frame.
                 early = isinstance(wait.condition, Held) and (
                     waiting_for is None or wait.frame != waiting_for.frame
                 )

@@ -1,6 +1,6 @@
 """Presence in the room: a display says where it is; name and role are those of the sign-in.
 
-What people hold in their hands: nobody who goes leaves it hanging in the air.
+Objects held by clients are released when the client leaves.
 """
 
 from __future__ import annotations

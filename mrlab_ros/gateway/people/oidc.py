@@ -79,7 +79,7 @@ class Provider:
     emails: str = field(
         TEXT, "Who may sign in: patterns such as *@uni.example, with spaces; empty: all.", ""
     )
-    role: Role = field(one_of(Role), "What somebody is at first.", Role.STUDENT)
+    role: Role = field(one_of(Role), "Role of a new user.", Role.STUDENT)
 
 
 def read_provider(path: Path) -> Provider:

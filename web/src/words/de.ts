@@ -553,7 +553,7 @@ export const words: Words = {
     refusing: (count) =>
       count === 1 ? '1 Befund spricht dagegen' : `${count} Befunde sprechen dagegen`,
     warnings: (count) => (count === 1 ? '1 Warnung' : `${count} Warnungen`),
-    nothing: 'nichts spricht dagegen',
+    nothing: 'keine Befunde, die dagegen sprechen',
     stale: (what) => `Von einer früheren Szene (${what}). Neu prüfen.`,
     findings: 'Was die Prüfung fand',
     at: (time) => `bei ${time} s`,

@@ -502,9 +502,9 @@ export const en = {
       failed: 'Could not be checked:',
     },
     refusing: (count: number) =>
-      count === 1 ? '1 finding refuses it' : `${count} findings refuse it`,
+      count === 1 ? '1 blocking finding' : `${count} blocking findings`,
     warnings: (count: number) => (count === 1 ? '1 warning' : `${count} warnings`),
-    nothing: 'nothing refuses it',
+    nothing: 'no blocking findings',
     stale: (what: string) => `Of an earlier scene: ${what} since. Check again.`,
     findings: 'What the check found',
     at: (time: string) => `at ${time} s`,

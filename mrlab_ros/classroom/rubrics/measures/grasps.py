@@ -34,7 +34,7 @@ from mrlab_ros.core.checking.checked import Checked
 from mrlab_ros.core.checking.rehearsed import Rehearsed
 from mrlab_ros.core.physics.grasp.states import Grasp
 
-# What moves slower at the end, m/s, is at rest.
+# An object slower than this at the end, m/s, is at rest.
 STANDS = 0.01
 # Between the grasp of one robot and the next in a hand-over, s, nothing is dropped.
 HAND_OVER = 0.15
@@ -193,7 +193,7 @@ def _joined(holds: list[Hold], duration: float) -> list[tuple[float, float]]:
 
 @dataclass(frozen=True)
 class Resting:
-    """Where an object is at the end. position, orientation: m in world; speed: m/s."""
+    """The pose of an object at the end. position, orientation: m in world; speed: m/s."""
 
     values: tuple[float, ...]
     speed: float

@@ -25,7 +25,7 @@ from mrlab_ros.core.checking.checked import Checked
 from mrlab_ros.core.physics.catalogue import ObjectType
 from mrlab_ros.core.scene.surfaces import FLOOR
 
-# What lies on something is so near to its top, m.
+# An object this near to the top of another, m, lies on it.
 ON = 0.015
 
 

@@ -1,4 +1,4 @@
-"""Where a robot comes to stand in a room, before whom, and what it keeps clear of."""
+"""The choice of a place for a robot: floor, viewers, free space."""
 
 from __future__ import annotations
 
