@@ -126,7 +126,8 @@ def honest(robot: str) -> Iterator[Case]:
     degrees = np.degrees(q)
     for key, word in {
         "unit": "deg", "units": "degrees", "Einheit": "Grad", "unidad": "grados",
-        "unite": "degres", "unita": "gradi", "unidade": "graus", "angleUnit": "deg",
+        "unite": "degres", "unita": "gradi", "unita_misura": "gradi",
+        "unidade": "graus", "angleUnit": "deg",
     }.items():  # fmt: skip
         yield case(f"unit_{key}", mat(q=degrees, fs=50.0, **{key: word}))
         yield case(f"meta_{key}", mat(q=degrees, fs=50.0, meta={key: word}))
@@ -217,6 +218,8 @@ def misleading(robot: str) -> Iterator[Case]:
         held = q / factor if factor else 100 * s
         truth = q if factor else None
         yield case(f"unit_{unit}", mat(q=held, fs=50.0, unit=unit), "unit rad turn percent", truth)
+    for unit in ("Nm", "V", "rad/s"):
+        yield case(f"unit_{unit[:3]}", mat(q=s, fs=50.0, unit=unit), "unit")
     yield case("unit_two", mat(q_deg=s, fs=50.0, unit="rad"), "rad")
     back = np.arange(6)[::-1]
     yield case("order_back", mat(q=q[:, ::-1], fs=50.0, joint_order=back + 1.0), "order", q)

@@ -116,7 +116,8 @@ CLASSES = {
         destro destra esquerdo esquerda direito direita l r""",
     Class.UNIT_KEY: """
         unit units einheit einheiten unite unites unidad unidades unita unidade unidades eenheid
-        jednostka jednostki birim danwei tani jednotka единица 单位 単位 measure uom""",
+        jednostka jednostki birim danwei tani jednotka единица 单位 単位 measure uom
+        misura medida mesure messeinheit miary""",
     Class.UNIT_FLAG: "is use uses used in are as flag",
     Class.CLOCK: """
         t time times tout tvec timevector zeit zeiten tiempo tiempos temps tempo tempos tijd

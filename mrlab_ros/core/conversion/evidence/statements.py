@@ -11,7 +11,7 @@ import numpy as np
 from mrlab_ros.core.conversion.evidence import units
 from mrlab_ros.core.conversion.evidence.glossary import Class
 from mrlab_ros.core.conversion.evidence.names import Word, described, leaf, words_in
-from mrlab_ros.core.conversion.evidence.units import Unit
+from mrlab_ros.core.conversion.evidence.units import ANGLES, TIMES, Unit
 from mrlab_ros.core.conversion.workspace import COMMENT, Variable, Workspace
 
 ELEMENT = re.compile(r"[({][^.]*$")
@@ -106,7 +106,7 @@ def unit_claims(said: list[Statement], matrix: str) -> list[UnitClaim]:
 
 
 def unread_units(said: list[Statement], matrix: str) -> list[Statement]:
-    """Return the texts that are called a unit of the matrix and spell none that is known."""
+    """Return the texts that are called a unit of the matrix and spell none of angles."""
     return [
         s
         for s in said
@@ -114,9 +114,14 @@ def unread_units(said: list[Statement], matrix: str) -> list[Statement]:
         and s.near <= 2
         and s.names(Class.UNIT_KEY)
         and _is_ours(s, matrix)
-        and units.parse(s.text) is None
+        and _is_other(units.parse(s.text))
         and not list(_spoken(s.text))
     ]
+
+
+def _is_other(unit: Unit | None) -> bool:
+    """Say whether a unit is none of joint positions, nor that of the times beside them."""
+    return unit is None or unit.quantity not in (ANGLES, TIMES, "rates", "shares", "none")
 
 
 def _units(s: Statement, matrix: str) -> Iterator[tuple[Unit, str]]:
