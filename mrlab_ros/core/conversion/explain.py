@@ -313,6 +313,10 @@ def time_finding(
         fixes = (
             Fix("columns", text, f"q = {name}(:, {text}); t = {name}(:, {clock.index + 1});"),
         )
+        if len(left) == joints == clock.index and (clock.first, clock.last) == (0.0, 1.0):
+            # a gripper that closes evenly looks like a second of time
+            line = f"q = [{name}(:, 1:{joints}) {name}(:, end) > 0.5];"
+            fixes = (Fix("gripper", str(joints + 1), line), *fixes)
         rest: dict[str, Any] = {"columns": text}
     else:
         rest = {"left": len(left), "model": robot.id, "joints": joints}

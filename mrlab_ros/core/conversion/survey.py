@@ -55,11 +55,14 @@ class Survey:
         return name_of(variable, self.workspace.file_format, self.robot)
 
     def ranked(self) -> list[Assessment]:
-        """Return the matrices that could be taken as they are, likeliest first."""
+        """Return the matrices that could be taken as they are, likeliest first.
+
+        Of equal ones those that were measured come before the actions that were asked for.
+        """
         found = [
             a for a in self.fitting if self.columns_asked or not blocking_clocks(a, self.robot)
         ]
-        return sorted(found, key=lambda a: -a.points)
+        return sorted(found, key=lambda a: (-a.points, a.path.startswith("action")))
 
 
 def survey(workspace: Workspace, robot: RobotModel, *, columns_asked: bool = False) -> Survey:

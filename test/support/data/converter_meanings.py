@@ -263,8 +263,9 @@ def misleading(robot: str) -> Iterator[Case]:
     yield case("gripper_first", mat(q=first, fs=50.0), "column gripper", q)
     ramp = np.column_stack([q, np.linspace(0, 1, rows)])
     yield case("gripper_ramp", mat(q=ramp, fs=100.0), "column gripper", q, 100.0)
+    yield case("gripper_ramp_alone", mat(q=ramp), "100", q)
     yield case("milliradians", mat(q=np.round(1000 * q), fs=50.0), "unit", q)
-    yield case("lerobot", mat(action=q, observation={"state": q + 0.002}, fs=50.0), "action", q)
+    yield case("lerobot", mat(action=q + 0.002, observation={"state": q}, fs=50.0), "action", q)
 
 
 def build() -> Iterator[Case]:

@@ -264,6 +264,8 @@ def _describe(path: str) -> Name:
         of_struct = _said_by_struct(first)
         if of_struct is not None and of_struct.what in OF_JOINTS:
             return Name(Hint.DOUBTFUL, of_struct.what)
+    if found.what == "states" and first.startswith("observation."):
+        return Name(Hint.TWO_FACED)  # the joints, measured, where a robot learns
     if found.hint in (Hint.NEUTRAL, Hint.TWO_FACED):
         of_struct = _said_by_struct(first)
         if of_struct is not None:
