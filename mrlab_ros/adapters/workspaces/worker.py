@@ -77,6 +77,7 @@ from mrlab_ros.core.robots.model import Joint, KinematicChain, RobotModel, Segme
 from mrlab_ros.core.trajectory.channels import ProxyCoefficients
 
 MOST_VARIABLES = 50_000
+MOST_DIMENSIONS = 32  # of an array in numpy before 2.0
 MESSAGE_SIZE = 65_536
 # what the index says of a variable beside its numbers
 FACTS = ("note", "columns", "units", "time", "is_object", "label", "text")
@@ -131,7 +132,9 @@ class OutputFile:
 
 def _is_kept(shape: tuple[int, ...]) -> bool:
     """Say whether the numbers of an array are of use: those of a matrix or of transforms."""
-    return len(shape) >= 2 and (is_motion(shape) or (len(shape) == 3 and shape[:2] == (4, 4)))
+    return 2 <= len(shape) <= MOST_DIMENSIONS and (
+        is_motion(shape) or (len(shape) == 3 and shape[:2] == (4, 4))
+    )
 
 
 def inflate(data: memoryview, form: str, limit: int) -> memoryview:

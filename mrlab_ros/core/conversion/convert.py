@@ -305,7 +305,11 @@ def _checked(
     notes += _against_robot(layout, rate, variable.path, robot, notes)
     notes += kinematics_match.findings(workspace, robot)
     found.notes = notes = found.said(dimensions.with_lines(notes, squeezed))
-    if any(n.severity is Severity.ERROR for n in notes):
+    errors = [n for n in notes if n.severity is Severity.ERROR]
+    if errors and all(n.code in questions.ANSWERS for n in errors):
+        asked = (survey.of(variable).candidate(),)
+        return ConversionResult(file, Outcome.AMBIGUOUS, None, asked, _worst_first(notes))
+    if errors:
         return _rejected(file, notes, variable)
     return _Checked(layout, rate, Source(file, variable.path, workspace.sha256))
 

@@ -21,7 +21,7 @@ from mrlab_ros.core.conversion.time_vectors import (
     snapped,
     unit_named,
 )
-from mrlab_ros.core.conversion.workspace import Workspace
+from mrlab_ros.core.conversion.workspace import Workspace, outer
 
 RATE_NAMES = words(
     "fs framerate samplerate samplingrate samplefrequency samplingfrequency samplefreq hz fps "
@@ -183,9 +183,9 @@ def unread(workspace: Workspace, path: str, rows: int, joints: int) -> list[Scal
     """
     found = []
     matrix = first_path(path)
+    within = {outer(matrix), *(outer(v.path) for _, v in statements.nearby(workspace, matrix))}
     for v in workspace.variables:
-        near = v.path != matrix and statements.distance(v.path, matrix) is not None
-        if not near or statements.ELEMENT.search(v.path):
+        if v.path == matrix or statements.ELEMENT.search(v.path) or outer(v.path) not in within:
             continue
         said = described(leaf(v.path))
         if v.text:

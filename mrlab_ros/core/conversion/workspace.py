@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -99,19 +100,33 @@ class Workspace:
         return sum(v.values.size for v in self.variables if v.values is not None)
 
     @cached_property
-    def small(self) -> tuple[Variable, ...]:
-        """The texts and the numbers, at most 64, that may say something of a matrix."""
-        return tuple(
-            v
-            for v in self.variables
-            if v.text or (v.values is not None and v.values.size <= MOST_SMALL)
-        )
+    def small(self) -> dict[str, list[Variable]]:
+        """The texts and the numbers, at most 64, by the struct that they lie in."""
+        found: dict[str, list[Variable]] = {}
+        for v in self.variables:
+            if v.text or (v.values is not None and v.values.size <= MOST_SMALL):
+                found.setdefault(outer(v.path), []).append(v)
+        return found
+
+    @cached_property
+    def structs(self) -> dict[str, list[str]]:
+        """The structs that hold such, but no elements of arrays, by the struct around them."""
+        found: dict[str, list[str]] = {}
+        for path in self.small:
+            if path and path[-1] not in ")}":
+                found.setdefault(outer(path), []).append(path)
+        return found
 
     def scalar(self, variable: Variable) -> float | None:
         """Return the number that `variable` holds where it holds exactly one, else None."""
         if variable.values is None or variable.values.size != 1:
             return None
         return float(np.asarray(variable.values).reshape(-1)[0])
+
+
+def outer(path: str) -> str:
+    """Return the path of the struct that a variable, or an element of one, lies in."""
+    return re.sub(r"\([\d,]+\)$|\{[\d,]+\}$", "", path).rpartition(".")[0]
 
 
 def shortened(names: list[str], most: int = 8) -> list[str]:

@@ -12,7 +12,7 @@ from mrlab_ros.core.conversion.evidence import units
 from mrlab_ros.core.conversion.evidence.glossary import Class
 from mrlab_ros.core.conversion.evidence.names import Word, described, leaf, words_in
 from mrlab_ros.core.conversion.evidence.units import ANGLES, TIMES, Unit
-from mrlab_ros.core.conversion.workspace import COMMENT, Variable, Workspace
+from mrlab_ros.core.conversion.workspace import COMMENT, Variable, Workspace, outer
 
 ELEMENT = re.compile(r"[({][^.]*$")
 # words of a text: letters with the signs of units inside
@@ -24,7 +24,7 @@ OURS = (
     Class.UNIT_KEY, Class.SYMBOL, Class.JOINT, Class.ANGLE, Class.CONFIGURATION, Class.PLACE,
     Class.MOTION, Class.ROLE, Class.KEPT, Class.ABOUT, Class.ARM, Class.UNIT_FLAG,
 )  # fmt: skip
-MOST_TEXTS = 400
+MOST_TEXTS = 2000
 
 
 @dataclass(frozen=True)
@@ -57,44 +57,32 @@ class UnitClaim:
     text: str
 
 
-def distance(path: str, matrix: str) -> int | None:
-    """Return how near a variable stands to a matrix; None where it belongs to something else.
+def nearby(workspace: Workspace, matrix: str) -> list[tuple[int, Variable]]:
+    """Return the texts and small numbers that belong to a matrix, each with how near it stands.
 
     0: an attribute of the matrix. 1: in the same struct. 2: in a struct there that is about the
     rest. 3 and more: the same, farther out.
     """
-    if path.startswith(f"{matrix}."):
-        return 0
-    outer = _outer(path)
-    own = _outer(matrix)
-    steps = 1
+    small = workspace.small
+    found = [(0, v) for v in small.get(matrix, ())]
+    place, steps = outer(matrix), 1
     while True:
-        if outer == own:
-            return steps
-        inside = outer[len(own) + 1 :] if own and outer.startswith(f"{own}.") else outer
-        within = bool(inside) and "." not in inside and (not own or outer.startswith(f"{own}."))
-        if within and any(w.can_be(Class.ABOUT) for w in described(inside)):
-            return steps + 1
-        if not own:
-            return None
-        own = _outer(own)
-        steps += 2
-
-
-def _outer(path: str) -> str:
-    bare = re.sub(r"\([\d,]+\)$|\{[\d,]+\}$", "", path)
-    return bare.rpartition(".")[0]
+        found += [(steps, v) for v in small.get(place, ())]
+        for struct in workspace.structs.get(place, ()):
+            if any(w.can_be(Class.ABOUT) for w in described(struct[len(place) :])):
+                found += [(steps + 1, v) for v in small[struct]]
+        if not place:
+            return found
+        place, steps = outer(place), steps + 2
 
 
 def about(workspace: Workspace, matrix: str) -> list[Statement]:
     """Return the texts and numbers that may be said of a matrix, the nearest first."""
-    found: list[Statement] = []
-    for v in workspace.small:
-        near = distance(v.path, matrix)
-        if near is None or v.path == matrix or len(found) > MOST_TEXTS:
-            continue
-        name = leaf(ELEMENT.sub("", v.path))
-        found.append(Statement(v, near, tuple(described(name))))
+    found = [
+        Statement(v, near, tuple(described(leaf(ELEMENT.sub("", v.path)))))
+        for near, v in nearby(workspace, matrix)[:MOST_TEXTS]
+        if v.path != matrix
+    ]
     found.sort(key=lambda s: s.near)
     return found
 
