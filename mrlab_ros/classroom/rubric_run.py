@@ -94,7 +94,9 @@ def mark(
             print()
         words.marks(file, rubric, shown, found.checked)
     if out is not None and found.played is not None:
-        size = check.write_page(out, found, setting.stage, folder, shown.plain())
+        from mrlab_ros.app.show.check import write_page
+
+        size = write_page(out, found, setting.stage, folder, shown.plain())
         if not as_json:
             print(f"{out} ({size / 1e6:.2f} MB)")
     elif out is not None and not as_json:

@@ -212,7 +212,7 @@ class Warm:
 
     def _pages(self, found: CheckedFile, marks: Marks, title: str, out: Path) -> None:
         """Write the teacher's page, and the student's where it is another one."""
-        from mrlab_ros.commands.check.run import write_page
+        from mrlab_ros.app.show.check import write_page
 
         pages = {PAGE: marks}
         if any(one.hidden for one in marks.tests):

@@ -257,6 +257,17 @@ def test_the_class_is_no_node_and_its_rubrics_and_marks_are_pure() -> None:
     assert found_in(paths, others) == {}
 
 
+def test_only_the_doors_of_the_class_know_the_doors_of_the_lab() -> None:
+    """What checks and marks a submission prints nothing and answers no request."""
+    doors = {"commands", "rubric_run", "run", "words", "routes", "shown"}
+
+    def others(path: Path) -> set[str]:
+        return {name for name in own_imports(path) if layer_of(name) in ("commands", "gateway")}
+
+    paths = [path for path in (PACKAGE / "classroom").rglob("*.py") if path.stem not in doors]
+    assert found_in(paths, others) == {}
+
+
 def test_only_ros_touches_the_insides_of_rclpy() -> None:
     outside = [path for path in SOURCES if "ros" not in path.relative_to(PACKAGE).parts[:1]]
     assert found_in(outside, lambda path: INSIDES.findall(path.read_text())) == {}

@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from mrlab_ros.adapters.robots.library import RobotLibrary, from_library
+from mrlab_ros.app.check.diagnostics import PAGE_NOT_WRITTEN
+from mrlab_ros.app.check.file import CheckedFile
+from mrlab_ros.app.check.stage import Stage
 from mrlab_ros.app.show import ingredients, static
 from mrlab_ros.app.show.packed import packed
 from mrlab_ros.app.show.page import page
 from mrlab_ros.app.show.poster import poster
 from mrlab_ros.app.show.session import SCHEMA, drawn, track_document
 from mrlab_ros.core.base.diagnostic import plain
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.geometry import Array
 from mrlab_ros.core.checking.diagnostics import CLAIM
 from mrlab_ros.core.checking.motion import MotionFigures
@@ -255,6 +259,48 @@ def check_page(
     film = _film(recorded, robots, library) if with_film else []
     body = static.check(document, film)
     return page(report.title, body, document, meshes, ingredients.code(share))
+
+
+def write_page(
+    out: Path,
+    found: CheckedFile,
+    stage: Stage,
+    folder: Path,
+    marks: Mapping[str, Any] | None = None,
+    *,
+    title: str = "",
+    with_film: bool = True,
+) -> int:
+    """Write the page of a file that was rehearsed; return how many characters it has.
+
+    marks: by a rubric, as JSON has them. title: empty: the file's name.
+    with_film: see `check_page`. Raises BadInput where it cannot be written.
+    """
+    assert found.played is not None
+    motions = {m.robot.name: (m.trajectory, m.figures) for m in found.checked.motions}
+    shown = [
+        PlayedRobot(
+            r.name,
+            r.model.id,
+            r.end_effector,
+            stage.library.description(r.model.id, r.end_effector or None),
+            (*r.model.joint_names, *found.played.fingers[r.name]),
+            (*r.pose.position, *r.pose.orientation),
+            *motions.get(r.name, (None, None)),
+        )
+        for r in found.robots
+    ]
+    text = check_page(
+        replace(found.checked.report, title=title or found.checked.report.title),
+        found.checked.document["hash"], found.played.recorded, shown, found.played.objects,
+        stage.library, folder, marks, with_film=with_film,
+    )  # fmt: skip
+    try:
+        out.parent.mkdir(parents=True, exist_ok=True)
+        out.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise BadInput(PAGE_NOT_WRITTEN(file=str(out), why=error.strerror)) from None
+    return len(text)
 
 
 def _film(

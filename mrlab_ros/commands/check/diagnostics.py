@@ -21,7 +21,6 @@ POINTS_NOT_READ = Code(
     "points_not_read",
     "The points in {file} cannot be read: {why:problem}; expected a CSV with x, y, z in m.",
 )
-PAGE_NOT_WRITTEN = Code("page_not_written", "{file} cannot be written: {why:problem}.")
 NO_PAGE = Code(
     "no_page",
     "No page is written: the file holds no motion that could be rehearsed.",

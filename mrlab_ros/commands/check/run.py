@@ -8,7 +8,7 @@ from __future__ import annotations
 import csv
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +24,6 @@ from mrlab_ros.commands import output
 from mrlab_ros.commands.check.diagnostics import (
     FOR_ONE_MOTION,
     NO_PAGE,
-    PAGE_NOT_WRITTEN,
     POINTS_NOT_READ,
     TOO_FAR_TO_MEASURE,
 )
@@ -98,6 +97,8 @@ def _finish(
     else:
         show(report, document, _given(request), request.options)
     if request.out is not None and found.played is not None:
+        from mrlab_ros.app.show.check import write_page  # trimesh is slow to import
+
         size = write_page(request.out, found, setting.stage, folder)
         if not request.as_json:
             print(f"{request.out} ({size / 1e6:.2f} MB)")
@@ -132,50 +133,6 @@ def _given(request: Request) -> list[str]:
     given += ["--tool", request.tool] if request.tool else []
     given += ["--scene", request.scene] if request.scene else []
     return given
-
-
-def write_page(
-    out: Path,
-    found: CheckedFile,
-    stage: Stage,
-    folder: Path,
-    marks: Mapping[str, Any] | None = None,
-    *,
-    title: str = "",
-    with_film: bool = True,
-) -> int:
-    """Write the page of a file that was rehearsed; return how many characters it has.
-
-    marks: by a rubric, as JSON has them. title: empty: the file's name.
-    with_film: see `check_page`. Raises BadInput where it cannot be written.
-    """
-    from mrlab_ros.app.show.check import PlayedRobot, check_page
-
-    assert found.played is not None
-    motions = {m.robot.name: (m.trajectory, m.figures) for m in found.checked.motions}
-    shown = [
-        PlayedRobot(
-            r.name,
-            r.model.id,
-            r.end_effector,
-            stage.library.description(r.model.id, r.end_effector or None),
-            (*r.model.joint_names, *found.played.fingers[r.name]),
-            (*r.pose.position, *r.pose.orientation),
-            *motions.get(r.name, (None, None)),
-        )
-        for r in found.robots
-    ]
-    text = check_page(
-        replace(found.checked.report, title=title or found.checked.report.title),
-        found.checked.document["hash"], found.played.recorded, shown, found.played.objects,
-        stage.library, folder, marks, with_film=with_film,
-    )  # fmt: skip
-    try:
-        out.parent.mkdir(parents=True, exist_ok=True)
-        out.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise BadInput(PAGE_NOT_WRITTEN(file=str(out), why=error.strerror)) from None
-    return len(text)
 
 
 MARKS = {State.OK: "ok", State.NOT: "NOT", State.UNKNOWN: "unknown"}
