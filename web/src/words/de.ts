@@ -2205,6 +2205,53 @@ export const diagnostics: Templates = {
     '{node}: Einen solchen Knoten gibt es im Labor nicht; erwartet wird einer von {nodes:list}, oder /** für alle.',
     "[Meinst du '{close}'?]",
   ],
+  cell_for_one_robot: [
+    '{file} ist eine Zelle mehrerer Roboter, und die Rubrik ist für einen {robot}; lass robot: in einer Rubrik für Zellen weg.',
+  ],
+  example_not_read: ['{file} ist nicht lesbar: {why:problem}.'],
+  grader_not_started: ['Der Prozess, der prüft, ist nicht gestartet.'],
+  key_table_not_read: [
+    'Die Schlüsseltabelle {file} ist nicht lesbar ({why:problem}); ohne sie würden sich die Pseudonyme ändern.',
+    'Repariere sie, oder verschiebe sie, um neue zu bekommen.',
+  ],
+  key_table_not_written: [
+    'Die Schlüsseltabelle {file} kann nicht geschrieben werden: {why:problem}.',
+  ],
+  no_file: ['Es gibt keine Datei.'],
+  no_robot_in_rubric: [
+    "'{file}' sagt nicht, für welchen Roboter sie ist; nenne einen in der Rubrik: robot: ur5e",
+  ],
+  no_submissions: [
+    '{file} enthält keine Abgabe; erwartet wird ein Export von Moodle, ILIAS, Canvas oder Gradescope, oder ein Ordner oder eine Datei für jede Person.',
+  ],
+  of_reference: ['{rubric}: Referenz: {why:problem}.'],
+  of_rubric: ['{rubric}: {why:problem}.'],
+  option_out_of_range: [
+    '--{option} ist {value:number}; erwartet wird {least:number} bis {most:number}.',
+  ],
+  processes_killed: [
+    'Prozesse, die prüfen, wurden {count:integer}-mal beendet; vielleicht reicht der Speicher nicht.',
+    'Fertiges bleibt erhalten: Starte denselben Befehl noch einmal mit weniger Prozessen.',
+  ],
+  reference_is_cell: [
+    '{rubric}: Die Referenz {file} ist eine Zelle; eine Klasse wird mit einer Bewegung verglichen.',
+    'Lass die Referenz weg, oder nenne eine Datei mit einer Bewegung.',
+  ],
+  reference_not_marked: [
+    '{rubric}: Die Referenz {file} kann nicht bewertet werden[: {why:problem}].',
+  ],
+  reference_not_read: ['{rubric}: Die Referenz {file} ist nicht lesbar: {why:problem}.'],
+  robot_not_said: [
+    "'{file}' sagt nicht, für welchen Roboter sie ist, und die Rubrik auch nicht; ergänze robot: ur5e in der Rubrik, oder bewerte eine Zelle (.yaml).",
+  ],
+  stopped_class: [
+    'Abgebrochen: {done:integer} von {all:integer} sind geprüft und bleiben erhalten.',
+    'Starte denselben Befehl noch einmal, um fortzufahren.',
+  ],
+  worksheet_failed: [
+    '{file} ist nicht lesbar, oder {out} kann nicht geschrieben werden: {why:problem}.',
+  ],
+  worksheet_written: ['Die Bewertungstabelle ist {file}.'],
   no_number: ['sie ist {found:problem}, wo eine reelle Zahl erwartet wird'],
   no_numbers: ['sie enthält keine Zeile mit Zahlen'],
   no_object_checked: ['In dem, was geprüft wurde, gibt es keinen Gegenstand {object}.'],
