@@ -14,12 +14,10 @@ from numpy.typing import NDArray
 from mrlab_ros.core.base.diagnostic import MATLAB_PATH, Diagnostic, Fix, Severity
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.conversion import (
-    datevec,
     dimensions,
     discovery,
     fixes,
     frame_rate,
-    joining,
     kinematics_match,
     left_out_columns,
     limits,
@@ -27,7 +25,6 @@ from mrlab_ros.core.conversion import (
     rate_findings,
     resampling,
 )
-from mrlab_ros.core.conversion.assessment import Assessment
 from mrlab_ros.core.conversion.candidates import Candidate
 from mrlab_ros.core.conversion.diagnostics import (
     BAD_MESSAGE,
@@ -43,16 +40,17 @@ from mrlab_ros.core.conversion.diagnostics import (
     TRAJECTORY_TAKEN,
     WAYPOINTS,
 )
-from mrlab_ros.core.conversion.evidence import values
+from mrlab_ros.core.conversion.evidence import datevec, joining, values
+from mrlab_ros.core.conversion.evidence.assessment import Assessment
+from mrlab_ros.core.conversion.evidence.headings import split_tables
+from mrlab_ros.core.conversion.evidence.measuring import fits, is_coarse
+from mrlab_ros.core.conversion.evidence.stated import with_headings, with_statements
+from mrlab_ros.core.conversion.evidence.survey import Survey, survey
 from mrlab_ros.core.conversion.explain import contents
-from mrlab_ros.core.conversion.headings import split_tables
 from mrlab_ros.core.conversion.layout import Layout, lay_out
-from mrlab_ros.core.conversion.measuring import fits, is_coarse
 from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE, MOST_ROWS, Options
 from mrlab_ros.core.conversion.picking import Chosen, pick, reshaped
 from mrlab_ros.core.conversion.preview import Preview, preview
-from mrlab_ros.core.conversion.stated import with_headings, with_statements
-from mrlab_ros.core.conversion.survey import Survey, survey
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory import channels

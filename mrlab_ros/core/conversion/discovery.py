@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
 from mrlab_ros.core.base.errors import BadInput
-from mrlab_ros.core.conversion import joining
-from mrlab_ros.core.conversion.assessment import Assessment
 from mrlab_ros.core.conversion.diagnostics import (
     AMBIGUOUS,
     COPIES,
@@ -18,7 +16,11 @@ from mrlab_ros.core.conversion.diagnostics import (
     TWIN,
     UNKNOWN_VARIABLE,
 )
+from mrlab_ros.core.conversion.evidence import joining
+from mrlab_ros.core.conversion.evidence.assessment import Assessment
 from mrlab_ros.core.conversion.evidence.names import Hint
+from mrlab_ros.core.conversion.evidence.scoring import FEW_ROWS
+from mrlab_ros.core.conversion.evidence.survey import Survey
 from mrlab_ros.core.conversion.explain import (
     contents,
     described,
@@ -27,8 +29,6 @@ from mrlab_ros.core.conversion.explain import (
     refusal,
     saving,
 )
-from mrlab_ros.core.conversion.scoring import FEW_ROWS
-from mrlab_ros.core.conversion.survey import Survey
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 
 # A score from which a matrix is taken or offered, and below which it is not even offered.

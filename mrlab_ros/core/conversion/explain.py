@@ -8,11 +8,6 @@ from typing import Any
 import numpy as np
 
 from mrlab_ros.core.base.diagnostic import MATLAB_PATH, Code, Diagnostic, Fix
-from mrlab_ros.core.conversion import relations
-from mrlab_ros.core.conversion.assessment import Assessment, blocking_clocks
-from mrlab_ros.core.conversion.cartesian import is_transforms
-from mrlab_ros.core.conversion.clock_columns import ClockColumn, clocks_among
-from mrlab_ros.core.conversion.datevec import is_datevec
 from mrlab_ros.core.conversion.diagnostics import (
     BAD_MESSAGE,
     CANDIDATE,
@@ -34,13 +29,18 @@ from mrlab_ros.core.conversion.diagnostics import (
     WRONG_SHAPE,
 )
 from mrlab_ros.core.conversion.dimensions import page_line
+from mrlab_ros.core.conversion.evidence import relations
+from mrlab_ros.core.conversion.evidence.assessment import Assessment, blocking_clocks
+from mrlab_ros.core.conversion.evidence.cartesian import is_transforms
+from mrlab_ros.core.conversion.evidence.clock_columns import ClockColumn, clocks_among
+from mrlab_ros.core.conversion.evidence.datevec import is_datevec
+from mrlab_ros.core.conversion.evidence.joining import Series, series, unequal, unequal_series
 from mrlab_ros.core.conversion.evidence.names import Hint
+from mrlab_ros.core.conversion.evidence.scoring import FEW_ROWS
+from mrlab_ros.core.conversion.evidence.survey import Survey
 from mrlab_ros.core.conversion.gripper import has_states
-from mrlab_ros.core.conversion.joining import Series, series, unequal, unequal_series
 from mrlab_ros.core.conversion.named_columns import misnamed
 from mrlab_ros.core.conversion.options import columns_text
-from mrlab_ros.core.conversion.scoring import FEW_ROWS
-from mrlab_ros.core.conversion.survey import Survey
 from mrlab_ros.core.conversion.workspace import (
     ATTRIBUTE,
     COMMENT,

@@ -14,8 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.conversion import rate_findings, rate_scalars
-from mrlab_ros.core.conversion.assessment import Assessment
+from mrlab_ros.core.conversion import rate_findings
 from mrlab_ros.core.conversion.diagnostics import (
     RATE_DEFAULT,
     RATE_FOUND,
@@ -23,11 +22,13 @@ from mrlab_ros.core.conversion.diagnostics import (
     RATE_UNCLEAR,
     TIME_UNIT,
 )
+from mrlab_ros.core.conversion.evidence import rate_scalars
+from mrlab_ros.core.conversion.evidence.assessment import Assessment
+from mrlab_ros.core.conversion.evidence.joining import first_path
 from mrlab_ros.core.conversion.evidence.names import Hint, hint, leaf, parts, words
-from mrlab_ros.core.conversion.joining import first_path
-from mrlab_ros.core.conversion.rate_scalars import Scalar
-from mrlab_ros.core.conversion.survey import Survey
-from mrlab_ros.core.conversion.time_vectors import (
+from mrlab_ros.core.conversion.evidence.rate_scalars import Scalar
+from mrlab_ros.core.conversion.evidence.survey import Survey
+from mrlab_ros.core.conversion.evidence.time_vectors import (
     PATH_PARAMETERS,
     Clock,
     clock_of,

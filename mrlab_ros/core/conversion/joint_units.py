@@ -9,8 +9,6 @@ import numpy as np
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
 from mrlab_ros.core.base.errors import BadInput
-from mrlab_ros.core.conversion import units
-from mrlab_ros.core.conversion.assessment import Assessment
 from mrlab_ros.core.conversion.diagnostics import (
     ALL_JOINTS_TURN,
     BAD_OPTION,
@@ -33,10 +31,12 @@ from mrlab_ros.core.conversion.diagnostics import (
     UNWRAP_APPLIED,
 )
 from mrlab_ros.core.conversion.evidence import statements
+from mrlab_ros.core.conversion.evidence import unit_range as units
+from mrlab_ros.core.conversion.evidence.assessment import Assessment
+from mrlab_ros.core.conversion.evidence.joining import first_path
+from mrlab_ros.core.conversion.evidence.labels import said_by_units
 from mrlab_ros.core.conversion.evidence.statements import Statement, UnitClaim
 from mrlab_ros.core.conversion.explain import matlab_name
-from mrlab_ros.core.conversion.joining import first_path
-from mrlab_ros.core.conversion.labels import said_by_units
 from mrlab_ros.core.conversion.options import Options, columns_text
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.trajectory import Array

@@ -12,7 +12,6 @@ from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.conversion import gripper as grippers
 from mrlab_ros.core.conversion import limits as conversion_limits
-from mrlab_ros.core.conversion.assessment import Assessment, blocking_clocks
 from mrlab_ros.core.conversion.diagnostics import (
     COLUMNS_APPLIED,
     DOUBTFUL_VALUES,
@@ -31,7 +30,11 @@ from mrlab_ros.core.conversion.diagnostics import (
     TRANSPOSE_APPLIED,
 )
 from mrlab_ros.core.conversion.evidence import statements
+from mrlab_ros.core.conversion.evidence.assessment import Assessment, blocking_clocks
+from mrlab_ros.core.conversion.evidence.joining import first_path, rows_of
+from mrlab_ros.core.conversion.evidence.measuring import fits
 from mrlab_ros.core.conversion.evidence.names import parts, words
+from mrlab_ros.core.conversion.evidence.survey import Survey
 from mrlab_ros.core.conversion.explain import (
     clocks_of,
     matlab_name,
@@ -39,13 +42,10 @@ from mrlab_ros.core.conversion.explain import (
     time_finding,
     wrong_shape,
 )
-from mrlab_ros.core.conversion.joining import first_path, rows_of
 from mrlab_ros.core.conversion.joint_units import in_radians
-from mrlab_ros.core.conversion.measuring import fits
 from mrlab_ros.core.conversion.named_columns import names_joints, order
 from mrlab_ros.core.conversion.options import NO_GRIPPER, Options
 from mrlab_ros.core.conversion.picking import Chosen
-from mrlab_ros.core.conversion.survey import Survey
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.trajectory import Array

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.conversion import cartesian, relations
 from mrlab_ros.core.conversion.diagnostics import (
     DOUBTFUL_VALUES,
     VELOCITIES_OF,
     WHOLE_LIKE_POSES,
 )
+from mrlab_ros.core.conversion.evidence import cartesian, relations
 from mrlab_ros.core.conversion.picking import Chosen
 from mrlab_ros.core.robots.model import RobotModel
 

@@ -19,7 +19,7 @@ from mrlab_ros.core.conversion.diagnostics import (
     NON_FINITE,
     VELOCITY_LIMIT,
 )
-from mrlab_ros.core.conversion.joining import rows_of
+from mrlab_ros.core.conversion.evidence.joining import rows_of
 from mrlab_ros.core.conversion.options import LEAST_RATE
 from mrlab_ros.core.robots.model import Joint
 

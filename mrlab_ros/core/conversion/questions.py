@@ -15,10 +15,10 @@ from mrlab_ros.core.conversion.diagnostics import (
     UNUSED_BESIDE,
 )
 from mrlab_ros.core.conversion.evidence import beside, statements
+from mrlab_ros.core.conversion.evidence.joining import first_path
 from mrlab_ros.core.conversion.evidence.names import Name, described, leaf
 from mrlab_ros.core.conversion.evidence.statements import Statement
 from mrlab_ros.core.conversion.explain import saving
-from mrlab_ros.core.conversion.joining import first_path
 from mrlab_ros.core.conversion.options import Options, columns_text
 from mrlab_ros.core.conversion.workspace import Variable, Workspace, shortened
 from mrlab_ros.core.robots.model import RobotModel

@@ -29,8 +29,8 @@ from mrlab_ros.core.conversion.diagnostics import (
     VALUES_OF,
 )
 from mrlab_ros.core.conversion.evidence.names import leaf, parts
-from mrlab_ros.core.conversion.rate_scalars import RATE_NAMES, STEP_NAMES, scalar_name
-from mrlab_ros.core.conversion.time_vectors import (
+from mrlab_ros.core.conversion.evidence.rate_scalars import RATE_NAMES, STEP_NAMES, scalar_name
+from mrlab_ros.core.conversion.evidence.time_vectors import (
     NAMED_SECONDS,
     Clock,
     clock_of,

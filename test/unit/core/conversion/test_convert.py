@@ -13,8 +13,8 @@ from mrlab_ros.adapters.workspaces.diagnostics import READERS_DISAGREE, UNREADAB
 from mrlab_ros.core.base.diagnostic import Severity
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.conversion import convert as conversion_convert
-from mrlab_ros.core.conversion import joining
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome, id_from
+from mrlab_ros.core.conversion.evidence import joining
 from mrlab_ros.core.conversion.options import Options, parse_columns
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 

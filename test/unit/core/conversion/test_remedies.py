@@ -8,8 +8,8 @@ from refusals import said_in
 
 from mrlab_ros.adapters.trajectories.files import load_coefficients
 from mrlab_ros.core.conversion import convert as conversion_convert
-from mrlab_ros.core.conversion import joining
 from mrlab_ros.core.conversion.convert import Outcome
+from mrlab_ros.core.conversion.evidence import joining
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 

@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mrlab_ros.core.conversion import cartesian, relations, units
-from mrlab_ros.core.conversion.assessment import Assessment
-from mrlab_ros.core.conversion.clock_columns import clocks_among
+from mrlab_ros.core.conversion.evidence import cartesian, relations
+from mrlab_ros.core.conversion.evidence import unit_range as units
+from mrlab_ros.core.conversion.evidence.assessment import Assessment
+from mrlab_ros.core.conversion.evidence.clock_columns import clocks_among
 from mrlab_ros.core.conversion.evidence.names import Name
 from mrlab_ros.core.conversion.evidence.units import DEGREES
 from mrlab_ros.core.conversion.gripper import has_states, is_ramp

@@ -12,7 +12,7 @@ from mrlab_ros.core.conversion.convert import Outcome
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 
-COEFFICIENTS = load_coefficients(Path(__file__).parents[4] / "config" / "torque_proxy.yaml")
+COEFFICIENTS = load_coefficients(Path(__file__).parents[5] / "config" / "torque_proxy.yaml")
 ARM = make_model(6)
 U = np.linspace(0, 1, 300)[:, None]
 Q = (10 * U**3 - 15 * U**4 + 6 * U**5) * np.linspace(0.2, 1.0, 6) - 0.3

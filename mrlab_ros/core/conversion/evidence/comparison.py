@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mrlab_ros.core.conversion import cartesian, relations
-from mrlab_ros.core.conversion.assessment import Assessment
+from mrlab_ros.core.conversion.evidence import cartesian, relations
+from mrlab_ros.core.conversion.evidence.assessment import Assessment
 from mrlab_ros.core.conversion.evidence.names import Hint, describe, leaf, parts, words
-from mrlab_ros.core.conversion.scoring import FEW_ROWS, NAME_SCORES
+from mrlab_ros.core.conversion.evidence.scoring import FEW_ROWS, NAME_SCORES
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 from mrlab_ros.core.robots.model import RobotModel
 

@@ -9,13 +9,13 @@ from numpy.typing import NDArray
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.conversion.candidates import Candidate
-from mrlab_ros.core.conversion.cartesian import PoseEvidence
-from mrlab_ros.core.conversion.clock_columns import ClockColumn
+from mrlab_ros.core.conversion.evidence.cartesian import PoseEvidence
+from mrlab_ros.core.conversion.evidence.clock_columns import ClockColumn
 from mrlab_ros.core.conversion.evidence.names import Name
+from mrlab_ros.core.conversion.evidence.relations import PoseMatch
+from mrlab_ros.core.conversion.evidence.unit_range import UnitEvidence
 from mrlab_ros.core.conversion.gripper import has_states
 from mrlab_ros.core.conversion.preview import preview
-from mrlab_ros.core.conversion.relations import PoseMatch
-from mrlab_ros.core.conversion.units import UnitEvidence
 from mrlab_ros.core.conversion.workspace import Variable
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.trajectory import Array

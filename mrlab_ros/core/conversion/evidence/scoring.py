@@ -6,7 +6,6 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.conversion.assessment import Assessment, blocking_clocks
 from mrlab_ros.core.conversion.diagnostics import (
     DERIVATIVE_OF,
     FEW_ROWS_ONLY,
@@ -18,8 +17,9 @@ from mrlab_ros.core.conversion.diagnostics import (
     TOOL_OF,
     TOOL_PATH,
 )
+from mrlab_ros.core.conversion.evidence.assessment import Assessment, blocking_clocks
+from mrlab_ros.core.conversion.evidence.labels import said_by_units
 from mrlab_ros.core.conversion.evidence.names import Hint
-from mrlab_ros.core.conversion.labels import said_by_units
 from mrlab_ros.core.robots.model import RobotModel
 
 NAME_SCORES = {

@@ -6,18 +6,17 @@ import re
 from collections import Counter
 from dataclasses import replace
 
-from mrlab_ros.core.conversion import joining
-from mrlab_ros.core.conversion.evidence import statements, units
+from mrlab_ros.core.conversion.evidence import joining, statements, units
 from mrlab_ros.core.conversion.evidence.beside import (
     NamesClaim,
     names_claims,
     order_of_names,
     order_vectors,
 )
+from mrlab_ros.core.conversion.evidence.headings import MOST_HEADINGS, plain
 from mrlab_ros.core.conversion.evidence.names import Hint, describe
-from mrlab_ros.core.conversion.headings import MOST_HEADINGS, plain
+from mrlab_ros.core.conversion.evidence.time_vectors import is_time_name
 from mrlab_ros.core.conversion.named_columns import GRIPPER, names_joints
-from mrlab_ros.core.conversion.time_vectors import is_time_name
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 from mrlab_ros.core.robots.model import RobotModel
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.conversion.diagnostics import CLOCK
-from mrlab_ros.core.conversion.time_vectors import (
+from mrlab_ros.core.conversion.evidence.time_vectors import (
     counts_rows,
     is_even,
     is_irregular,

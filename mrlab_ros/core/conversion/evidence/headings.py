@@ -9,8 +9,8 @@ from dataclasses import dataclass, replace
 
 from mrlab_ros.core.conversion.evidence import units
 from mrlab_ros.core.conversion.evidence.names import Hint, Name, describe, without_units
+from mrlab_ros.core.conversion.evidence.time_vectors import is_time_name
 from mrlab_ros.core.conversion.named_columns import names_joints
-from mrlab_ros.core.conversion.time_vectors import is_time_name
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 from mrlab_ros.core.robots.model import RobotModel
 

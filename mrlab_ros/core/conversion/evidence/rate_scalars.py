@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from mrlab_ros.core.conversion.evidence import statements
 from mrlab_ros.core.conversion.evidence.glossary import Class
+from mrlab_ros.core.conversion.evidence.joining import first_path
 from mrlab_ros.core.conversion.evidence.names import described, leaf, parts, words
-from mrlab_ros.core.conversion.joining import first_path
-from mrlab_ros.core.conversion.time_vectors import (
+from mrlab_ros.core.conversion.evidence.time_vectors import (
     LEAST_RATE,
     MOST_RATE,
     PATH_PARAMETERS,

@@ -6,8 +6,8 @@ import re
 from dataclasses import replace
 
 from mrlab_ros.core.conversion.evidence import units
+from mrlab_ros.core.conversion.evidence.headings import describe_table
 from mrlab_ros.core.conversion.evidence.names import Hint, Name, describe
-from mrlab_ros.core.conversion.headings import describe_table
 from mrlab_ros.core.conversion.named_columns import names_joints
 from mrlab_ros.core.conversion.workspace import Variable
 from mrlab_ros.core.robots.model import RobotModel

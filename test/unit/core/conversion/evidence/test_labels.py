@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from fakes import make_model
 
+from mrlab_ros.core.conversion.evidence.labels import name_of
 from mrlab_ros.core.conversion.evidence.names import Hint
-from mrlab_ros.core.conversion.labels import name_of
 from mrlab_ros.core.conversion.workspace import Variable
 
 VALUES = np.zeros((20, 6))

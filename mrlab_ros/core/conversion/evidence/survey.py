@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from mrlab_ros.core.conversion.assessment import Assessment, blocking_clocks
-from mrlab_ros.core.conversion.clock_columns import time_vectors
-from mrlab_ros.core.conversion.comparison import relate
+from mrlab_ros.core.conversion.evidence.assessment import Assessment, blocking_clocks
+from mrlab_ros.core.conversion.evidence.clock_columns import time_vectors
+from mrlab_ros.core.conversion.evidence.comparison import relate
+from mrlab_ros.core.conversion.evidence.labels import name_of
+from mrlab_ros.core.conversion.evidence.measuring import fits, measured
 from mrlab_ros.core.conversion.evidence.names import Name
-from mrlab_ros.core.conversion.labels import name_of
-from mrlab_ros.core.conversion.measuring import fits, measured
-from mrlab_ros.core.conversion.rate_scalars import sure_rates
-from mrlab_ros.core.conversion.scoring import judged
+from mrlab_ros.core.conversion.evidence.rate_scalars import sure_rates
+from mrlab_ros.core.conversion.evidence.scoring import judged
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 from mrlab_ros.core.robots.model import RobotModel
 
