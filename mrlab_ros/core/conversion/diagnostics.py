@@ -714,11 +714,12 @@ MOTOR_SIDE = Code(
 )
 UNUSED_BESIDE = Code(
     "unused_beside",
-    "{found:list} {count:choice one=holds|more=hold} one number a joint, and {unread:list} was "
-    "not understood: '{variable}' was taken as it is.",
+    "{found:list} {count:choice one=holds one number a joint|more=hold one number a joint|"
+    "factor=may be a factor of it}[, and {unread:list} was not understood]: '{variable}' was "
+    "taken as it is.",
     "If they are offsets, signs or factors of the joints, apply them and save the result as q.",
     severity=WARNING,
-    meaning="Vectors of one number a joint were not used, such as offsets or signs.",
+    meaning="Numbers beside a matrix were not used, such as offsets, signs or factors.",
     fixes=(("", "", "plot({name:matlab})"),),
 )
 NO_MOTION = Code(

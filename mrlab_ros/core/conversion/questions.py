@@ -53,6 +53,10 @@ def asked(
                 unread=shortened([f"'{word}'" for word in dict.fromkeys(unread)]),
             )
         )
+    numbers = beside.factors(said)
+    if numbers:
+        named = shortened([v.path for v in numbers])
+        found.append(UNUSED_BESIDE(variable=variable.path, found=named, count="factor", unread=[]))
     if options.variable:
         return [_answered(d) for d in found]
     return found

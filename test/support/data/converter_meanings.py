@@ -236,6 +236,9 @@ def misleading(robot: str) -> Iterator[Case]:
     yield case("names_human", mat(armAngles=s, fs=50.0, names=human), "names joints")
     yield case("motor_q", mat(q_motor=s, fs=50.0), "motor")
     yield case("motor_gear", mat(q=s, fs=50.0, gear_ratio=np.array([100.0] * 6)), "gear motor")
+    for name, number in {"scale": 0.001, "q_factor": 57.3, "scaling": 2.0}.items():
+        yield case(f"factor_{name}", mat(q=s, fs=50.0, **{name: number}), "factor")
+    yield case("robot_series", mat(q=q, fs=50.0, model="iiwa14"), "robot")
     rng = np.random.default_rng(5)
     low = np.array([j.lower for j in model(robot).joints])
     high = np.array([j.upper for j in model(robot).joints])

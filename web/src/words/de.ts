@@ -3678,7 +3678,7 @@ export const diagnostics: Templates = {
     'Sichere in MATLAB die Zahlen daraus.',
   ],
   unused_beside: [
-    "{found:list} {count:choice one=enthält|more=enthalten} eine Zahl je Gelenk, und {unread:list} ist unbekannt: '{variable}' wurde so genommen, wie sie ist.",
+    "{found:list} {count:choice one=enthält eine Zahl je Gelenk|more=enthalten eine Zahl je Gelenk|factor=kann ein Faktor davon sein}[, und {unread:list} ist unbekannt]: '{variable}' wurde so genommen, wie sie ist.",
     'Sind es Nullpunkte, Vorzeichen oder Faktoren der Gelenke, wende sie an und speichere das Ergebnis als q.',
   ],
   unwrap_applied: ["Wie gewünscht wurden die Sprünge um 2*pi in '{variable}' entfernt."],

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import itertools
 import re
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from mrlab_ros.core.conversion.evidence.glossary import ROBOTS, Class
 from mrlab_ros.core.conversion.evidence.names import described, leaf, spelled
-from mrlab_ros.core.conversion.evidence.statements import ELEMENT, Statement
+from mrlab_ros.core.conversion.evidence.statements import ELEMENT, OURS, Statement
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 from mrlab_ros.core.robots.model import RobotModel
 
@@ -150,8 +150,8 @@ def robot_claims(workspace: Workspace, robot: RobotModel) -> list[RobotClaim]:
             continue
         tokens = [t for t in re.split(r"[\W_]+", spelled(v.text)) if t]
         pairs = [a + b for a, b in itertools.pairwise(tokens)]
-        said = [t for t in dict.fromkeys((*tokens, *pairs)) if t in known]
-        makers = {known[t] for t in said}
+        said = [t for t in dict.fromkeys((*tokens, *pairs)) if _series(t, known)]
+        makers = {known[_series(t, known)] for t in said}
         keyed = any(
             w.can_be(Class.ARM) or w.text in ("model", "modell") for w in described(leaf(v.path))
         )
@@ -167,6 +167,14 @@ def robot_claims(workspace: Workspace, robot: RobotModel) -> list[RobotClaim]:
     return found
 
 
+def _series(word: str, known: Collection[str]) -> str:
+    """Return the word of a robot that is known: itself, or the series of one such as iiwa14."""
+    series = word.rstrip("0123456789")
+    if word in known:
+        return word
+    return series if len(series) > 2 and series in known else ""
+
+
 def gears(said: list[Statement], joints: int) -> Statement | None:
     """Return the gear ratios beside a matrix, or None."""
     for s in said:
@@ -179,6 +187,20 @@ def gears(said: list[Statement], joints: int) -> Statement | None:
         if np.isfinite(numbers).all() and float(numbers.max()) > 1:
             return s
     return None
+
+
+def factors(said: list[Statement]) -> list[Variable]:
+    """Return numbers other than 1 that are called a factor, of nothing else than the joints."""
+    return [
+        s.variable
+        for s in said
+        if s.near <= 2
+        and s.variable.values is not None
+        and s.variable.values.size == 1
+        and float(s.variable.values.reshape(-1)[0]) not in (0.0, 1.0)
+        and s.names(Class.FACTOR)
+        and all(w.can_be(Class.FACTOR, *OURS) for w in s.words)
+    ]
 
 
 def unused_vectors(said: list[Statement], joints: int) -> list[Variable]:

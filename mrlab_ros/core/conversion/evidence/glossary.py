@@ -34,6 +34,7 @@ class Class(Enum):
     ORDER = "order"
     NAMES = "names"
     GEAR = "gear"
+    FACTOR = "factor"  # what numbers may have to be multiplied by
     MOTOR = "motor"
     GRIPPER = "gripper"
     TABLE = "table"  # what a number beside the matrix may be: mass, seed, count
@@ -149,6 +150,9 @@ CLASSES = {
     Class.NAMES: """
         name names namen nom noms nombre nombres nome nomi nomes label labels heading headings
         header headers titles columns columnas colonnes beschriftung legend legende""",
+    Class.FACTOR: """
+        scale scaling factor factors faktor faktoren facteur facteurs fattore fator escala echelle
+        skala skalierung massstab multiplier multiplikator scalefactor""",
     Class.GEAR: """
         gear gears gearratio gearing getriebe getriebeuebersetzung uebersetzung uebersetzungen
         reduction reducteur reduccion riduzione reducao ratio untersetzung transmission ng""",
