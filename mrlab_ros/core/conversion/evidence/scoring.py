@@ -50,6 +50,7 @@ def judged(a: Assessment, robot: RobotModel) -> Assessment:
         reasons.append(a.name.why)
     if not a.finite:
         reasons.append(SEEN(what="not_finite"))
+        points -= 0.0 if a.by_name or hint.of_joints else 0.3
         return replace(a, points=points, reasons=tuple(reasons))
     if a.fits:
         points += _judge_range(a, reasons)

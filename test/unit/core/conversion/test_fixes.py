@@ -57,6 +57,7 @@ T = np.arange(300) / 50.0
         ([var(f"q{i + 1}", Q[:, i]) for i in range(6)], {}, ("join", "q1..q6")),
         ([var(f"s(1).j{i + 1}", Q[:, i]) for i in range(6)], {}, ("join", "s(1).j1..s(1).j6")),
         ([var("qd", Q)], {}, ("variable", "qd")),
+        ([var("A", np.full((300, 6), np.nan)), var("B", Q)], {}, ("variable", "B")),
         ([var("q1", Q), var("q2", Q + 0.5)], {}, ("variable", "q1")),
         ([var("q", Q)], {"frame_rate": 1e-9}, ("frame_rate", "0")),
         ([var("q", Q)], {"columns": "2:7"}, ("columns", "")),
