@@ -2251,6 +2251,7 @@ export const diagnostics: Templates = {
   worksheet_failed: [
     '{file} ist nicht lesbar, oder {out} kann nicht geschrieben werden: {why:problem}.',
   ],
+  page_not_written: ['{file} kann nicht geschrieben werden: {why:problem}.'],
   worksheet_written: ['Die Bewertungstabelle ist {file}.'],
   no_number: ['sie ist {found:problem}, wo eine reelle Zahl erwartet wird'],
   no_numbers: ['sie enthält keine Zeile mit Zahlen'],
