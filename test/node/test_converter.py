@@ -3,6 +3,7 @@
 import json
 import threading
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import closing
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,7 @@ import rclpy
 import scipy.io
 from fakes import make_trajectory
 from graph import wait_for
+from kept import Kept
 from mrlab_msgs.msg import Trajectory, TrajectoryCatalogue
 from mrlab_msgs.srv import ConvertTrajectory, GetTrajectory, ListTrajectories, Remove
 from rclpy.context import Context
@@ -18,7 +20,6 @@ from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from mrlab_ros.adapters.trajectories import formats, npz_file
 from mrlab_ros.adapters.workspaces.reader import WorkspaceReader
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes.converter.catalogue import MOST_ANNOUNCED
@@ -318,17 +319,13 @@ def test_a_damaged_file_is_taken_out_of_the_catalogue_and_named(graph, tmp_path)
     assert graph.call(GetTrajectory, "get", id="good").success
 
 
-def test_a_start_leaves_damage_out_and_lists_a_thousand_entries(tmp_path):
-    folder = tmp_path / "state" / "trajectories"
-    folder.mkdir(parents=True)
-    for i in range(1000):
-        with (folder / f"m{i:04}.npz").open("w+b") as file:
-            npz_file.write(make_trajectory(trajectory_id=f"m{i:04}"), file)
-    (folder / "m0007.npz").write_bytes(b"no archive")
-    formats.write(make_trajectory(trajectory_id="old"), folder / "old.json")
-    graph = ConverterGraph(SingleThreadedExecutor, tmp_path / "state")
-    listed = [t.id for t in graph.call(ListTrajectories, "list").trajectories]
-    assert listed == sorted({*(f"m{i:04}" for i in range(1000)), "old"} - {"m0007"})
-    assert (folder / "damaged" / "m0007.npz").exists()
-    assert graph.call(GetTrajectory, "get", id="old").success
-    graph.close()
+def test_a_start_lists_a_thousand_entries(tmp_path):
+    state = tmp_path / "state"
+    kept = Kept.opened(state)
+    names = [f"m{i:04}" for i in range(1000)]
+    for name in names:
+        kept.save(make_trajectory(trajectory_id=name))
+    with closing(ConverterGraph(SingleThreadedExecutor, state)) as graph:
+        listed = graph.call(ListTrajectories, "list").trajectories
+        assert [t.id for t in listed] == names
+        assert graph.call(GetTrajectory, "get", id="m0007").success

@@ -20,7 +20,6 @@ from small_lab import labels, listen_state, load, make, spawn
 
 from mrlab_ros.adapters.store import keys
 from mrlab_ros.adapters.store.objects import open_store
-from mrlab_ros.adapters.trajectories import npz_file
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes.converter.node import ConverterNode
 from mrlab_ros.nodes.lab.node import LabNode
@@ -281,16 +280,3 @@ def test_a_store_that_is_away_is_said_and_comes_back(graph, tmp_path):
         server.start()
         assert convert(graph, path=str(tmp_path / "pick.mat")).success
         assert node.trajectories.catalogue.find("pick")[1].number == 2
-
-
-def test_a_folder_of_an_earlier_version_is_taken_over_at_the_start(graph, tmp_path):
-    folder = tmp_path / "state" / "trajectories"
-    folder.mkdir(parents=True)
-    with (folder / "old.npz").open("w+b") as file:
-        npz_file.write(make("ur5e", "old"), file)
-    node = graph.add(ConverterNode, state_dir=str(tmp_path / "state"))
-    assert ids(graph, "list") == ["old@1"]
-    graph.drop(node)
-    node = graph.add(ConverterNode, state_dir=str(tmp_path / "state"))
-    assert ids(graph, "list") == ["old@1"]
-    assert (folder / "imported" / "old.npz").is_file()

