@@ -1,1 +1,1 @@
-"""Use cases, which every door calls: no node, no page, nothing printed."""
+"""Use cases, which every door calls: no node, no HTTP, nothing printed."""
