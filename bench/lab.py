@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import psutil
 import rclpy
-from mrlab_msgs import msg
+from mrlab_msgs import msg, srv
 from partner import Failed, free_endpoint
 from rclpy.client import Client
 from rclpy.node import Node
@@ -21,6 +21,7 @@ from mrlab_ros.adapters import share
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.store.objects import open_store
 from mrlab_ros.adapters.trajectories.catalogue_writer import CatalogueWriter
+from mrlab_ros.core.base.diagnostics import NO_ROBOT_IN_SCENE
 from mrlab_ros.core.trajectory.trajectory import Channels, Source, Trajectory
 from mrlab_ros.messages import qos
 from mrlab_ros.processes.lab import PROCESSES, LabProcess, parameter_file
@@ -98,6 +99,16 @@ class Lab:
         if not getattr(answer, "success", True):
             raise Failed(f"{service}: {answer.message}")
         return answer
+
+    def create_system(self, members: Sequence[msg.SystemMember]) -> None:
+        """Create the system `cell`, once the coordinator has received the robots as well."""
+        end = time.monotonic() + STATE_S
+        create = self.client(srv.CreateSystem, "/coordinator/create_system")
+        request = srv.CreateSystem.Request(name="cell", members=members)
+        while not (answer := call(create, request, ANSWER_S)).success:
+            if answer.code != NO_ROBOT_IN_SCENE.code or time.monotonic() > end:
+                raise Failed(answer.message)
+            time.sleep(0.05)
 
     def ms(self, kind: Any, service: str, /, **fields: Any) -> float:
         """Return how long a call of a service takes, ms."""

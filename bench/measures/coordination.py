@@ -85,10 +85,7 @@ def started(lab: Lab, members: Members, count: int, rounds: int) -> dict[str, An
     systems = lab.heard(msg.RobotSystems, "/systems", qos.LATCHED_EVENTS)
     robots = [f"robot_{i}" for i in range(count)]
     spawns = [members.spawn(robot) for robot in robots]
-    lab.ask(
-        srv.CreateSystem, "/coordinator/create_system", name="cell",
-        members=[msg.SystemMember(robot=robot, trajectory_id="sine") for robot in robots],
-    )  # fmt: skip
+    lab.create_system([msg.SystemMember(robot=robot, trajectory_id="sine") for robot in robots])
     # The first call of a service also finds it, which is not measured.
     for order in ("play", "pause"):
         lab.ask(Trigger, f"/cell/{order}")

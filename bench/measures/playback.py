@@ -207,7 +207,7 @@ def in_a_lab(size: Size) -> list[dict[str, Any]]:
             for robot in robot_names(ROBOTS):
                 lab.ask(srv.LoadTrajectory, f"/{robot}/load", id="short")
             members = [msg.SystemMember(robot=robot) for robot in robot_names(ROBOTS)]
-            lab.ask(srv.CreateSystem, "/coordinator/create_system", name="cell", members=members)
+            lab.create_system(members)
             lab.ask(SetLoop, "/cell/set_loop", loop=True)
             lab.ask(srv.StartRecording, "/recorder/start", bag=str(Path(name) / "bag"))
             lab.ask(Trigger, "/cell/play")

@@ -243,7 +243,7 @@ def blows(size: Size) -> list[dict[str, Any]]:
             for robot in robot_names(3):
                 lab.ask(srv.LoadTrajectory, f"/{robot}/load", id="short")
             members = [msg.SystemMember(robot=robot) for robot in robot_names(2)]
-            lab.ask(srv.CreateSystem, "/coordinator/create_system", name="cell", members=members)
+            lab.create_system(members)
             lab.ask(SetLoop, "/cell/set_loop", loop=True)
             commands = Commands(lab)
             for what, blow in size.some((("kill -9", kill), ("freeze 3 s", freeze))):
