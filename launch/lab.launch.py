@@ -24,9 +24,10 @@ from launch.events.process import ShutdownProcess
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 
-from mrlab_ros.adapters import python_process, share
+from mrlab_ros.adapters import share
 from mrlab_ros.adapters.bullet.support import missing
-from mrlab_ros.adapters.launcher import LAUNCHER
+from mrlab_ros.adapters.parent_exit import LAUNCHER
+from mrlab_ros.adapters.sandbox import python_process
 from mrlab_ros.commands.up.keys import free_endpoint
 from mrlab_ros.commands.up.surroundings import graph_range
 from mrlab_ros.commands.up.web import checked_web, prepare_keys
@@ -34,7 +35,7 @@ from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.names import close_to
 from mrlab_ros.core.bridge.links import check_endpoints
 from mrlab_ros.processes import physics_support
-from mrlab_ros.processes.child import WRONG_CONFIGURATION
+from mrlab_ros.processes.child_process import WRONG_CONFIGURATION
 from mrlab_ros.processes.lab import (
     HOST_EXECUTABLE,
     LabProcess,

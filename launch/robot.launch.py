@@ -7,7 +7,7 @@ from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, ExecuteProcess, OpaqueFunction
 from launch.substitutions import LaunchConfiguration
 
-from mrlab_ros.adapters import python_process
+from mrlab_ros.adapters.sandbox import python_process
 from mrlab_ros.commands.up.surroundings import graph_range
 
 # By name: default (None: has to be given) and description.

@@ -18,8 +18,8 @@ if __name__ == "__main__":
 import typer
 
 import mrlab_ros
-from mrlab_ros.adapters.guarded_streams import guard
-from mrlab_ros.adapters.python_process import keep_to_installed_modules
+from mrlab_ros.adapters.sandbox.inert_output import guard
+from mrlab_ros.adapters.sandbox.python_process import keep_to_installed_modules
 from mrlab_ros.commands import completion
 from mrlab_ros.commands.output import say_problem
 from mrlab_ros.core.base.diagnostic import Diagnostic

@@ -3,7 +3,7 @@
 "ratio": ms of a whole conversion by those of scipy.io.loadmat and orjson.dumps in the same run; at
 most 3 at 1,000,000 frames. "all" dumps every number of the trajectory file (t, q, dq, tau_proxy,
 gripper), which is what the conversion writes; "q" the joint positions alone, a third of that. The
-conversion is whole: behind the wall a copy of the file is hashed, read, read again by the second
+conversion is whole: in the sandbox a copy of the file is hashed, read, read again by the second
 reader, checked and derived, and the catalogue's file is written; the lab's process reads that and
 writes JSON. "stored" is the same without JSON, as in a running lab. MB/s are of the matrix. "peak"
 is the memory of all processes above what they held before, in a run of its own; "bound" is four

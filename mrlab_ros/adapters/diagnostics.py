@@ -58,7 +58,7 @@ YAML_ALIAS = Code(
     meaning="A ROS parameter file has no aliases.",
 )
 
-# readers behind the wall
+# readers in the sandbox
 READER_SLOW = Code(
     "reader_slow", "Reading {file} takes more than {limit:time}.", "Is it what it should be?"
 )

@@ -1,4 +1,4 @@
-"""Converts a workspace, a table or a trajectory file, in a process behind the wall."""
+"""Converts a workspace, a table or a trajectory file, in a process in the sandbox."""
 
 from __future__ import annotations
 
@@ -13,9 +13,10 @@ from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 
-from mrlab_ros.adapters import behind_wall, share
+from mrlab_ros.adapters import share
 from mrlab_ros.adapters.diagnostics import FILE_UNREADABLE
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.sandbox import printed
 from mrlab_ros.adapters.trajectories import formats, npz_file
 from mrlab_ros.adapters.trajectories.files import load_coefficients
 from mrlab_ros.adapters.workspaces.diagnostics import MISSING
@@ -65,7 +66,7 @@ def of_trajectory_file(file: Path) -> ConversionResult | None:
         return None
     with tempfile.TemporaryDirectory(prefix="mrlab-") as folder:
         stored = Path(folder, "trajectory.npz")
-        behind_wall.call(
+        printed.call(
             store, str(file), str(stored), name=file.name, read=[file], write=[Path(folder)]
         )
         return _accepted(file, npz_file.read(stored))
@@ -78,7 +79,7 @@ def store(file: str, stored: str) -> None:
 
 
 def of_trajectory_file_here(file: Path) -> ConversionResult | None:
-    """Do what of_trajectory_file() does, in a process that is behind the wall already."""
+    """Do what of_trajectory_file() does, in a process that is in the sandbox already."""
     return _accepted(file, _parsed(file)) if file.suffix.lower() == ".json" else None
 
 
@@ -121,12 +122,12 @@ class Wanted:
 def convert_file(
     path: Path, robot: RobotModel, options: Options, end_effector: str | None
 ) -> ConversionResult:
-    """Convert one file in a walled-off process; a refusal is a result."""
+    """Convert one file in a sandboxed process; a refusal is a result."""
     return convert_files([Wanted(path, robot, options, end_effector)])[0]
 
 
 def convert_files(wanted: Sequence[Wanted]) -> list[ConversionResult]:
-    """Convert files in walled-off processes, in order; raise BadInput where one is missing."""
+    """Convert files in sandboxed processes, in order; raise BadInput where one is missing."""
     coefficients = load_coefficients(share.directory() / "config" / "torque_proxy.yaml")
     inputs, tasks = [], []
     for each in wanted:
@@ -154,7 +155,7 @@ def convert_files(wanted: Sequence[Wanted]) -> list[ConversionResult]:
 def convert_all(
     inputs: list[Input], tasks: list[Task], limits: Limits
 ) -> Iterator[tuple[Input, Task, ConversionResult]]:
-    """Convert in several walled-off processes; yield the results in the order of the inputs."""
+    """Convert in several sandboxed processes; yield the results in the order of the inputs."""
     waiting: deque[tuple[Input, Task, Future[ConversionResult]]] = deque()
     workers = 1 if len(inputs) == 1 else 0
     with tempfile.TemporaryDirectory() as folder, ConversionPool(limits, workers) as pool:
@@ -168,7 +169,7 @@ def convert_all(
 
 
 def _convert(source: Input, task: Task, path: Path, reader: WorkspaceReader) -> ConversionResult:
-    """Convert behind the wall; path: of a file for the trajectory in between."""
+    """Convert in the sandbox; path: of a file for the trajectory in between."""
     try:
         with source.open() as file, path.open("w+b") as stored:
             converted = reader.convert(file, task, stored)

@@ -1,4 +1,4 @@
-"""Hands submissions to a walled-off process of `worker`, one after another.
+"""Hands submissions to a sandboxed process of `worker`, one after another.
 
 `run` does that in several processes: on this machine, or with dask or ray.
 """
@@ -23,7 +23,7 @@ from typing import Any, TypeVar
 
 import orjson
 
-from mrlab_ros.adapters.warm_process import WarmProcess
+from mrlab_ros.adapters.sandbox.warm_process import WarmProcess
 from mrlab_ros.adapters.workspaces.content import death
 from mrlab_ros.classroom import worker
 from mrlab_ros.classroom.diagnostics import (

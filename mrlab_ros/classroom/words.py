@@ -18,7 +18,7 @@ from mrlab_ros.classroom.rubrics.rubric import Rubric
 from mrlab_ros.commands import output
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.phrase import phrase
-from mrlab_ros.core.checking.checked import Checked
+from mrlab_ros.core.checking.check_record import Checked
 from mrlab_ros.core.runtime.colours import OUTCOME_STYLES, SEVERITY_STYLES
 
 MOST_ROWS, MOST_LEFT_OUT, MOST_MISTAKES = 20, 10, 5

@@ -1,12 +1,12 @@
-"""The walled-off process that checks submissions; started by `grader`.
+"""The sandboxed process that checks submissions; started by `grader`.
 
 It imports everything, reads the library, checks the reference solution, and then forks once for
-each submission. Only the fork touches a student's bytes, behind the wall of `adapters/wall.py` and
+each submission. Only the fork touches a student's bytes, in the sandbox of `adapters/sandbox` and
 under limits that the kernel keeps: memory, processor time, wall time, size of files, no core dump.
 It reads the submission's folder and the lab's own files. What it finds it leaves as files in a
 folder of its own; whatever a submission does to it, others see no more than an exit status.
 
-It converts files itself: it is walled off already, so that no other process is started.
+It converts files itself: it is in the sandbox already, so that no other process is started.
 """
 
 from __future__ import annotations
@@ -28,9 +28,10 @@ from typing import Any
 import numpy as np
 import orjson
 
-from mrlab_ros.adapters import installed, share, wall
-from mrlab_ros.adapters.guarded_streams import guard
+from mrlab_ros.adapters import installed, share
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.sandbox import restrictions
+from mrlab_ros.adapters.sandbox.inert_output import guard
 from mrlab_ros.adapters.trajectories import formats
 from mrlab_ros.adapters.trajectories.files import load_coefficients
 from mrlab_ros.adapters.workspaces import content, worker
@@ -55,7 +56,7 @@ from mrlab_ros.classroom.rubrics.marking import Marks, mark
 from mrlab_ros.classroom.setup import Bounds, Setup
 from mrlab_ros.core.base.diagnostic import Diagnostic, plain
 from mrlab_ros.core.base.errors import BadInput, LabError, Misuse
-from mrlab_ros.core.checking.checked import Checked
+from mrlab_ros.core.checking.check_record import Checked
 from mrlab_ros.core.conversion.convert import ConversionResult, id_from
 from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE, Options
 from mrlab_ros.core.conversion.workspace import Workspace
@@ -123,7 +124,7 @@ class Warm:
     def __init__(self, setup: Setup, scratch: Path) -> None:
         self.setup = setup
         self.share = share.directory()
-        self.readable = (*wall.libraries(), *share.folders(), *installed.packages())
+        self.readable = (*restrictions.libraries(), *share.folders(), *installed.packages())
         convert = Inside(Limits(memory=setup.bounds.memory, time=setup.bounds.wall))
         base = setup.setting(self.share)
         values = {**vars(base), "convert": convert, "drawn": True}
@@ -227,7 +228,7 @@ class Warm:
 def confine(bounds: Bounds) -> None:
     """Put the kernel's limits on this process."""
     signal.setitimer(signal.ITIMER_REAL, bounds.wall)
-    wall.confine(memory=bounds.memory, seconds=bounds.time, file_size=MOST_WRITTEN)
+    restrictions.confine(memory=bounds.memory, seconds=bounds.time, file_size=MOST_WRITTEN)
 
 
 def work(warm: Warm, request: dict[str, Any]) -> None:
@@ -235,7 +236,7 @@ def work(warm: Warm, request: dict[str, Any]) -> None:
     confine(warm.setup.bounds)
     folder, out = Path(request["folder"]), Path(request["out"])
     tempfile.tempdir = str(out)
-    wall.shut(read=[folder, *warm.readable], write=[out], opens=True)
+    restrictions.shut(read=[folder, *warm.readable], write=[out], opens=True)
     try:
         warm.check(request["shown"], request["files"], folder, out)
     except MemoryError:

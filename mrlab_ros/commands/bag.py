@@ -74,12 +74,10 @@ def info_of(bag: str, as_json: bool) -> None:
 def _walled(
     function: Callable[..., Any], path: Path, *arguments: Any, write: Iterable[Path] = ()
 ) -> Any:
-    """Do something with a bag behind the wall; it prints here."""
-    from mrlab_ros.commands import behind_wall
+    """Do something with a bag in the sandbox; it prints here."""
+    from mrlab_ros.commands import sandboxed
 
-    return behind_wall.run(
-        function, str(path), *arguments, name=path.name, read=[path], write=write
-    )
+    return sandboxed.run(function, str(path), *arguments, name=path.name, read=[path], write=write)
 
 
 @app.command()

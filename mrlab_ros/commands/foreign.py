@@ -14,7 +14,7 @@ from mrlab_ros.adapters.bags.foreign import Imported, import_bag
 from mrlab_ros.adapters.bags.other import OtherBag, open_bag
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.yaml_files import close_file
-from mrlab_ros.commands import behind_wall
+from mrlab_ros.commands import sandboxed
 from mrlab_ros.core.base.diagnostic import from_plain, plain
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.messages.definitions import definition
@@ -29,7 +29,7 @@ def imported(source: Path, folder: Path, models: Sequence[str]) -> Imported:
     folder.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix=".importing-", dir=folder.parent) as work:
         made = Path(work, folder.name)
-        done = behind_wall.run(
+        done = sandboxed.run(
             import_of, str(source), str(made), list(models),
             name=source.name, read=[source], write=[Path(work)],
         )  # fmt: skip
@@ -50,7 +50,7 @@ def is_foreign(path: Path) -> bool:
     """Return whether a bag has no robots of a lab, or is compressed: a seek would inflate it."""
     if not path.exists():
         return False
-    return bool(behind_wall.run(foreign_of, str(path), name=path.name, read=[path]))
+    return bool(sandboxed.run(foreign_of, str(path), name=path.name, read=[path]))
 
 
 def foreign_of(bag: str) -> bool:

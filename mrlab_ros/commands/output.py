@@ -1,7 +1,7 @@
 """The one door to a terminal: what commands print comes through here.
 
 Names and texts of files pass it, too: a `console` takes nothing for markup, and shows what acts on
-a terminal. So does `print`, whose streams `cli.main` guards (`adapters/guarded_streams.py`).
+a terminal. So does `print`, whose streams `cli.main` guards (`adapters/sandbox/inert_output.py`).
 """
 
 from __future__ import annotations

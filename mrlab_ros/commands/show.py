@@ -104,7 +104,7 @@ def _page(
 
 def _recorded(file: Path) -> str | None:
     """Return the page of a session, or None: it is another file, or a bag of a mere trajectory."""
-    from mrlab_ros.commands import behind_wall
+    from mrlab_ros.commands import sandboxed
     from mrlab_ros.commands.bag import path_of
 
     path = _bag_of_report(file) or path_of(str(file))
@@ -112,7 +112,7 @@ def _recorded(file: Path) -> str | None:
         return None
     with tempfile.TemporaryDirectory(prefix="mrlab-") as folder:
         page = Path(folder, "page.html")
-        shown = behind_wall.run(
+        shown = sandboxed.run(
             session_of, str(path), str(page), name=path.name, read=[path], write=[Path(folder)]
         )
         return page.read_text(encoding="utf-8") if shown else None

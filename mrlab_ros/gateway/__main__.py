@@ -14,9 +14,9 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
-from mrlab_ros.adapters.guarded_streams import guard
-from mrlab_ros.adapters.launcher import end_with_launcher
-from mrlab_ros.adapters.python_process import keep_to_installed_modules
+from mrlab_ros.adapters.parent_exit import end_with_launcher
+from mrlab_ros.adapters.sandbox.inert_output import guard
+from mrlab_ros.adapters.sandbox.python_process import keep_to_installed_modules
 from mrlab_ros.core.base.diagnostic import Fix
 from mrlab_ros.core.base.errors import BadInput, LabError, Unavailable
 from mrlab_ros.gateway.diagnostics import HTTPS_UNUSABLE, PORT_TAKEN
@@ -34,7 +34,7 @@ LARGEST_FRAME = 4 * 1024 * 1024
 
 def main() -> None:
     """Serve; a wrong configuration is one sentence and exit code 78."""
-    # A supervisor starts its processes with SIGINT blocked, see processes/child.py.
+    # A supervisor starts its processes with SIGINT blocked, see processes/child_process.py.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
     end_with_launcher()

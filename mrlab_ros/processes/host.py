@@ -11,9 +11,9 @@ import signal
 import sys
 from pathlib import Path
 
-from mrlab_ros.adapters.guarded_streams import guard
-from mrlab_ros.adapters.launcher import end_with_launcher
-from mrlab_ros.adapters.python_process import keep_to_installed_modules
+from mrlab_ros.adapters.parent_exit import end_with_launcher
+from mrlab_ros.adapters.sandbox.inert_output import guard
+from mrlab_ros.adapters.sandbox.python_process import keep_to_installed_modules
 
 
 def main(names: list[str] | None = None) -> None:

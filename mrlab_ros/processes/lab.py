@@ -12,9 +12,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from mrlab_ros.adapters import python_process
+from mrlab_ros.adapters.sandbox import python_process
 from mrlab_ros.core.base.errors import BadInput
-from mrlab_ros.processes.child import ProcessSpec
+from mrlab_ros.processes.child_process import ProcessSpec
 from mrlab_ros.processes.diagnostics import NO_PARAMETER_FILE
 from mrlab_ros.processes.options import LabOptions
 from mrlab_ros.processes.web import GatewayProcess

@@ -15,7 +15,7 @@ import rclpy.utilities
 from rclpy.node import Node
 
 from mrlab_ros.core.base.errors import BadInput, LabError, Unavailable
-from mrlab_ros.processes.child import RESTARTS, WRONG_CONFIGURATION
+from mrlab_ros.processes.child_process import RESTARTS, WRONG_CONFIGURATION
 from mrlab_ros.processes.lab import NODES, PROCESSES
 from mrlab_ros.processes.stand_aside import StandAside
 from mrlab_ros.processes.watcher import Watcher

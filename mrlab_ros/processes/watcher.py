@@ -15,7 +15,7 @@ from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.runtime.watch import PERIOD_S, Sign, Watch
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.status import living_in, signs_to_message
-from mrlab_ros.processes.child import LAST_EXIT, RESTARTS
+from mrlab_ros.processes.child_process import LAST_EXIT, RESTARTS
 from mrlab_ros.ros.clock import every
 from mrlab_ros.ros.spinning import SpunNode
 

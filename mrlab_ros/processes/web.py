@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 from urllib.parse import urlsplit
 
-from mrlab_ros.adapters import python_process
+from mrlab_ros.adapters.sandbox import python_process
 from mrlab_ros.core.bridge.links import from_here
-from mrlab_ros.processes.child import ProcessSpec
+from mrlab_ros.processes.child_process import ProcessSpec
 from mrlab_ros.processes.options import LabOptions
 
 if TYPE_CHECKING:

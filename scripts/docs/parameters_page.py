@@ -9,7 +9,7 @@ from typing import Any
 from mrlab_ros.core.base import records
 from mrlab_ros.core.bridge.rules import ServiceRule, TopicRule
 from mrlab_ros.core.physics.settings import Settings
-from mrlab_ros.core.trajectory.channels import ProxyCoefficients
+from mrlab_ros.core.trajectory.derived_signals import ProxyCoefficients
 from mrlab_ros.gateway.link.limits import LinkLimits
 from mrlab_ros.nodes.parameters import NODES
 from mrlab_ros.ros.parameters import to_ros

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from mrlab_ros.core.base.clock import SECOND, PlaybackClock
-from mrlab_ros.core.trajectory.channels import Channels
+from mrlab_ros.core.trajectory.derived_signals import Channels
 from mrlab_ros.core.trajectory.trajectory import Source, Trajectory
 
 # Hz; 1/3 and 1/7 of a second have no exact double: a frame must be found all the same.

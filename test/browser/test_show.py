@@ -24,7 +24,7 @@ from mrlab_ros.core.recording.recorded_motion import RecordedMotion, RecordedObj
 from mrlab_ros.core.recording.report import Contact, ReportedState, SessionReport
 from mrlab_ros.core.recording.run_finding import runs_of
 from mrlab_ros.core.recording.runs import Course, RunJoint
-from mrlab_ros.core.trajectory.channels import ProxyCoefficients, derive
+from mrlab_ros.core.trajectory.derived_signals import ProxyCoefficients, derive
 from mrlab_ros.core.trajectory.trajectory import Source, Trajectory
 
 ROOT = Path(__file__).parents[2]

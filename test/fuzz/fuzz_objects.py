@@ -23,7 +23,7 @@ import matlab_objects as matlab
 import numpy as np
 from differential import Matrices
 
-from mrlab_ros.adapters import wall
+from mrlab_ros.adapters.sandbox import restrictions
 from mrlab_ros.adapters.workspaces import worker
 
 SECONDS = 10  # of processor time, for one small file
@@ -66,7 +66,7 @@ def outcome(data: bytes, expected: Matrices | None) -> str:
         try:
             resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
             resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
-            memory = wall.address_space() + MEMORY
+            memory = restrictions.address_space() + MEMORY
             resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
             code = _read(data, expected)
         finally:

@@ -24,7 +24,7 @@ from mrlab_ros.nodes.coordinator.node import CoordinatorNode
 from mrlab_ros.nodes.lab.node import LabNode
 from mrlab_ros.nodes.playback.host import PlaybackHostNode
 from mrlab_ros.nodes.recorder.node import RecorderNode
-from mrlab_ros.processes.child import WRONG_CONFIGURATION
+from mrlab_ros.processes.child_process import WRONG_CONFIGURATION
 
 
 def host(*arguments: str) -> subprocess.CompletedProcess[str]:

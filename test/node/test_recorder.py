@@ -41,7 +41,7 @@ from mrlab_ros.adapters.bags.diagnostics import (
 from mrlab_ros.adapters.bags.reader import Bag
 from mrlab_ros.adapters.bags.repair import repair
 from mrlab_ros.adapters.bags.writer import BagWriter
-from mrlab_ros.adapters.journal import Journal
+from mrlab_ros.adapters.journal_file import Journal
 from mrlab_ros.adapters.share import directory
 from mrlab_ros.adapters.trajectories.formats import chunks, parse
 from mrlab_ros.core.base.diagnostics import BAD_POSITION

@@ -31,7 +31,7 @@ from mrlab_ros.adapters.bags.diagnostics import (
     MCAP_WITHOUT_CHUNKS,
     NOT_MCAP,
 )
-from mrlab_ros.adapters.inflate import is_compressed
+from mrlab_ros.adapters.sandbox.inflate import is_compressed
 from mrlab_ros.core.base.diagnostic import ERROR, Diagnostic
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.recording.diagnostics import importing, repairing

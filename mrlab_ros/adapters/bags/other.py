@@ -27,7 +27,13 @@ from mrlab_ros.adapters.bags.diagnostics import (
 )
 from mrlab_ros.adapters.bags.mcap_file import Message
 from mrlab_ros.adapters.bags.reader import METADATA, Bag, mcap_files_in, number_of
-from mrlab_ros.adapters.inflate import ZSTD, Incomplete, inflate_file, inflate_zstd, is_compressed
+from mrlab_ros.adapters.sandbox.inflate import (
+    ZSTD,
+    Incomplete,
+    inflate_file,
+    inflate_zstd,
+    is_compressed,
+)
 from mrlab_ros.adapters.yaml_files import Loader
 from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix

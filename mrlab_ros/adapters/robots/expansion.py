@@ -1,4 +1,4 @@
-"""Expands a xacro, whose expressions are Python: in a process behind the wall only."""
+"""Expands a xacro, whose expressions are Python: in a process in the sandbox only."""
 
 from __future__ import annotations
 

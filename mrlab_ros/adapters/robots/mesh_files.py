@@ -1,7 +1,7 @@
 """Takes the meshes of a description from outside: each is read once and written anew.
 
 A mesh file may name others: material libraries, pictures, buffers. They are read in a process
-behind the wall, which reaches the description's folders only, and what it read becomes a file of
+in the sandbox, which reaches the description's folders only, and what it read becomes a file of
 ours: a GLB with its pictures inside, an STL, or an OBJ of vertices and faces. No file is copied.
 
 Meshes as small glTF files: KHR_mesh_quantization, which the pages' reader knows.
@@ -24,12 +24,12 @@ import numpy as np
 import trimesh
 from numpy.typing import NDArray
 
-from mrlab_ros.adapters import walled
 from mrlab_ros.adapters.robots.diagnostics import (
     MESH_VERTEX_NOWHERE,
     MESH_WITHOUT_TRIANGLES,
     ROBOT_MESH_UNREADABLE,
 )
+from mrlab_ros.adapters.sandbox import calls
 from mrlab_ros.core.base.diagnostic import of_text, plain
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.geometry import Array
@@ -255,9 +255,9 @@ def take(
     if not wanted:
         return {}
     inside = [folder.resolve() for folder in folders]
-    found = walled.call(
+    found = calls.call(
         copies, wanted, [str(folder) for folder in inside], str(target), name="the meshes",
-        read=inside, write=[target], seconds=MOST_TIME, memory=4096 * walled.MiB,
+        read=inside, write=[target], seconds=MOST_TIME, memory=4096 * calls.MiB,
     )  # fmt: skip
     return {uri: Look(**look) for uri, look in found.items()}
 
@@ -265,7 +265,7 @@ def take(
 def copies(
     wanted: Mapping[str, tuple[str, str, bool, bool]], folders: Sequence[str], target: str
 ) -> dict[str, Any]:
-    """Write the copies that `take` wants, behind the wall; return a Look for each, as JSON."""
+    """Write the copies that `take` wants, in the sandbox; return a Look for each, as JSON."""
     return {
         uri: asdict(_copied(Path(path), prefix, uses, [Path(f) for f in folders], Path(target)))
         for uri, (path, prefix, *uses) in wanted.items()

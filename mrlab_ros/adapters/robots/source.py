@@ -11,7 +11,7 @@ from pathlib import Path
 
 from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
 
-from mrlab_ros.adapters import installed, wall, walled
+from mrlab_ros.adapters import installed
 from mrlab_ros.adapters.diagnostics import FILE_UNREADABLE, NOT_UTF8
 from mrlab_ros.adapters.robots.diagnostics import (
     BAD_XACRO_ARGUMENT,
@@ -26,6 +26,7 @@ from mrlab_ros.adapters.robots.diagnostics import (
     XACRO_NO_WALL,
 )
 from mrlab_ros.adapters.robots.expansion import expand
+from mrlab_ros.adapters.sandbox import calls, restrictions
 from mrlab_ros.core.base.errors import BadInput
 
 SUFFIXES = (".urdf", ".xacro")
@@ -109,14 +110,14 @@ def description_text(
         except UnicodeDecodeError:
             raise BadInput(NOT_UTF8(file=str(path))) from None
     given = dict(_argument(text) for text in arguments)
-    if not all(wall.layers().values()):
+    if not all(restrictions.layers().values()):
         plain = f"{path.stem.removesuffix('.urdf')}.urdf"
         raise BadInput(XACRO_NO_WALL(file=path.name, plain=plain))
     with _prefix(packages) as prefix:
         prefixes = [prefix, *filter(None, os.environ.get("AMENT_PREFIX_PATH", "").split(":"))]
         folders = [path.parent, *packages.values(), *installed.packages()]
         shown = [child for folder in folders for child in _shown(folder.resolve())]
-        text: str = walled.call(
+        text: str = calls.call(
             expand, str(path.resolve()), given, name=path.name,
             read=[Path(prefix), *installed.indices(), *shown],
             environment={"AMENT_PREFIX_PATH": ":".join(prefixes)},

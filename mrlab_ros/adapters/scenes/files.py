@@ -22,7 +22,7 @@ from mrlab_ros.adapters.diagnostics import (
     NO_ROOM_ON_DISK,
     NOT_OF_FORMAT,
 )
-from mrlab_ros.adapters.journal import set_aside
+from mrlab_ros.adapters.journal_file import set_aside
 from mrlab_ros.adapters.scenes.diagnostics import BAD_SCENE_NAME, NO_SCENE
 from mrlab_ros.adapters.whole_file import replaced
 from mrlab_ros.adapters.yaml_files import Loader, check_file, not_yaml

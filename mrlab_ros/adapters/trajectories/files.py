@@ -19,7 +19,7 @@ from mrlab_ros.adapters.whole_file import TEMPORARY, replaced
 from mrlab_ros.adapters.yaml_files import read_yaml
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.trajectory.catalogue import Record, Version, head_of
-from mrlab_ros.core.trajectory.channels import ProxyCoefficients
+from mrlab_ros.core.trajectory.derived_signals import ProxyCoefficients
 from mrlab_ros.core.trajectory.diagnostics import NO_ROOM_FOR_COPY, VERSION_GONE, VERSION_REMOVED
 from mrlab_ros.core.trajectory.document import Frames
 from mrlab_ros.core.trajectory.trajectory import Trajectory

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from mrlab_ros.adapters.inflate import ZSTD, inflate_zstd
+from mrlab_ros.adapters.sandbox.inflate import ZSTD, inflate_zstd
 from mrlab_ros.adapters.workspaces.diagnostics import LIBRARY_FAILED
 from mrlab_ros.adapters.workspaces.matlab.elements import Damaged, NotAWorkspace, TooLarge
 from mrlab_ros.adapters.workspaces.sinks import Found, Sink

@@ -1,6 +1,6 @@
-"""Converts and reads files from outside in the walled-off process of `worker`.
+"""Converts and reads files from outside in the sandboxed process of `worker`.
 
-Converts many files at once in several walled-off processes, none waiting for a slow one.
+Converts many files at once in several sandboxed processes, none waiting for a slow one.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any, BinaryIO, TypeVar
 
-from mrlab_ros.adapters.warm_process import WarmProcess
+from mrlab_ros.adapters.sandbox.warm_process import WarmProcess
 from mrlab_ros.adapters.workspaces import content, results
 from mrlab_ros.adapters.workspaces.diagnostics import (
     MISSING,

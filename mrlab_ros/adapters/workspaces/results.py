@@ -1,4 +1,4 @@
-"""A conversion behind the wall: what is asked, and the small document that comes back.
+"""A conversion in the sandbox: what is asked, and the small document that comes back.
 
 The document is JSON and not a pickle: it comes from a process that touched a file from outside.
 """
@@ -25,7 +25,7 @@ from mrlab_ros.core.conversion.options import MOST_ROWS, Options
 from mrlab_ros.core.conversion.preview import Preview
 from mrlab_ros.core.conversion.workspace import Workspace
 from mrlab_ros.core.robots.model import RobotModel
-from mrlab_ros.core.trajectory.channels import ProxyCoefficients
+from mrlab_ros.core.trajectory.derived_signals import ProxyCoefficients
 from mrlab_ros.core.trajectory.document import metadata
 
 # Types that a document may hold beside plain values.

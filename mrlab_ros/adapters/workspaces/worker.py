@@ -1,8 +1,8 @@
-"""The walled-off process that converts files from outside; started by `reader`.
+"""The sandboxed process that converts files from outside; started by `reader`.
 
 It waits with everything imported and forks once for each file. Only the fork touches the file's
-bytes. It works on a private copy, which nobody can shorten meanwhile, behind the wall of
-`adapters/wall.py` and under limits that the kernel keeps (memory, processor time, wall time,
+bytes. It works on a private copy, which nobody can shorten meanwhile, in the sandbox of
+`adapters/sandbox` and under limits that the kernel keeps (memory, processor time, wall time,
 output, no core dump): it hashes, reads, checks and derives, and writes the trajectory into the
 file that it was given. It opens nothing else: where a file needs a reader that is not imported,
 the fork ends with a status that names it, and the waiting process imports it and forks again.
@@ -45,9 +45,9 @@ from typing import Any
 
 import numpy as np
 
-from mrlab_ros.adapters import wall
-from mrlab_ros.adapters.guarded_streams import guard
-from mrlab_ros.adapters.inflate import Incomplete, inflate_zstd
+from mrlab_ros.adapters.sandbox import restrictions
+from mrlab_ros.adapters.sandbox.inert_output import guard
+from mrlab_ros.adapters.sandbox.inflate import Incomplete, inflate_zstd
 from mrlab_ros.adapters.workspaces import content, joint_trajectories, results
 from mrlab_ros.adapters.workspaces.diagnostics import (
     BAD_TABLE,
@@ -74,7 +74,7 @@ from mrlab_ros.core.conversion.dimensions import is_motion
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.conversion.workspace import Workspace
 from mrlab_ros.core.robots.model import Joint, KinematicChain, RobotModel, Segment
-from mrlab_ros.core.trajectory.channels import ProxyCoefficients
+from mrlab_ros.core.trajectory.derived_signals import ProxyCoefficients
 
 MOST_VARIABLES = 50_000
 MOST_DIMENSIONS = 32  # of an array in numpy before 2.0
@@ -248,13 +248,13 @@ def serve(source: int, target: int, numbers: int | None, request: dict[str, Any]
         size = os.fstat(source).st_size
         data = memoryview(mmap.mmap(source, size, prot=mmap.PROT_READ) if size else b"")
         if numbers is None:
-            with wall.nothing_opens():
+            with restrictions.nothing_opens():
                 form = read(data, name, sink, limit, imported)
             sink.finish(format=form, sha256=content.sha256(source))
         else:
             length = os.fstat(numbers).st_size
             found = mmap.mmap(numbers, length, prot=mmap.PROT_READ)
-            with wall.nothing_opens():
+            with restrictions.nothing_opens():
                 path, problem = read_again(data, found, request["again"])
             sink.finish(refused=plain(problem), variable=path)
     except MemoryError:
@@ -288,12 +288,12 @@ def work(descriptors: list[int], request: dict[str, Any]) -> None:
         changed = error
     asked = _task(descriptors[2]) if len(descriptors) == 4 else None
     # the stored trajectory has three matrices for each one of the file
-    wall.confine(
+    restrictions.confine(
         memory=request["memory"],
         seconds=request["time"],
         file_size=4 * request["output"] + (1 << 26),
     )
-    wall.shut()
+    restrictions.shut()
     if asked is None:
         if changed is not None:
             OutputFile(target, 0).finish(refused=plain(changed))
@@ -321,7 +321,7 @@ def _task(descriptor: int) -> results.Task:
 def workspace(copy: int, request: dict[str, Any]) -> Workspace:
     """Return what the file behind the descriptor `copy` holds; raise BadInput where it is none.
 
-    In a process that is walled off: the second reader runs in one of its own, the first in this
+    In a sandboxed process: the second reader runs in one of its own, the first in this
     one. request: memory, output: bytes; time: s; name of the file.
     """
     name = request["name"]
@@ -357,7 +357,7 @@ def forked(do: Callable[[], None]) -> int:
 
 
 def import_whole(package: str) -> None:
-    """Import a package with all its modules: behind the wall none could be opened."""
+    """Import a package with all its modules: in the sandbox none could be opened."""
     found = importlib.import_module(package)
     for module in pkgutil.walk_packages(found.__path__, f"{package}."):
         with contextlib.suppress(ImportError):  # it needs what is not installed
@@ -426,7 +426,7 @@ def main() -> None:
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, signal.SIG_IGN if number == signal.SIGINT else signal.SIG_DFL)
     warm_up()
-    wall.layers(), wall.filter_program(opens=False)  # made once for all forks
+    restrictions.layers(), restrictions.filter_program(opens=False)  # made once for all forks
     # objects that the collector does not visit stay shared with the forks
     gc.collect()
     gc.freeze()

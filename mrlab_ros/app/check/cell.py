@@ -36,7 +36,7 @@ from mrlab_ros.core.checking.evidence import clearances
 from mrlab_ros.core.checking.motion import CheckedRobot, MotionFigures
 from mrlab_ros.core.checking.pairs import Delay, Pair, pairs_of, smallest_delay, wait_frame
 from mrlab_ros.core.checking.rehearsal import Actor
-from mrlab_ros.core.checking.rehearsed import Course
+from mrlab_ros.core.checking.rehearsal_record import Course
 from mrlab_ros.core.checking.report import CheckReport, RobotReport, conditions, in_order
 from mrlab_ros.core.conversion.convert import ConversionResult
 from mrlab_ros.core.conversion.options import Options

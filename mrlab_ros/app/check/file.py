@@ -17,7 +17,7 @@ from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.base.foreign_text import file_name
 from mrlab_ros.core.base.geometry import Pose, Vector
 from mrlab_ros.core.checking import motion
-from mrlab_ros.core.checking.checked import Checked, Motion
+from mrlab_ros.core.checking.check_record import Checked, Motion
 from mrlab_ros.core.checking.diagnostics import IN_EMPTY_ROOM, IN_SCENE
 from mrlab_ros.core.checking.evidence import CLOSE
 from mrlab_ros.core.checking.motion import CheckedRobot

@@ -23,8 +23,8 @@ from typing import Any
 
 import numpy as np
 
-from mrlab_ros.adapters.guarded_streams import guard
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.sandbox.inert_output import guard
 from mrlab_ros.adapters.trajectories import npz_file
 from mrlab_ros.app.check.diagnostics import (
     CHECK_OUT_OF_MEMORY,

@@ -21,7 +21,7 @@ from mrlab_ros.core.base.geometry import Pose, compose
 from mrlab_ros.core.checking.joints import StatedLimits
 from mrlab_ros.core.checking.motion import CheckedRobot
 from mrlab_ros.core.checking.rehearsal import DISTANCE_PERIOD, FARTHEST, Actor, Rehearsal
-from mrlab_ros.core.checking.rehearsed import Rehearsed
+from mrlab_ros.core.checking.rehearsal_record import Rehearsed
 from mrlab_ros.core.checking.report import digest
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics.catalogue import Catalogue, ObjectType

@@ -23,7 +23,7 @@ from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.geometry import Array
 from mrlab_ros.core.checking.diagnostics import CLAIM
 from mrlab_ros.core.checking.motion import MotionFigures
-from mrlab_ros.core.checking.rehearsed import Course, Distances, Rehearsed
+from mrlab_ros.core.checking.rehearsal_record import Course, Distances, Rehearsed
 from mrlab_ros.core.checking.report import CheckReport
 from mrlab_ros.core.physics.catalogue import ObjectType
 from mrlab_ros.core.physics.engine import Kind, Shape

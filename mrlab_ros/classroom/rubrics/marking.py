@@ -19,7 +19,7 @@ from mrlab_ros.classroom.rubrics.diagnostics import (
 )
 from mrlab_ros.classroom.rubrics.rubric import Ground, Rubric, Test
 from mrlab_ros.core.base.diagnostic import Diagnostic, Severity, plain
-from mrlab_ros.core.checking.checked import Checked
+from mrlab_ros.core.checking.check_record import Checked
 from mrlab_ros.core.checking.report import rounded
 
 # Points are given in hundredths, rounded down.

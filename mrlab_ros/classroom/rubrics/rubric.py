@@ -30,7 +30,7 @@ from mrlab_ros.core.base.diagnostic import Code, Diagnostic
 from mrlab_ros.core.base.diagnostics import NO_ROBOT_IN_SCENE
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.names import close_to
-from mrlab_ros.core.checking.checked import Checked, Motion
+from mrlab_ros.core.checking.check_record import Checked, Motion
 from mrlab_ros.core.checking.evidence import CLOSE
 from mrlab_ros.core.checking.motion import CheckedRobot
 from mrlab_ros.core.physics.catalogue import ObjectType

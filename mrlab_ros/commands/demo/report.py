@@ -13,7 +13,7 @@ from mrlab_ros.commands.diagnostics import DEMO_FAULT
 from mrlab_ros.commands.up.speaker import COLOURS
 from mrlab_ros.commands.up.web import opening_url
 from mrlab_ros.core.base.errors import LabError
-from mrlab_ros.processes.child import SELF
+from mrlab_ros.processes.child_process import SELF
 
 if TYPE_CHECKING:
     from rich.console import Console

@@ -17,7 +17,7 @@ from mrlab_ros.commands.diagnostics import (
 from mrlab_ros.commands.output import with_fixes
 from mrlab_ros.core.base.diagnostic import Fix
 from mrlab_ros.core.base.errors import BadInput
-from mrlab_ros.processes.child import SELF
+from mrlab_ros.processes.child_process import SELF
 
 LISTEN = "tcp/127.0.0.1:7447"
 # Period at which a lab checks whether its keys have changed, s.

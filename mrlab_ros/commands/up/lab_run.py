@@ -14,7 +14,7 @@ from mrlab_ros.commands.up.speaker import Speaker
 from mrlab_ros.commands.up.web import run_facts, say_where
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.runtime.identity import Identity
-from mrlab_ros.processes.child import SELF, ProcessState
+from mrlab_ros.processes.child_process import SELF, ProcessState
 from mrlab_ros.processes.lab import lab_nodes, lab_processes
 from mrlab_ros.processes.options import LabOptions
 from mrlab_ros.processes.parameter_file import parameter

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from mrlab_ros.commands import output
-from mrlab_ros.processes.child import SELF
+from mrlab_ros.processes.child_process import SELF
 from mrlab_ros.processes.lab import PROCESSES
 
 if TYPE_CHECKING:

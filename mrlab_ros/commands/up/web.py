@@ -13,7 +13,7 @@ from typing import Any
 
 from mrlab_ros.commands.diagnostics import PAGES_PORT_TAKEN
 from mrlab_ros.core.base.errors import BadInput
-from mrlab_ros.processes.child import SELF
+from mrlab_ros.processes.child_process import SELF
 from mrlab_ros.processes.options import LabOptions, WebOptions
 from mrlab_ros.processes.web import web_address
 

@@ -22,7 +22,7 @@ from mrlab_ros.core.checking.diagnostics import (
     WAITS_FOREVER,
 )
 from mrlab_ros.core.checking.rehearsal import FARTHEST
-from mrlab_ros.core.checking.rehearsed import Collision, GraspChange, Rehearsed
+from mrlab_ros.core.checking.rehearsal_record import Collision, GraspChange, Rehearsed
 from mrlab_ros.core.physics.engine import Kind
 from mrlab_ros.core.physics.grasp.states import Grasp
 

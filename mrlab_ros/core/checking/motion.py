@@ -13,7 +13,7 @@ from mrlab_ros.core.base.geometry import Array, Pose, Vector, rotate
 from mrlab_ros.core.checking import evidence, joints, tool, waypoints
 from mrlab_ros.core.checking.evidence import CLOSE, NO_ADVICE, Advice
 from mrlab_ros.core.checking.joints import JointFigures, StatedLimits, spectral_arc_length
-from mrlab_ros.core.checking.rehearsed import Rehearsed
+from mrlab_ros.core.checking.rehearsal_record import Rehearsed
 from mrlab_ros.core.checking.report import (
     RANGES,
     SPEEDS,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from mrlab_ros.core.checking.rehearsed import Collision, Distances, Rehearsed
+from mrlab_ros.core.checking.rehearsal_record import Collision, Distances, Rehearsed
 from mrlab_ros.core.physics.engine import Kind
 
 # Over so long before a conflict, s, the closing speed is taken.

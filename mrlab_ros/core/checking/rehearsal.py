@@ -11,7 +11,13 @@ from dataclasses import dataclass, field
 
 from mrlab_ros.core.base.clock import SECOND, PlaybackClock
 from mrlab_ros.core.base.geometry import Array
-from mrlab_ros.core.checking.rehearsed import Collision, Course, Distances, GraspChange, Rehearsed
+from mrlab_ros.core.checking.rehearsal_record import (
+    Collision,
+    Course,
+    Distances,
+    GraspChange,
+    Rehearsed,
+)
 from mrlab_ros.core.physics.engine import Engine, Kind, Touch
 from mrlab_ros.core.physics.simulated_robot import GripperProgram, Playing
 from mrlab_ros.core.physics.world import World

@@ -48,7 +48,7 @@ from mrlab_ros.core.checking.diagnostics import (
 )
 from mrlab_ros.core.checking.evidence import Clearance
 from mrlab_ros.core.checking.joints import JointFigures
-from mrlab_ros.core.checking.rehearsed import GraspChange
+from mrlab_ros.core.checking.rehearsal_record import GraspChange
 from mrlab_ros.core.checking.waypoints import Passed
 
 

@@ -53,9 +53,9 @@ from mrlab_ros.core.conversion.picking import Chosen, pick, reshaped
 from mrlab_ros.core.conversion.preview import Preview, preview
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 from mrlab_ros.core.robots.model import RobotModel
-from mrlab_ros.core.trajectory import channels
+from mrlab_ros.core.trajectory import derived_signals
 from mrlab_ros.core.trajectory.catalogue import checked_id
-from mrlab_ros.core.trajectory.channels import ProxyCoefficients
+from mrlab_ros.core.trajectory.derived_signals import ProxyCoefficients
 from mrlab_ros.core.trajectory.trajectory import Source, Trajectory
 
 MOST_FRAMES = 2_000_000  # of a message that is sampled: five hours and a half at 100 Hz
@@ -177,7 +177,7 @@ def convert(
             frame_rate=rate,
             positions=arm,
             gripper=checked.layout.gripper,
-            channels=channels.derive(arm, rate, coefficients),
+            channels=derived_signals.derive(arm, rate, coefficients),
             source=checked.source,
             created_ns=created_ns,
             warnings=_worst_first([n for n in found.notes if n.severity is Severity.WARNING]),

@@ -20,7 +20,7 @@ from typing import Annotated, Any, Literal, Protocol
 
 from pydantic import BaseModel, Field
 
-from mrlab_ros.adapters import python_process
+from mrlab_ros.adapters.sandbox import python_process
 from mrlab_ros.app.check.in_lab import LabScene, Task, changed
 from mrlab_ros.core.base.diagnostic import Diagnostic, from_plain, plain
 from mrlab_ros.core.base.errors import BadInput, LabError, Unavailable

@@ -13,11 +13,11 @@ from mrlab_ros.core.base.diagnostic import Diagnostic, plain
 from mrlab_ros.core.bridge.access import Verb
 from mrlab_ros.gateway.lab.connection import Unsubscribe
 from mrlab_ros.gateway.link import frames
-from mrlab_ros.gateway.link.channels import Newest, Overflow, ReliableSender
 from mrlab_ros.gateway.link.diagnostics import NO_TOPIC_OF_PAGES, SUBSCRIPTIONS_FULL
 from mrlab_ros.gateway.link.frames import RecordKind
 from mrlab_ros.gateway.link.hub import Hub, Message, Topic
 from mrlab_ros.gateway.link.limits import Credit
+from mrlab_ros.gateway.link.queues import Newest, Overflow, ReliableSender
 from mrlab_ros.gateway.link.visibility import Visibility
 from mrlab_ros.gateway.people.person import Person
 

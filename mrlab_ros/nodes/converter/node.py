@@ -203,7 +203,7 @@ class ConverterNode(
     def _convert(
         self, task: Task, request: Any, data: memoryview | None, reader: WorkspaceReader
     ) -> Converted:
-        """Convert behind the wall; put an accepted trajectory into the store."""
+        """Convert in the sandbox; put an accepted trajectory into the store."""
         try:
             with (
                 self._opened(task, request, data) as source,

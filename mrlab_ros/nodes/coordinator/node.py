@@ -13,7 +13,7 @@ from mrlab_msgs.srv import SetLoop, Trigger
 from rclpy.duration import Duration
 from rclpy.service import Service
 
-from mrlab_ros.adapters.journal import Journal
+from mrlab_ros.adapters.journal_file import Journal
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.errors import BadInput, LabError
 from mrlab_ros.core.playback import diagnostics as playback

@@ -11,14 +11,14 @@ from typing import TYPE_CHECKING, Any
 from mrlab_msgs import msg, srv
 
 from mrlab_ros.adapters import share
-from mrlab_ros.adapters.journal import Journal
+from mrlab_ros.adapters.journal_file import Journal
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.robots.ruckig_planner import RuckigPlanner, StagingLimits
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.errors import LabError, Misuse
-from mrlab_ros.core.playback import journal as entries
+from mrlab_ros.core.playback import saved_state as entries
 from mrlab_ros.core.playback.diagnostics import NOT_PLAYED, OF_ROBOT
-from mrlab_ros.core.playback.journal import Kept
+from mrlab_ros.core.playback.saved_state import Kept
 from mrlab_ros.core.runtime.identity import Identity
 from mrlab_ros.core.systems.claims import Leases
 from mrlab_ros.core.systems.members import HALTING

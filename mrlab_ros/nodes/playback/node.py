@@ -18,9 +18,9 @@ from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.errors import LabError, Misuse
 from mrlab_ros.core.playback import diagnostics as say
 from mrlab_ros.core.playback.execution import PlaybackStatus
-from mrlab_ros.core.playback.journal import Kept, come_back, keep
 from mrlab_ros.core.playback.planner import MotionPlanner
 from mrlab_ros.core.playback.playback import Playback
+from mrlab_ros.core.playback.saved_state import Kept, come_back, keep
 from mrlab_ros.core.playback.states import State
 from mrlab_ros.core.playback.stream import Sample
 from mrlab_ros.core.robots.model import RobotModel

@@ -14,7 +14,7 @@ from mrlab_msgs.srv import ListBags, SetLoop, Trigger
 from mrlab_ros.adapters.bags.other import open_bag
 from mrlab_ros.adapters.bags.reader import Bag, bags_in, default_folder, remove_empty
 from mrlab_ros.adapters.bags.writer import BagWriter
-from mrlab_ros.adapters.journal import Journal
+from mrlab_ros.adapters.journal_file import Journal
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.base.state_machine import Machine

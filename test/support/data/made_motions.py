@@ -9,9 +9,9 @@ import numpy as np
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.classroom.rubrics.document import parse
 from mrlab_ros.core.base.geometry import Pose
-from mrlab_ros.core.checking.checked import Checked, Motion
+from mrlab_ros.core.checking.check_record import Checked, Motion
 from mrlab_ros.core.checking.motion import CheckedRobot, figures_of
-from mrlab_ros.core.checking.rehearsed import Course, GraspChange, Rehearsed
+from mrlab_ros.core.checking.rehearsal_record import Course, GraspChange, Rehearsed
 from mrlab_ros.core.checking.report import CheckReport
 from mrlab_ros.core.physics.catalogue import ObjectType
 from mrlab_ros.core.physics.engine import Body

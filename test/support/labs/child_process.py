@@ -6,7 +6,7 @@ import subprocess
 import sys
 from typing import Any
 
-from mrlab_ros.processes.child import guarded
+from mrlab_ros.processes.child_process import guarded
 from mrlab_ros.processes.lab import HOST_MODULE
 
 HOST = (sys.executable, "-m", HOST_MODULE)

@@ -16,10 +16,10 @@ import mrlab_msgs.msg
 import pytest
 from refusals import refused
 
-from mrlab_ros.adapters import python_process
 from mrlab_ros.adapters.diagnostics import FOLDER_UNUSABLE
 from mrlab_ros.adapters.keys.folder import Keys, now
 from mrlab_ros.adapters.robots.diagnostics import NO_ROBOT_MODEL
+from mrlab_ros.adapters.sandbox import python_process
 from mrlab_ros.commands.demo.lab import free_port
 from mrlab_ros.commands.up.speaker import COLOURS
 from mrlab_ros.commands.up.surroundings import DISCOVERY, folder_for_state
@@ -28,7 +28,7 @@ from mrlab_ros.core.bridge.access import Login
 from mrlab_ros.core.bridge.diagnostics import BAD_ENDPOINT, OPEN_ENDPOINT, TLS_NEEDS_KEYS
 from mrlab_ros.gateway.__main__ import settings_of
 from mrlab_ros.processes import physics_support
-from mrlab_ros.processes.child import WRONG_CONFIGURATION
+from mrlab_ros.processes.child_process import WRONG_CONFIGURATION
 from mrlab_ros.processes.diagnostics import NO_PARAMETER_FILE, NO_PHYSICS
 from mrlab_ros.processes.lab import (
     NODES,

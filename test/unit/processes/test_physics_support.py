@@ -13,7 +13,7 @@ from refusals import refused
 from mrlab_ros.adapters.bullet import support
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.processes import physics_support
-from mrlab_ros.processes.child import WRONG_CONFIGURATION
+from mrlab_ros.processes.child_process import WRONG_CONFIGURATION
 from mrlab_ros.processes.diagnostics import NO_PHYSICS
 
 # An interpreter that finds everything but pybullet.

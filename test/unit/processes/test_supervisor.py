@@ -15,7 +15,7 @@ import psutil
 import pytest
 
 from mrlab_ros.core.base.errors import Misuse
-from mrlab_ros.processes.child import (
+from mrlab_ros.processes.child_process import (
     RESTARTS,
     WRONG_CONFIGURATION,
     ProcessSpec,

@@ -1,6 +1,6 @@
 """Reads MATLAB's own formats v4 to v7 from bytes; `mat73` reads v7.3.
 
-Runs in the walled-off process of `worker`, on bytes that somebody sent. Every length is
+Runs in the sandboxed process of `worker`, on bytes that somebody sent. Every length is
 checked against what there is. The format is that of MathWorks' "MAT-File Format" document.
 """
 

@@ -2,7 +2,7 @@
 
 HDF5 stores MATLAB's axes reversed, so a dataset's own order of bytes is MATLAB's column by
 column. Only what lies in the file itself is followed: no external links, no virtual datasets; the
-kernel sees to it that the libraries open nothing else (`adapters/wall.py`). Every read of a
+kernel keeps the libraries from opening anything else (`adapters/sandbox`). Every read of a
 dataset or an attribute goes through `values_of` or `attribute`, which bound it.
 """
 

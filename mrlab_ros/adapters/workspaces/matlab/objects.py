@@ -1,6 +1,6 @@
 """Opens MATLAB's objects (timeseries, table, Simulink's logs and so on) with mat-io.
 
-Runs in the walled-off process, which has mat-io imported for a file that holds an object. mat-io
+Runs in the sandboxed process, which has mat-io imported for a file that holds an object. mat-io
 decodes the undocumented part of a workspace where MATLAB keeps the properties of objects; what
 the properties of a class mean is known to `object_classes`. Every matrix that is handed on was
 also found, bit for bit, by the own reader in that part of the file: two readers agree, as for

@@ -1,7 +1,7 @@
 """Reads a matrix of a workspace again with scipy (v4 to v7) or h5py (v7.3) and compares.
 
 Damage that one reader overlooks shows as a difference between two. scipy's parser is written in
-Cython and can end the process on damaged bytes, so `verify` is called only in the walled-off
+Cython and can end the process on damaged bytes, so `verify` is called only in the sandboxed
 process, after the own reader has checked every length and checksum of the file.
 """
 

@@ -18,10 +18,10 @@ from mrlab_ros.classroom.rubrics.diagnostics import (
 from mrlab_ros.classroom.rubrics.rubric import ITSELF, LENGTH, Ground, Measure, Outcome, Threshold
 from mrlab_ros.classroom.rubrics.sentences import Form, Gaps, Given
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.checking.checked import Checked
+from mrlab_ros.core.checking.check_record import Checked
 from mrlab_ros.core.checking.evidence import met
 from mrlab_ros.core.checking.rehearsal import FARTHEST
-from mrlab_ros.core.checking.rehearsed import Collision, Distances, Rehearsed
+from mrlab_ros.core.checking.rehearsal_record import Collision, Distances, Rehearsed
 from mrlab_ros.core.physics.engine import Kind
 
 

@@ -29,7 +29,7 @@ from mrlab_ros.classroom.rubrics.rubric import (
 from mrlab_ros.classroom.rubrics.sentences import Form
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.geometry import Array, Vector
-from mrlab_ros.core.checking.checked import Checked, Motion
+from mrlab_ros.core.checking.check_record import Checked, Motion
 from mrlab_ros.core.checking.joints import REST_SHARE
 
 # How near every joint is to its home where the sentence names no angle, rad.

@@ -30,8 +30,8 @@ from mrlab_ros.classroom.rubrics.measures.contacts import recording
 from mrlab_ros.classroom.rubrics.rubric import LENGTH, Ground, Measure, Outcome, Threshold
 from mrlab_ros.classroom.rubrics.sentences import Form, Gaps, Given
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.checking.checked import Checked
-from mrlab_ros.core.checking.rehearsed import Rehearsed
+from mrlab_ros.core.checking.check_record import Checked
+from mrlab_ros.core.checking.rehearsal_record import Rehearsed
 from mrlab_ros.core.physics.grasp.states import Grasp
 
 # An object slower than this at the end, m/s, is at rest.

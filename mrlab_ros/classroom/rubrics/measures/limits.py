@@ -11,7 +11,7 @@ from mrlab_ros.classroom.rubrics.diagnostics import LIMIT_NOT_STATED, LIMIT_USED
 from mrlab_ros.classroom.rubrics.rubric import SHARE, Ground, Outcome, Threshold, no_motion
 from mrlab_ros.classroom.rubrics.sentences import Form
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.checking.checked import Checked, Motion
+from mrlab_ros.core.checking.check_record import Checked, Motion
 
 RANGES, SPEEDS, ACCELERATIONS, JERKS = "ranges", "speeds", "acceleration", "jerk"
 

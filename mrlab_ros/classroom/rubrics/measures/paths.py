@@ -17,7 +17,7 @@ from mrlab_ros.classroom.rubrics.rubric import (
     WorstFigure,
 )
 from mrlab_ros.classroom.rubrics.sentences import Form
-from mrlab_ros.core.checking.checked import Motion
+from mrlab_ros.core.checking.check_record import Motion
 
 
 def _length(motion: Motion, threshold: Threshold) -> Figure:

@@ -21,7 +21,7 @@ from mrlab_ros.classroom.rubrics.rubric import Ground, Measure, Outcome
 from mrlab_ros.classroom.rubrics.sentences import Form, Gaps, Given
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.geometry import Array, Pose, add, inverse, rotate
-from mrlab_ros.core.checking.checked import Checked
+from mrlab_ros.core.checking.check_record import Checked
 from mrlab_ros.core.physics.catalogue import ObjectType
 from mrlab_ros.core.scene.surfaces import FLOOR
 

@@ -23,7 +23,7 @@ from mrlab_ros.classroom.rubrics.rubric import Ground, Measure, Outcome, no_moti
 from mrlab_ros.classroom.rubrics.sentences import Form, Gaps, Given
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.geometry import Array, Pose, Quaternion, Vector, inverse, rotate
-from mrlab_ros.core.checking.checked import Checked, Motion
+from mrlab_ros.core.checking.check_record import Checked, Motion
 from mrlab_ros.core.checking.motion import CheckedRobot
 from mrlab_ros.core.checking.waypoints import segments
 

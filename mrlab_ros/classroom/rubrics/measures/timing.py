@@ -26,7 +26,7 @@ from mrlab_ros.classroom.rubrics.rubric import (
 )
 from mrlab_ros.classroom.rubrics.sentences import Form, Gaps, Given
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.checking.checked import Checked, Motion
+from mrlab_ros.core.checking.check_record import Checked, Motion
 
 
 @dataclass(frozen=True)

@@ -10,9 +10,9 @@ from pathlib import Path
 import pytest
 from refusals import refused
 
-from mrlab_ros.adapters import wall
 from mrlab_ros.adapters.robots.diagnostics import XACRO_NO_WALL, XACRO_REFUSED
 from mrlab_ros.adapters.robots.source import description_text
+from mrlab_ros.adapters.sandbox import restrictions
 from mrlab_ros.core.base.errors import BadInput
 
 # Each file is read by a process of its own.
@@ -180,6 +180,6 @@ def test_what_a_xacro_runs_reaches_nothing(folder: Path, does: str) -> None:
 def test_without_a_wall_no_xacro_is_expanded(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(wall, "layers", lambda: {"landlock": False, "seccomp": True})
+    monkeypatch.setattr(restrictions, "layers", lambda: {"landlock": False, "seccomp": True})
     with refused(XACRO_NO_WALL, BadInput, file="r.urdf.xacro", plain="r.urdf"):
         expanded(folder, LINK.format("a"))

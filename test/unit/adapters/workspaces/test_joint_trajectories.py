@@ -20,7 +20,7 @@ from mrlab_ros.adapters.workspaces.matlab.elements import Damaged, NotAWorkspace
 from mrlab_ros.core.conversion.convert import MOST_FRAMES, Outcome, convert
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.conversion.workspace import JOINT_TRAJECTORY, Variable, Workspace
-from mrlab_ros.core.trajectory import channels
+from mrlab_ros.core.trajectory import derived_signals
 from mrlab_ros.core.trajectory.trajectory import Source, Trajectory
 
 COEFFICIENTS = load_coefficients(Path(__file__).parents[4] / "config" / "torque_proxy.yaml")
@@ -226,7 +226,7 @@ def made(positions, rate, gripper):
         rate,
         positions,
         gripper,
-        channels.derive(positions, rate, COEFFICIENTS),
+        derived_signals.derive(positions, rate, COEFFICIENTS),
         Source("round.mat", "q", "0" * 64),
     )
 

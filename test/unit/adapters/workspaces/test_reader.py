@@ -1,4 +1,4 @@
-"""The wall: whatever a file does, the reader says so and reads the next one."""
+"""The sandbox: whatever a file does, the reader says so and reads the next one."""
 
 import gc
 import gzip

@@ -9,7 +9,7 @@ import pytest
 from mrlab_ros.app.check.cell import resolution
 from mrlab_ros.core.checking.evidence import of_collisions
 from mrlab_ros.core.checking.pairs import Delay, Pair
-from mrlab_ros.core.checking.rehearsed import Collision, Rehearsed
+from mrlab_ros.core.checking.rehearsal_record import Collision, Rehearsed
 from mrlab_ros.core.physics.engine import Kind
 
 CONFLICT = Pair("ur5e_1", "ur5e_2", 0.0, 1.0, "a", "b", 1.0, 0.2, touches=True)

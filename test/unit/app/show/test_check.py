@@ -6,7 +6,7 @@ import numpy as np
 
 from mrlab_ros.app.show.check import _distances
 from mrlab_ros.app.show.packed import unpacked
-from mrlab_ros.core.checking.rehearsed import Distances, Rehearsed
+from mrlab_ros.core.checking.rehearsal_record import Distances, Rehearsed
 from mrlab_ros.core.physics.engine import Kind, Near
 
 

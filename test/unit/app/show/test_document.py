@@ -15,7 +15,7 @@ from mrlab_ros.core.conversion.candidates import Candidate
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome
 from mrlab_ros.core.conversion.preview import Preview
 from mrlab_ros.core.robots.model import ShownJoint, ShownRobot
-from mrlab_ros.core.trajectory.channels import ProxyCoefficients, derive
+from mrlab_ros.core.trajectory.derived_signals import ProxyCoefficients, derive
 from mrlab_ros.core.trajectory.trajectory import Source, Trajectory
 
 WEB = Path(__file__).parents[4] / "web" / "src"

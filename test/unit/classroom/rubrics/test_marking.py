@@ -13,7 +13,7 @@ from mrlab_ros.classroom.rubrics.diagnostics import NO_MOTION_TO_MARK
 from mrlab_ros.classroom.rubrics.marking import mark, points_of
 from mrlab_ros.classroom.rubrics.rubric import LENGTH, Outcome, Rubric, Test, Threshold
 from mrlab_ros.core.base.diagnostic import Diagnostic, Severity
-from mrlab_ros.core.checking.checked import Checked
+from mrlab_ros.core.checking.check_record import Checked
 from mrlab_ros.core.checking.report import CheckReport
 
 FOUND = checked()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from mrlab_ros.core.checking.evidence import of_grasps
-from mrlab_ros.core.checking.rehearsed import GraspChange, Rehearsed
+from mrlab_ros.core.checking.rehearsal_record import GraspChange, Rehearsed
 from mrlab_ros.core.physics.grasp.states import Grasp
 
 TAKES = GraspChange(2.0, "giver", Grasp.HOLDING, "rod")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from mrlab_ros.core.checking.pairs import closing_speed, pairs_of, smallest_delay, wait_frame
-from mrlab_ros.core.checking.rehearsed import Collision, Distances, Rehearsed
+from mrlab_ros.core.checking.rehearsal_record import Collision, Distances, Rehearsed
 from mrlab_ros.core.physics.engine import Kind, Near
 
 

@@ -14,8 +14,8 @@ from refusals import refused
 from mrlab_ros.core.base.diagnostics import BAD_POSITION, BAD_RATE, ILLEGAL_EVENT
 from mrlab_ros.core.base.errors import BadInput, IllegalEvent, LabError, Misuse
 from mrlab_ros.core.playback import diagnostics as say
-from mrlab_ros.core.playback.journal import come_back, keep
 from mrlab_ros.core.playback.playback import Playback
+from mrlab_ros.core.playback.saved_state import come_back, keep
 from mrlab_ros.core.playback.states import TABLE, Event, State
 from mrlab_ros.core.playback.stream import LOST_AFTER_NS, Sample
 from mrlab_ros.core.trajectory.diagnostics import (

@@ -11,7 +11,7 @@ from hypothesis.extra import numpy as hnp
 from mrlab_ros.adapters.trajectories import formats
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, Severity
 from mrlab_ros.core.base.errors import BadInput
-from mrlab_ros.core.trajectory.channels import ProxyCoefficients, derive
+from mrlab_ros.core.trajectory.derived_signals import ProxyCoefficients, derive
 from mrlab_ros.core.trajectory.trajectory import Source, Trajectory
 
 COEFFICIENTS = ProxyCoefficients((1.0,), (1.0,), (1.0,), (0.1,), 50.0)

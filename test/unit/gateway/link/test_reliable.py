@@ -6,10 +6,10 @@ from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, rule
 from refusals import refused
 
-from mrlab_ros.gateway.link import channels
-from mrlab_ros.gateway.link.channels import FRAGMENT, WINDOW, Overflow, ReliableSender
+from mrlab_ros.gateway.link import queues
 from mrlab_ros.gateway.link.diagnostics import TOO_MUCH_WAITS
 from mrlab_ros.gateway.link.frames import HEAD, LAST_FRAGMENT
+from mrlab_ros.gateway.link.queues import FRAGMENT, WINDOW, Overflow, ReliableSender
 
 pytestmark = pytest.mark.fast
 
@@ -92,7 +92,7 @@ TestConnection = Connection.TestCase
 
 
 def test_what_a_client_does_not_take_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(channels, "LARGEST", 100)
+    monkeypatch.setattr(queues, "LARGEST", 100)
     sender = ReliableSender()
     sender.push(bytes(60))
     with refused(TOO_MUCH_WAITS, Overflow, count=1, size=60):
@@ -101,7 +101,7 @@ def test_what_a_client_does_not_take_is_bounded(monkeypatch: pytest.MonkeyPatch)
 
 
 def test_a_record_larger_than_all_room_passes_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(channels, "LARGEST", 100)
+    monkeypatch.setattr(queues, "LARGEST", 100)
     sender = ReliableSender()
     sender.push(bytes(1000))
     assert sender.next() is not None

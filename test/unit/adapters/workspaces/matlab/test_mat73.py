@@ -8,7 +8,7 @@ import hostile_hdf5 as hostile
 import numpy as np
 import pytest
 
-from mrlab_ros.adapters import wall
+from mrlab_ros.adapters.sandbox import restrictions
 from mrlab_ros.adapters.workspaces import worker
 from mrlab_ros.adapters.workspaces.matlab import mat73
 from mrlab_ros.adapters.workspaces.matlab.elements import Damaged, TooLarge
@@ -95,7 +95,7 @@ def test_a_file_that_names_another_gives_nothing_of_it(way, marker, reader):
 
 @pytest.mark.parametrize("way", WAYS[:4], ids=lambda way: way.__name__)
 def test_its_own_reader_reads_no_bytes_that_lie_elsewhere(way, marker):
-    """Without the wall, too: bounds stand before every read."""
+    """Outside the sandbox, too: bounds stand before every read."""
     data = hostile.workspace(lambda file: way(file, marker))
     with pytest.raises(Damaged):
         worker.read(memoryview(data), "traj.mat", marker_free_sink(), 1 << 20)
@@ -103,11 +103,11 @@ def test_its_own_reader_reads_no_bytes_that_lie_elsewhere(way, marker):
 
 @pytest.mark.parametrize("way", WAYS, ids=lambda way: way.__name__)
 def test_the_kernel_refuses_what_a_reader_would_open(way, marker, monkeypatch):
-    """With the checks of the file taken out: the wall alone keeps it in."""
+    """With the checks of the file taken out: the sandbox alone keeps it in."""
     monkeypatch.setattr(mat73, "values_of", lambda item, path, limit: item[()])
     monkeypatch.setattr(worker, "warm_up", lambda: None)
     data = hostile.workspace(lambda file: way(file, marker))
-    with wall.nothing_opens(), pytest.raises((Damaged, TooLarge)):
+    with restrictions.nothing_opens(), pytest.raises((Damaged, TooLarge)):
         worker.read(memoryview(data), "traj.mat", marker_free_sink(), 1 << 20)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from made_motions import checked, outcome, recorded
 
-from mrlab_ros.core.checking.rehearsed import Collision, Distances
+from mrlab_ros.core.checking.rehearsal_record import Collision, Distances
 from mrlab_ros.core.physics.engine import Kind, Near
 
 

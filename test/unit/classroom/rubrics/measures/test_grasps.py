@@ -61,7 +61,7 @@ def test_the_longest_of_several_holds_counts():
 
 
 def test_a_hand_over_is_no_loss():
-    from mrlab_ros.core.checking.rehearsed import GraspChange
+    from mrlab_ros.core.checking.rehearsal_record import GraspChange
     from mrlab_ros.core.physics.grasp.states import Grasp
 
     record = recorded(HELD)

@@ -7,7 +7,7 @@ import pytest
 from made_motions import MODEL, checked, outcome, reach
 
 from mrlab_ros.core.base.geometry import Pose
-from mrlab_ros.core.checking.checked import Motion
+from mrlab_ros.core.checking.check_record import Motion
 from mrlab_ros.core.checking.joints import StatedLimits
 from mrlab_ros.core.checking.motion import CheckedRobot
 

@@ -1,4 +1,4 @@
-"""Behind the wall a process reaches what it was given, and nothing else."""
+"""In the sandbox a process reaches what it was given, and nothing else."""
 
 import ctypes
 import json
@@ -12,11 +12,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mrlab_ros.adapters import wall
+from mrlab_ros.adapters.sandbox import restrictions
 
 pytestmark = pytest.mark.fast
 needs_kernel = pytest.mark.skipif(
-    not all(wall.layers().values()), reason="this kernel has no Landlock or no seccomp"
+    not all(restrictions.layers().values()), reason="this kernel has no Landlock or no seccomp"
 )
 
 
@@ -36,13 +36,13 @@ def listener():
 
 
 def outcomes(deeds, **shut):
-    """Do each deed behind the wall, in a process of its own; return 'did' or the kind of error."""
+    """Do each deed in the sandbox, in a process of its own; return 'did' or the kind of error."""
     read, write = os.pipe()
     child = os.fork()
     if child == 0:
         told = {}
         try:
-            wall.shut(**shut)
+            restrictions.shut(**shut)
             for name, deed in deeds.items():
                 try:
                     deed()
@@ -111,7 +111,7 @@ def test_a_closed_wall_lets_nothing_open_and_lets_arithmetic_go_on(given, listen
 def test_a_wall_with_folders_lets_only_these_open(given, listener):
     (given / "read" / "link").symlink_to(given / "keys" / "file")
     deeds = deeds_of(given, listener.getsockname()[1])
-    walls = {"read": [*wall.libraries(), given / "read"], "write": [given / "write"]}
+    walls = {"read": [*restrictions.libraries(), given / "read"], "write": [given / "write"]}
     told = outcomes(deeds, opens=True, **walls)
     assert refused(told) == set(deeds), told
     work = {
@@ -128,11 +128,11 @@ def test_a_wall_with_folders_lets_only_these_open(given, listener):
 @needs_kernel
 @pytest.mark.parametrize("version", [1, 2, 3])
 def test_on_an_older_kernel_no_file_elsewhere_is_emptied(given, monkeypatch, version):
-    monkeypatch.setattr(wall, "landlock_version", lambda: version)
+    monkeypatch.setattr(restrictions, "landlock_version", lambda: version)
     kept = given / "keys" / "file"
     told = outcomes(
         {"truncate": lambda: os.truncate(kept, 0), "open": lambda: kept.open("w")},
-        read=wall.libraries(),
+        read=restrictions.libraries(),
         write=[given / "write"],
         opens=True,
     )
@@ -142,11 +142,11 @@ def test_on_an_older_kernel_no_file_elsewhere_is_emptied(given, monkeypatch, ver
 
 def test_files_are_named_only_where_something_may_open(given):
     with pytest.raises(ValueError, match="nobody may open"):
-        wall.shut(read=[given])
+        restrictions.shut(read=[given])
 
 
 def test_nothing_opens_without_a_descriptor_and_afterwards_it_does(given):
-    with wall.nothing_opens(), pytest.raises(OSError, match="Too many open files"):
+    with restrictions.nothing_opens(), pytest.raises(OSError, match="Too many open files"):
         (given / "read" / "file").read_text()
     assert (given / "read" / "file").read_text() == "in read"
 
@@ -158,5 +158,5 @@ def test_of_a_folder_on_the_path_of_imports_its_modules_alone_are_read(tmp_path,
         (tmp_path / name).touch()
     monkeypatch.syspath_prepend(tmp_path)
     here = tmp_path.resolve()
-    found = {path for path in wall.libraries() if path.is_relative_to(here)}
+    found = {path for path in restrictions.libraries() if path.is_relative_to(here)}
     assert found == {here / name for name in ("package", "module.py", "a-1.dist-info")}

@@ -6,8 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mrlab_ros.core.base.errors import BadInput
-from mrlab_ros.core.trajectory import channels
-from mrlab_ros.core.trajectory.channels import (
+from mrlab_ros.core.trajectory import derived_signals
+from mrlab_ros.core.trajectory.derived_signals import (
     GRAVITY,
     ProxyCoefficients,
     derivative,
@@ -78,7 +78,7 @@ def test_blocks_give_the_same_bits_as_the_whole(rows, monkeypatch):
     positions = np.random.default_rng(1).normal(size=(rows, 3))
     coefficients = ProxyCoefficients((1.0,), (0.5,), (2.0,), (0.3,), 100.0)
     whole = derive(positions, 100.0, coefficients)
-    monkeypatch.setattr(channels, "BLOCK_ROWS", 7)
+    monkeypatch.setattr(derived_signals, "BLOCK_ROWS", 7)
     parts = derive(positions, 100.0, coefficients)
     np.testing.assert_array_equal(parts.velocities, whole.velocities)
     np.testing.assert_array_equal(parts.effort_proxy, whole.effort_proxy)

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mrlab_ros.gateway.link.channels import Newest
+from mrlab_ros.gateway.link.queues import Newest
 
 pytestmark = pytest.mark.fast
 OFFERS = st.lists(st.tuples(st.integers(0, 9), st.binary(min_size=1, max_size=30)))

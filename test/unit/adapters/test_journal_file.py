@@ -10,8 +10,8 @@ import sys
 
 import pytest
 
-from mrlab_ros.adapters.journal import Journal
-from mrlab_ros.core.runtime import journal as form
+from mrlab_ros.adapters.journal_file import Journal
+from mrlab_ros.core.runtime import journal_format as form
 
 
 @pytest.fixture
@@ -84,7 +84,7 @@ def test_a_write_into_the_file_needs_no_space(tmp_path, said, monkeypatch):
 WRITER = """
 import sys
 from pathlib import Path
-from mrlab_ros.adapters.journal import Journal
+from mrlab_ros.adapters.journal_file import Journal
 journal = Journal(Path(sys.argv[1]), print)
 i = 0
 while True:

@@ -15,7 +15,7 @@ from typing import Any
 
 from mrlab_ros.adapters.diagnostics import COPY_KEPT, NOT_SET_ASIDE, SET_ASIDE
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.runtime import journal
+from mrlab_ros.core.runtime import journal_format
 
 
 def set_aside(path: Path, *, copy: bool = False) -> Diagnostic:
@@ -75,7 +75,7 @@ class Journal:
         except OSError as error:
             self._log(f"{path} cannot be read: {error.strerror}; the node starts without it")
             return {}
-        found = journal.newest(file)
+        found = journal_format.newest(file)
         if found is None:
             if file:
                 self._log(f"{path} is damaged. {set_aside(path)}; the node starts without it")
@@ -92,7 +92,7 @@ class Journal:
             if content == self._saved:
                 return True
             try:
-                self._write(self._path, journal.pack(self._number + 1, content))
+                self._write(self._path, journal_format.pack(self._number + 1, content))
             except OSError as error:
                 said = f"{self._path} cannot be written, a restart will not know: {error.strerror}"
                 if said != self._failed:
@@ -121,7 +121,7 @@ class Journal:
     def _begin(self, path: Path, slot: bytes) -> None:
         """Replace the file by one with room for `slot`, which it holds already."""
         path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-        size = journal.slot_size(len(slot))
+        size = journal_format.slot_size(len(slot))
         new = path.with_name(f"{path.name}.new")
         file = os.open(new, OPENED, 0o600)
         try:

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from fakes import SECOND, StraightPlanner, make_model, make_trajectory
 
-from mrlab_ros.core.playback import journal
-from mrlab_ros.core.playback.journal import Kept, come_back, keep
+from mrlab_ros.core.playback import saved_state
 from mrlab_ros.core.playback.playback import Playback
+from mrlab_ros.core.playback.saved_state import Kept, come_back, keep
 from mrlab_ros.core.playback.states import State
 
 START = 5 * SECOND
@@ -39,8 +39,8 @@ def on_its_way(seconds: float) -> Playback:
 
 def again(kept: Kept | None) -> Kept:
     assert kept is not None
-    content = {journal.ROBOTS: {"a": journal.plain("m", kept)}}
-    ((model, read),) = journal.read(json.loads(json.dumps(content))).values()
+    content = {saved_state.ROBOTS: {"a": saved_state.plain("m", kept)}}
+    ((model, read),) = saved_state.read(json.loads(json.dumps(content))).values()
     assert model == "m"
     return read
 
@@ -91,4 +91,6 @@ def test_without_a_trajectory_nothing_is_kept():
 def test_an_entry_of_another_form_is_left_out(broken):
     kept = keep(on_its_way(0.1))
     assert kept is not None
-    assert journal.read({journal.ROBOTS: {"a": journal.plain("m", kept) | broken}}) == {}
+    assert (
+        saved_state.read({saved_state.ROBOTS: {"a": saved_state.plain("m", kept) | broken}}) == {}
+    )

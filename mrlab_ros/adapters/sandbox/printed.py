@@ -1,4 +1,4 @@
-"""Calls a function on a file from outside in a process behind the wall.
+"""Calls a function on a file from outside in a process in the sandbox.
 
 The function prints as any other; its output comes back as text.
 """
@@ -16,7 +16,8 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from mrlab_ros.adapters import installed, share, walled
+from mrlab_ros.adapters import installed, share
+from mrlab_ros.adapters.sandbox import calls
 
 # Of a bag: a session of hours is decoded whole, and inflated on the way.
 MOST_MEMORY, MOST_TIME, MOST_FILE = 8 << 30, 3600.0, 1 << 40  # bytes, s, bytes
@@ -54,7 +55,7 @@ def call(
     with tempfile.TemporaryDirectory(prefix="mrlab-") as scratch:
         places = {"TMPDIR": scratch, "MPLCONFIGDIR": scratch}
         width = {"COLUMNS": str(shutil.get_terminal_size().columns)}
-        said = walled.call(
+        said = calls.call(
             printed, function.__module__, function.__qualname__, arguments, name=name,
             read=[path for path in (*known, *read) if path.exists()],
             write=[Path(scratch), *write], memory=MOST_MEMORY, seconds=MOST_TIME,

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import IO
 
-from mrlab_ros.adapters import python_process
+from mrlab_ros.adapters.sandbox import python_process
 
 # Of one message over the socket, bytes.
 MESSAGE_SIZE = 65_536

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mrlab_ros.core.runtime import journal
+from mrlab_ros.core.runtime import journal_format
 
 VALUES = st.recursive(
     st.none() | st.integers(-(2**53), 2**53) | st.floats(allow_nan=False) | st.text(),
@@ -21,25 +21,28 @@ def file(first: bytes, second: bytes, size: int) -> bytes:
 
 @given(st.dictionaries(st.text(), VALUES, max_size=5))
 def test_what_is_packed_is_unpacked(content):
-    slot = journal.pack(7, content)
-    assert journal.unpack(slot) == (7, content)
-    assert journal.unpack(slot + bytes(100)) == (7, content)
+    slot = journal_format.pack(7, content)
+    assert journal_format.unpack(slot) == (7, content)
+    assert journal_format.unpack(slot + bytes(100)) == (7, content)
 
 
 @given(st.data())
 def test_a_torn_write_leaves_the_one_before(data):
-    before, after = journal.pack(4, {"a": 1}), journal.pack(5, {"a": 2, "b": [1, 2, 3]})
-    size = journal.slot_size(len(after))
+    before, after = (
+        journal_format.pack(4, {"a": 1}),
+        journal_format.pack(5, {"a": 2, "b": [1, 2, 3]}),
+    )
+    size = journal_format.slot_size(len(after))
     torn = after[: data.draw(st.integers(0, len(after) - 1))]
-    assert journal.newest(file(before, torn, size)) == (4, {"a": 1})
-    assert journal.newest(file(before, after, size)) == (5, {"a": 2, "b": [1, 2, 3]})
+    assert journal_format.newest(file(before, torn, size)) == (4, {"a": 1})
+    assert journal_format.newest(file(before, after, size)) == (5, {"a": 2, "b": [1, 2, 3]})
 
 
 @pytest.mark.parametrize("content", [b"", b"x", bytes(8192), b"mrlab.j1" * 1000])
 def test_a_file_without_a_write_holds_nothing(content):
-    assert journal.newest(content) is None
+    assert journal_format.newest(content) is None
 
 
 def test_a_slot_has_room_to_grow():
-    assert journal.slot_size(10) == journal.SMALLEST
-    assert journal.slot_size(journal.SMALLEST + 1) == 2 * journal.SMALLEST
+    assert journal_format.slot_size(10) == journal_format.SMALLEST
+    assert journal_format.slot_size(journal_format.SMALLEST + 1) == 2 * journal_format.SMALLEST

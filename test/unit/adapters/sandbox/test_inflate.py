@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 import zstandard
 
-from mrlab_ros.adapters.inflate import Incomplete, inflate_file
+from mrlab_ros.adapters.sandbox.inflate import Incomplete, inflate_file
 
 
 @pytest.mark.parametrize("compress", [gzip.compress, zstandard.compress])

@@ -11,7 +11,7 @@ import pytest
 CHILD = """
 import signal, sys
 signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGTERM})
-from mrlab_ros.adapters.launcher import end_with_launcher
+from mrlab_ros.adapters.parent_exit import end_with_launcher
 end_with_launcher()
 print("runs", flush=True)
 found = signal.sigtimedwait({signal.SIGTERM}, float(sys.argv[1]))
@@ -19,7 +19,7 @@ print("ends" if found else "goes on", flush=True)
 """
 LAUNCHER = """
 import os, shlex, signal, subprocess, sys
-from mrlab_ros.adapters.launcher import LAUNCHER
+from mrlab_ros.adapters.parent_exit import LAUNCHER
 named = {"itself": str(os.getpid()), "another": sys.argv[5], "ended": "4194305"}.get(sys.argv[1])
 environment = {**os.environ, **({LAUNCHER: named} if named else {})}
 words = [*shlex.split(sys.argv[4]), sys.executable, "-c", sys.argv[2], sys.argv[3]]

@@ -1,8 +1,8 @@
-"""Calls a function on files from outside in a process of its own, behind the wall.
+"""Calls a function on files from outside in a process of its own, in the sandbox.
 
 The process starts with none of the caller's memory, descriptors and secrets of the environment. It
-imports the function's module, shuts the wall (`adapters/wall.py`), and answers with JSON: whatever
-the files make of it, the caller sees no more than that.
+imports the function's module, enters the sandbox (`restrictions.py`), and answers with JSON:
+whatever the files make of it, the caller sees no more than that.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from mrlab_ros.adapters import python_process, wall
 from mrlab_ros.adapters.diagnostics import READER_FAILED, READER_MEMORY, READER_SLOW
+from mrlab_ros.adapters.sandbox import python_process, restrictions
 from mrlab_ros.core.base.diagnostic import from_plain, plain
 from mrlab_ros.core.base.errors import BadInput, LabError
 
@@ -77,7 +77,7 @@ def call(
             with contextlib.suppress(subprocess.TimeoutExpired):
                 process.communicate(json.dumps(words).encode(), timeout=seconds + START)
         finally:
-            # what it forked stays in its session: the wall lets nobody leave one
+            # what it forked stays in its session: the sandbox lets nobody leave one
             with contextlib.suppress(ProcessLookupError):
                 os.killpg(process.pid, signal.SIGKILL)
             status = process.wait()
@@ -109,10 +109,10 @@ def main() -> None:
             function = getattr(function, part)
         read, write = ([Path(path) for path in words[key]] for key in ("read", "write"))
         signal.setitimer(signal.ITIMER_REAL, words["seconds"])
-        wall.confine(
+        restrictions.confine(
             memory=words["memory"], seconds=words["seconds"], file_size=words["file_size"]
         )
-        wall.shut(read=[*wall.libraries(), *read], write=write, opens=True)
+        restrictions.shut(read=[*restrictions.libraries(), *read], write=write, opens=True)
         try:
             found = {"value": function(*words["arguments"])}
         except LabError as error:

@@ -1,4 +1,4 @@
-"""Prints what a function prints that reads a file from outside, in a process behind the wall."""
+"""Prints what a function prints that reads a file from outside, in a process in the sandbox."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
-from mrlab_ros.adapters import behind_wall
+from mrlab_ros.adapters.sandbox import printed
 
 
 def run(
@@ -17,8 +17,8 @@ def run(
     read: Iterable[Path],
     write: Iterable[Path] = (),
 ) -> Any:
-    """Print what `adapters.behind_wall.call` brings back, and return the value; it says more."""
-    called = behind_wall.call(function, *arguments, name=name, read=read, write=write)
+    """Print what `adapters.sandbox.printed.call` brings back, and return the value; it says more."""
+    called = printed.call(function, *arguments, name=name, read=read, write=write)
     sys.stdout.write(called.out)
     sys.stderr.write(called.err)
     return called.value

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from mrlab_ros.core.checking.motion import CheckedRobot, MotionFigures
-from mrlab_ros.core.checking.rehearsed import Rehearsed
+from mrlab_ros.core.checking.rehearsal_record import Rehearsed
 from mrlab_ros.core.checking.report import CheckReport
 from mrlab_ros.core.physics.catalogue import ObjectType
 from mrlab_ros.core.scene.document import SceneDocument

@@ -1,8 +1,8 @@
-"""The wall around readers of files from outside: the kernel lets their process open nothing else.
+"""The sandbox of readers of files from outside: the kernel lets their process open nothing else.
 
 A file can ask its reader for others: HDF5 has external datasets, links and references, a robot
 description runs expressions, a picture or a mesh names its parts. Which ways there are is the
-libraries' business and changes with them, so the wall does not look for them. `shut` takes from
+libraries' business and changes with them, so the sandbox does not look for them. `shut` takes from
 the process, for good and from all that it forks, the right to open files, to connect, to start
 programs and to signal others; `nothing_opens` leaves no descriptor for a new file while a reader
 works. Landlock (Linux 5.13) decides by folder, seccomp by system call; a kernel without them
@@ -150,7 +150,7 @@ def shut(*, read: Iterable[Path] = (), write: Iterable[Path] = (), opens: bool =
 
 
 def layers() -> dict[str, bool]:
-    """Return which layers of the wall this machine has."""
+    """Return which layers of the sandbox this machine has."""
     return {"landlock": landlock_version() > 0, "seccomp": has_seccomp()}
 
 
