@@ -30,15 +30,21 @@ from mrlab_ros.core.base.clock import SECOND
 MAX_WAIT_NS = 200_000_000
 # The most messages taken from one subscription before the others are served.
 BATCH = 16
+# Pause of a thread after an error, s: the error may come again at once.
+RETRY_S = 0.1
 
 # State that a thread keeps for each subscription.
 Kept = TypeVar("Kept")
 
 
 class _RawThread(Generic[Kept]):
-    """A thread that serves a set of raw subscriptions, which may change while it runs."""
+    """A thread that serves a set of raw subscriptions, which may change while it runs.
 
-    def __init__(self, name: str) -> None:
+    on_error gets, in the thread, every error; the thread then continues after RETRY_S.
+    """
+
+    def __init__(self, name: str, on_error: Callable[[Exception], None]) -> None:
+        self._on_error = on_error
         self._lock = threading.Lock()
         self._subscriptions: dict[Subscription, Kept] = {}
         self._changed = True
@@ -75,20 +81,28 @@ class _RawThread(Generic[Kept]):
     def _run(self) -> None:
         more = True
         while more:
-            # The handles outlive what another thread destroys until the next round.
-            with ExitStack() as stack:
-                with self._lock:
-                    self._changed = False
-                    wanted = list(self._subscriptions.items())
-                found = []
-                for subscription, kept in wanted:
-                    handle: Any = subscription.handle
-                    try:
-                        stack.enter_context(handle)
-                    except InvalidHandle:  # destroyed a moment ago
-                        continue
-                    found.append((handle, subscription.msg_type, kept))
-                more = self._serve(stack, found)
+            try:
+                more = self._serve_present()
+            except Exception as error:
+                self._on_error(error)
+                more = not self._stopped.wait(RETRY_S)
+
+    def _serve_present(self) -> bool:
+        """Serve the present subscriptions until they change; return False to end the thread."""
+        # The handles outlive what another thread destroys until the next round.
+        with ExitStack() as stack:
+            with self._lock:
+                self._changed = False
+                wanted = list(self._subscriptions.items())
+            found = []
+            for subscription, kept in wanted:
+                handle: Any = subscription.handle
+                try:
+                    stack.enter_context(handle)
+                except InvalidHandle:  # destroyed a moment ago
+                    continue
+                found.append((handle, subscription.msg_type, kept))
+            return self._serve(stack, found)
 
     def _serve(self, stack: ExitStack, found: list[tuple[Any, Any, Kept]]) -> bool:
         """Serve handles until the subscriptions change; return False to end the thread."""
@@ -109,10 +123,9 @@ class WaitSetThread(_RawThread[Callable[[bytes], None]]):
         turn: Callable[[], int],
         on_error: Callable[[Exception], None],
     ) -> None:
-        super().__init__(name)
+        super().__init__(name, on_error)
         self._context = context
         self._turn = turn
-        self._on_error = on_error
         self._guard = GuardCondition(None, None, context=context)
 
     def stop(self) -> None:
@@ -194,9 +207,13 @@ class TopicPoll(_RawThread[str]):
     """
 
     def __init__(
-        self, name: str, period: float, on_messages: Callable[[list[Received]], bool]
+        self,
+        name: str,
+        period: float,
+        on_messages: Callable[[list[Received]], bool],
+        on_error: Callable[[Exception], None],
     ) -> None:
-        super().__init__(name)
+        super().__init__(name, on_error)
         self._period = period
         self._on_messages = on_messages
         self._early: list[Received] = []

@@ -62,6 +62,22 @@ class TestWaitSetThread:
         for topic, inbox in got.items():
             assert [text(data) for data in inbox] == [f"{topic}{i}" for i in range(100)]
 
+    def test_a_turn_that_raises_is_reported_and_the_thread_continues(self, graph, streams, errors):
+        def turn():
+            if not errors:
+                raise OSError("no descriptor")
+            return 50_000_000
+
+        thread = WaitSetThread(graph.context, "test", turn, errors.append)
+        got = []
+        thread.add(subscribe(streams, "a"), got.append)
+        thread.start()
+        wait_for(lambda: errors, "the error")
+        publisher(graph, "a").publish(String(data="after"))
+        wait_for(lambda: got, "a message after the error")
+        assert [str(error) for error in errors] == ["no descriptor"]
+        thread.stop()
+
     def test_a_callback_that_raises_is_reported_and_the_next_message_taken(
         self, graph, streams, thread, errors
     ):
@@ -220,7 +236,7 @@ class TestArrivals:
 class TestTopicPoll:
     def test_messages_of_all_topics_come_in_the_order_of_their_reception(self, graph, streams):
         batches: list[list[Received]] = []
-        poll = TopicPoll("test", 0.01, lambda messages: batches.append(messages) or True)
+        poll = TopicPoll("test", 0.01, lambda messages: batches.append(messages) or True, print)
         for topic in ("a", "b"):
             poll.add(subscribe(streams, topic), topic)
         poll.start()
@@ -239,7 +255,7 @@ class TestTopicPoll:
 
     def test_stop_takes_what_has_come(self, graph, streams):
         got = []
-        poll = TopicPoll("test", 600.0, lambda messages: got.extend(messages) or True)
+        poll = TopicPoll("test", 600.0, lambda messages: got.extend(messages) or True, print)
         subscription = subscribe(streams, "a")
         out = publisher(graph, "a")
         poll.start()
@@ -252,9 +268,28 @@ class TestTopicPoll:
 
     def test_it_ends_where_its_messages_are_refused(self, graph, streams):
         calls = []
-        poll = TopicPoll("test", 0.001, lambda messages: calls.append(1) and False)
+        poll = TopicPoll("test", 0.001, lambda messages: calls.append(1) and False, print)
         poll.start()
         poll._thread.join(10)
         assert not poll._thread.is_alive()
         assert len(calls) == 1
+        poll.stop()
+
+    def test_an_error_is_reported_and_the_thread_continues(self, graph, streams):
+        errors: list[Exception] = []
+        got: list[str] = []
+
+        def take(messages):
+            if not errors:
+                raise OSError("no descriptor")
+            got.extend(text(message.data) for message in messages)
+            return True
+
+        poll = TopicPoll("test", 0.01, take, errors.append)
+        poll.add(subscribe(streams, "a"), "a")
+        poll.start()
+        wait_for(lambda: errors, "the error")
+        publisher(graph, "a").publish(String(data="after"))
+        wait_for(lambda: got == ["after"], "a message after the error")
+        assert [str(error) for error in errors] == ["no descriptor"]
         poll.stop()

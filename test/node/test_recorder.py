@@ -61,13 +61,14 @@ from mrlab_ros.core.recording.diagnostics import (
     REPLAY_RUNS,
 )
 from mrlab_ros.core.recording.metadata import QosProfile, Topic
-from mrlab_ros.messages import qos
+from mrlab_ros.messages import qos, trajectories
 from mrlab_ros.messages.definitions import definition
 from mrlab_ros.nodes.recorder import node as recorder_node
 from mrlab_ros.nodes.recorder import recording, replaying
 from mrlab_ros.nodes.recorder.diagnostics import (
     OTHERS_PUBLISH,
     RECORDED,
+    RECORDER_FAULT,
     RECORDING_FAILED,
     RECORDING_WITH_GAP,
 )
@@ -443,6 +444,36 @@ def test_a_split_that_the_disk_refuses_ends_the_recording(graph, counter, launch
     order(graph, "stop")
 
 
+@pytest.mark.parametrize("broken", ["write", "flush", "take"])
+def test_an_error_of_the_recorder_itself_ends_the_recording_and_is_named(
+    graph, recorder, states, monkeypatch, broken
+):
+    say = publisher(graph, "/ur5e_1/telemetry")
+    folder = start(graph, "class", ("/*/telemetry",))
+    wait_for(lambda: graph.client.count_subscribers("/ur5e_1/telemetry"), "the recorder")
+    say("before")
+    wait_for(lambda: Bag(folder).message_count, "the message on the disk")
+
+    def fail(*_: Any) -> None:
+        raise ZeroDivisionError("injected")
+
+    owner = recorder._recording._poll if broken == "take" else BagWriter
+    monkeypatch.setattr(owner, f"_{broken}" if broken == "take" else broken, fail)
+    say("after")
+    wait_for(lambda: states.last().state == State.STOPPED, "the end")
+    failed = recorder.failed[0]
+    assert states.last().code == failed.code == RECORDING_FAILED.code
+    why = failed.values["why"].diagnostic
+    assert (why.code, why.values["error"]) == (
+        RECORDER_FAULT.code,
+        repr(ZeroDivisionError("injected")),
+    )
+    assert words(folder, "/ur5e_1/telemetry")[0] == "before"
+    monkeypatch.undo()
+    start(graph, "next")
+    order(graph, "stop")
+
+
 # replay ---------------------------------------------------------------------------------------
 
 
@@ -668,6 +699,38 @@ def test_meshes_of_objects_are_in_the_bag(graph, recorder):
     order(graph, "stop")
     attached = Bag(folder).attachment("meshes/mrlab_ros/config/objects/bin.glb")
     assert attached.data == (directory() / "config" / "objects" / "bin.glb").read_bytes()
+
+
+def test_a_mesh_of_an_object_in_a_message_of_the_same_size_is_in_the_bag(graph, recorder):
+    made = graph.client.create_publisher(msg.SceneObjects, "/objects", qos.STREAM)
+    folder = start(graph, "things", ("/objects",))
+    wait_for(lambda: graph.client.count_subscribers("/objects"), "the recorder")
+    meshes = ("bin", "can")
+    for count, mesh in enumerate(meshes, 1):
+        uri = f"package://mrlab_ros/config/objects/{mesh}.glb"
+        made.publish(msg.SceneObjects(objects=[msg.SceneObject(name="thing", mesh=uri)]))
+        wait_for(lambda count=count: Bag(folder).message_count == count, "the message")
+    order(graph, "stop")
+    attached = Bag(folder).attachments()
+    for mesh in meshes:
+        assert f"meshes/mrlab_ros/config/objects/{mesh}.glb" in attached
+
+
+def test_a_long_trajectory_that_is_announced_without_frames_is_in_the_bag(graph, recorder):
+    small_lab.start(graph)
+    whole = small_lab.TRAJECTORIES["wave"]
+    said = graph.client.create_publisher(msg.Trajectory, "/trajectories/converted", qos.EVENTS)
+    folder = start(graph, "long", ("/trajectories/converted",))
+    wait_for(lambda: graph.client.count_subscribers("/trajectories/converted"), "the recorder")
+    said.publish(
+        msg.Trajectory(
+            info=trajectories.info_to_message(whole), joint_names=list(whole.joint_names)
+        )
+    )
+    wait_for(lambda: Bag(folder).message_count, "the message on the disk")
+    order(graph, "stop")
+    attached = parse(Bag(folder).attachment(f"trajectories/{whole.id}.json").data, whole.id)
+    assert attached.positions == pytest.approx(whole.positions, abs=1e-12)
 
 
 def test_a_recording_that_goes_on_counts_the_bag_and_a_failure_is_told(

@@ -160,7 +160,7 @@ class FramesNode(
         self._fixed = self.create_publisher(TFMessage, "/tf_static", qos.LATCHED)
         self._together = self.create_publisher(String, "/robot_description", qos.LATCHED)
         self._streams = self.hidden_node("streams", remapped=True)
-        self._poll = TopicPoll("frames", 1 / self.parameters.rate, self._turn)
+        self._poll = TopicPoll("frames", 1 / self.parameters.rate, self._turn, self._report)
         rate = self.parameters.marker_rate
         self._markers = MarkerPublishers(self, rate, self._identity) if rate else None
         self._subscribe(msg.Robots, "/robots", self._on_robots, qos.LATCHED)
@@ -207,9 +207,12 @@ class FramesNode(
         try:
             work()
         except Exception as error:
-            if self.context.ok():
-                said = error if isinstance(error, LabError) else repr(error)
-                self._log.error(f"frames: {said}", throttle_duration_sec=1.0)
+            self._report(error)
+
+    def _report(self, error: Exception) -> None:
+        if self.context.ok():
+            said = error if isinstance(error, LabError) else repr(error)
+            self._log.error(f"frames: {said}", throttle_duration_sec=1.0)
 
     def _publish(self) -> None:
         if self._placed:

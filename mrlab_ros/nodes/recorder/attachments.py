@@ -38,6 +38,8 @@ from mrlab_ros.ros.worker import Worker
 
 Attach = Callable[[str, str, bytes], None]
 PACKAGE = re.compile(r"package://([^/]+)/(.+)")
+# The same in CDR, where a text ends with a zero byte.
+URI_IN_CDR = re.compile(rb"package://[^\0]+")
 SCENE = "scene.json"
 PARAMETERS_TIMEOUT_S = 2.0
 
@@ -57,14 +59,13 @@ class SessionContent:
         self._complain = warn_once
         self._library = RobotLibrary(share.directory() / "robots")
         self._there: set[str] = set()
-        # Trajectories that robots play, and by attachment the version that it holds.
+        # Versions that the converter was asked for, and by attachment the version that it holds.
         self._asked: set[str] = set()
         self._versions: dict[str, str] = {}
         # The last published scene, unless it is in the bag already.
         self._scene: bytes | None = None
-        # Meshes of objects, and the size of the last message with objects, bytes.
-        self._uris: set[str] = set()
-        self._objects_size = 0
+        # Meshes of objects in the messages so far.
+        self._uris: set[bytes] = set()
         self._worker = Worker("recorder_content")
         self._trajectories = CatalogueClient(caller.node)
         self._closed = False
@@ -82,15 +83,15 @@ class SessionContent:
         name = message.topic.rsplit("/", 1)[-1]
         reader = self._readers.get(name)
         if reader is not None and not self._closed:
-            if name == "objects" and not self._is_due(message):
+            if name == "objects" and not self._has_new_mesh(message):
                 return
             self._later(message.topic, lambda: self._read(message, kind, *reader))
 
-    def _is_due(self, message: Received) -> bool:
-        """Return whether to look for new objects: they come sixty times a second."""
-        size = len(message.data)
-        due, self._objects_size = size != self._objects_size, size
-        return due
+    def _has_new_mesh(self, message: Received) -> bool:
+        """Return whether objects name an unknown mesh; they are published sixty times a second."""
+        new = {*URI_IN_CDR.findall(message.data)} - self._uris
+        self._uris |= new
+        return bool(new)
 
     def close(self) -> None:
         """Fetch what is queued, then end."""
@@ -127,8 +128,7 @@ class SessionContent:
             self._attach_uri(topic, mesh.get("filename", ""))
 
     def _take_objects(self, topic: str, message: Any) -> None:
-        for uri in {thing.mesh for thing in message.objects} - self._uris:
-            self._uris.add(uri)
+        for uri in {thing.mesh for thing in message.objects}:
             self._attach_uri(topic, uri)
 
     def _attach_uri(self, topic: str, uri: str) -> None:
@@ -150,17 +150,23 @@ class SessionContent:
         self._attach(name, kind, file.read_bytes())
 
     def _take_state(self, topic: str, state: Any) -> None:
-        version = f"{state.trajectory_id}@{state.trajectory_version}"
         # Without a version it is in no catalogue: a goal of somebody else's, or a stream.
-        if not state.trajectory_version or version in self._asked:
+        if state.trajectory_version:
+            self._fetch_trajectory(f"{state.trajectory_id}@{state.trajectory_version}")
+
+    def _take_trajectory(self, topic: str, message: Any) -> None:
+        if message.positions:
+            self._attach_trajectory(trajectories.trajectory_from_message(message))
+        else:  # a long one is announced without its frames
+            self._fetch_trajectory(f"{message.info.id}@{message.info.version}")
+
+    def _fetch_trajectory(self, version: str) -> None:
+        """Attach a version of the catalogue; ask once: the converter may be gone."""
+        if version in self._asked:
             return
-        # Asked for once: the state comes every second, and the converter may be gone.
         self._asked.add(version)
         if version not in self._versions.values():
             self._attach_trajectory(self._trajectories.fetch(version))
-
-    def _take_trajectory(self, topic: str, message: Any) -> None:
-        self._attach_trajectory(trajectories.trajectory_from_message(message))
 
     def _attach_trajectory(self, trajectory: Trajectory) -> None:
         # The first version has the id alone for a name.

@@ -24,6 +24,11 @@ RECORDING_FAILED = Code(
     "{why:problem}; the bag is whole, with {messages:count message|messages}.",
     meaning="A recording ended by itself.",
 )
+RECORDER_FAULT = Code(
+    "recorder_fault",
+    "The recorder met an error of its own ({error}).",
+    "Please report it with the log of the recorder.",
+)
 
 # what is not in a bag
 NOT_RECORDED = Code("not_recorded", "not recorded: {why:problem}", severity=WARNING)

@@ -12,11 +12,16 @@ from rclpy.subscription import Subscription
 from mrlab_ros.adapters.bags.writer import BagWriter
 from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.base.errors import BadInput, LabError
+from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.recording.metadata import Topic
 from mrlab_ros.core.recording.topics import Split, Topics
 from mrlab_ros.messages.qos import message_class, profile, topic_of
-from mrlab_ros.nodes.recorder.diagnostics import NOT_RECORDED, RECORDING_FAILED, SEVERAL_TYPES
+from mrlab_ros.nodes.recorder.diagnostics import (
+    NOT_RECORDED,
+    RECORDER_FAULT,
+    RECORDING_FAILED,
+    SEVERAL_TYPES,
+)
 from mrlab_ros.ros.raw_streams import Received, TopicPoll
 
 # Period at which subscriptions are polled, s.
@@ -74,8 +79,8 @@ class Recording:
     """Writes the topics of the graph that `topics` names into `writer`.
 
     `streams` is a node that no executor spins. `observe` gets every message that was written,
-    and must be quick. `on_trouble` gets, in another thread, the error that ended the recording;
-    the bag is closed by then.
+    and must be quick. `on_trouble` gets, in another thread, the error that ended the recording,
+    of the disk or of the recorder itself; the bag is closed by then.
     """
 
     def __init__(
@@ -112,13 +117,13 @@ class Recording:
         self._closed = False
         # Why the recording ended by itself.
         self._trouble: LabError | None = None
-        self._poll = TopicPoll("recorder", POLL_PERIOD_S, self._take)
+        self._poll = TopicPoll("recorder", POLL_PERIOD_S, self._take, self._fail)
 
     def start(self) -> None:
         """Follow the topics that there are; raise DiskTrouble where the disk refuses."""
         if self._guarded(self._writer.flush):
             self.discover()
-        self._check_disk()
+        self._check_trouble()
         if not self._closed:
             self._poll.start()
 
@@ -157,7 +162,10 @@ class Recording:
             known = self._followed.get(name)
             publishers = self._streams.count_publishers(name)
             if publishers and (known is None or known.publishers != publishers):
-                changed |= self._follow(name, publishers)
+                try:
+                    changed |= self._follow(name, publishers)
+                except Exception as error:
+                    self._refuse(name, _named(error).diagnostic)
         if changed:
             self._guarded(lambda: self._written(self._writer.write_metadata))
 
@@ -167,7 +175,7 @@ class Recording:
         The recording has then ended, or is about to end, by itself.
         """
         self._guarded(self._split_now)
-        self._check_disk()
+        self._check_trouble()
 
     def attach(self, name: str, media_type: str, data: bytes) -> None:
         """Put a file into the bag, unless it is closed."""
@@ -176,11 +184,10 @@ class Recording:
                 self._writer.attach(name, media_type, data, time.time_ns())
 
     def close(self) -> None:
-        """Write what was received, then index and metadata; raise DiskTrouble where that fails."""
+        """Write what was received, then index and metadata; raise LabError where that fails."""
         self._poll.stop()
         with self._lock:
-            if self._closed:
-                return
+            self._check_trouble()
             for message in self._present([], last=True):
                 self._write(message)
             self._closed = True
@@ -202,13 +209,9 @@ class Recording:
                 return False
             self._poll.remove(known.subscription)
             self._streams.destroy_subscription(known.subscription)
-        try:
-            kind = message_class(topic.type)
-            with self._lock:
-                self._writer.add_topic(topic)
-        except BadInput as error:
-            self._refuse(name, error.diagnostic)
-            return False
+        kind = message_class(topic.type)
+        with self._lock:
+            self._writer.add_topic(topic)
         subscription = self._streams.create_subscription(
             kind, name, lambda _: None, profile(topic, DEPTH), raw=True
         )
@@ -275,27 +278,31 @@ class Recording:
                 write()
 
     def _guarded(self, work: Callable[[], None]) -> bool:
-        """Do `work`; on a disk error end the recording and return False."""
+        """Do `work`; on an error end the recording and return False."""
         try:
             work()
-        except LabError as error:
-            with self._lock:
-                if self._closed:
-                    return False
-                self._closed, self._trouble = True, error
-            try:
-                self._writer.close()
-            except LabError as second:
-                self._complain(second.diagnostic)
-            else:
-                error = type(error)(RECORDING_FAILED(why=error, messages=self.messages))
-                self._trouble = error
-            self._leave()
-            self._on_trouble(error)
+        except Exception as error:
+            self._fail(error)
             return False
         return True
 
-    def _check_disk(self) -> None:
+    def _fail(self, error: Exception) -> None:
+        """End the recording because of an error, unless it has ended."""
+        why = _named(error)
+        with self._lock:
+            if self._closed:
+                return
+            self._closed, self._trouble = True, why
+        try:
+            self._writer.close()
+        except Exception as second:
+            self._complain(_named(second).diagnostic)
+        else:
+            self._trouble = type(why)(RECORDING_FAILED(why=why, messages=self.messages))
+        self._leave()
+        self._on_trouble(self._trouble)
+
+    def _check_trouble(self) -> None:
         if self._trouble is not None:
             raise self._trouble
 
@@ -303,3 +310,8 @@ class Recording:
         for followed in self._followed.values():
             self._streams.destroy_subscription(followed.subscription)
         self._followed.clear()
+
+
+def _named(error: Exception) -> LabError:
+    """Return `error` as one with a diagnostic: any but a LabError is a fault of the recorder."""
+    return error if isinstance(error, LabError) else LabError(RECORDER_FAULT(error=repr(error)))

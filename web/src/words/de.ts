@@ -2969,6 +2969,10 @@ export const diagnostics: Templates = {
     "'{variable}' enthält Gelenkzustände, eine Nachricht je Zeitpunkt: eine Aufnahme und keine Trajektorie.",
     'Gib das Bag wieder, wie es aufgenommen wurde. Willst du es ansehen, mach eine Sitzung daraus.',
   ],
+  recorder_fault: [
+    'In der Aufnahme ist ein eigener Fehler aufgetreten ({error}).',
+    'Bitte mit dem Protokoll der Aufnahme melden.',
+  ],
   recorder_restarted: ['die Aufnahme wurde neu gestartet, bevor sie etwas empfangen hatte'],
   recording_failed: [
     '{why:problem}; das Bag ist vollständig, mit {messages:count Nachricht|Nachrichten}.',
