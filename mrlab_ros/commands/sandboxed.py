@@ -17,7 +17,7 @@ def run(
     read: Iterable[Path],
     write: Iterable[Path] = (),
 ) -> Any:
-    """Print what `adapters.sandbox.printed.call` brings back, and return the value; it says more."""
+    """Print the output of `adapters.sandbox.printed.call`, and return its value."""
     called = printed.call(function, *arguments, name=name, read=read, write=write)
     sys.stdout.write(called.out)
     sys.stderr.write(called.err)
