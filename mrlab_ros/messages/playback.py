@@ -37,25 +37,37 @@ from mrlab_ros.messages.texts import told
 from mrlab_ros.messages.time import make_header, time_from_message, time_to_message
 
 
-def clock_to_message(clock: PlaybackClock) -> msg.PlaybackClock:
+def clock_to_message(clock: PlaybackClock, shifted_ns: int) -> msg.PlaybackClock:
+    """shifted_ns: by how much stamps are ahead of the clock's instants."""
     return msg.PlaybackClock(
-        stamp=time_to_message(clock.stamp_ns), position=clock.position, rate=clock.rate
+        stamp=time_to_message(clock.stamp_ns + shifted_ns),
+        position=clock.position,
+        rate=clock.rate,
     )
 
 
 def status_to_message(
-    now_ns: int, robot: str, status: PlaybackStatus, host: str = "", lab: str = ""
+    now_ns: int,
+    robot: str,
+    status: PlaybackStatus,
+    host: str = "",
+    lab: str = "",
+    shifted_ns: int = 0,
 ) -> msg.PlaybackState:
-    """host: the node that plays the robot. lab: the id of its lab; empty: unknown."""
+    """Return the state at the instant `now_ns`.
+
+    host: the node that plays the robot. lab: the id of its lab; empty: unknown. shifted_ns: by how
+    much stamps are ahead of instants.
+    """
     trajectory = status.trajectory
     return msg.PlaybackState(
-        header=make_header(now_ns, robot),
+        header=make_header(now_ns + shifted_ns, robot),
         state=status.state.value,
         label=status.state.name,
         **told(status.message),
         trajectory_id=trajectory.id if trajectory else "",
         trajectory_version=trajectory.version if trajectory else 0,
-        clock=clock_to_message(status.clock),
+        clock=clock_to_message(status.clock, shifted_ns),
         frame=status.frame,
         frame_count=trajectory.frame_count if trajectory else 0,
         frame_rate=trajectory.frame_rate if trajectory else 0.0,

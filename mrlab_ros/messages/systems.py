@@ -20,7 +20,8 @@ from mrlab_ros.messages.texts import told
 from mrlab_ros.messages.time import make_header, time_from_message, time_to_message
 
 
-def system_to_message(system: RobotSystem) -> msg.RobotSystem:
+def system_to_message(system: RobotSystem, shifted_ns: int = 0) -> msg.RobotSystem:
+    """shifted_ns: by how much stamps are ahead of instants."""
     playing = system.state is SystemState.PLAYING
     return msg.RobotSystem(
         name=system.name,
@@ -43,7 +44,7 @@ def system_to_message(system: RobotSystem) -> msg.RobotSystem:
         state=system.state.value,
         label=system.state.name,
         **told(system.message),
-        clock=clock_to_message(system.clock),
+        clock=clock_to_message(system.clock, shifted_ns),
         duration=system.duration,
         rate=system.rate,
         loop=system.loop,
@@ -51,12 +52,20 @@ def system_to_message(system: RobotSystem) -> msg.RobotSystem:
 
 
 def systems_to_message(
-    now_ns: int, systems: Iterable[RobotSystem], lab: str = "", holder: str = ""
+    now_ns: int,
+    systems: Iterable[RobotSystem],
+    lab: str = "",
+    holder: str = "",
+    shifted_ns: int = 0,
 ) -> msg.RobotSystems:
-    """lab: the id of the lab; holder: the coordinator that holds the claims."""
+    """Return the systems at the instant `now_ns`.
+
+    lab: the id of the lab; holder: the coordinator that holds the claims. shifted_ns: by how much
+    stamps are ahead of instants.
+    """
     return msg.RobotSystems(
-        header=make_header(now_ns),
-        systems=[system_to_message(system) for system in systems],
+        header=make_header(now_ns + shifted_ns),
+        systems=[system_to_message(system, shifted_ns) for system in systems],
         lab=lab,
         holder=holder,
     )
@@ -73,11 +82,12 @@ def member_from_message(message: msg.SystemMember) -> Member:
     return Member(message.robot, message.trajectory_id, float(message.dwell), waits)
 
 
-def order_to_message(order: Order) -> msg.DriveOrder:
+def order_to_message(order: Order, shifted_ns: int = 0) -> msg.DriveOrder:
+    """shifted_ns: by how much stamps are ahead of instants."""
     return msg.DriveOrder(
         robot=order.robot,
         command=order.command.value,
-        stamp=time_to_message(order.stamp_ns),
+        stamp=time_to_message(order.stamp_ns + shifted_ns if order.stamp_ns else 0),
         position=order.position,
         rate=order.rate,
         until=order.until or 0.0,

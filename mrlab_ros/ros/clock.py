@@ -36,8 +36,8 @@ MOST_READINGS = 20
 class LabClock:
     """Time in ns. With the parameter use_sim_time of `node`, /clock gives it; else the wall clock.
 
-    A step of the wall clock, or a jump back of /clock, changes `shifted_ns`: whoever schedules by
-    this clock moves what is scheduled by as much.
+    A step of the wall clock, or a jump back of /clock, changes `shifted_ns`. Messages carry
+    stamps, which follow it; a node stores and schedules instants, which no set clock moves.
     """
 
     def __init__(
@@ -54,7 +54,7 @@ class LabClock:
 
     @property
     def shifted_ns(self) -> int:
-        """The sum of all shifts so far."""
+        """By how much stamps are ahead of instants: the sum of all shifts so far."""
         return self._time.shifted_ns
 
     @property
@@ -63,17 +63,33 @@ class LabClock:
         return self._time.simulated
 
     def now_ns(self) -> int:
+        """Return the present stamp."""
+        return self.stamp(self.instant_ns())
+
+    def instant_ns(self) -> int:
+        """Return the present instant."""
         return self.reading()[0]
 
+    def stamp(self, instant_ns: int) -> int:
+        """Return the stamp of an instant, by the newest reading of the clock."""
+        return instant_ns + self._time.shifted_ns
+
+    def instant(self, stamp_ns: int) -> int:
+        """Return the instant of a stamp that has just arrived."""
+        self.reading()
+        return stamp_ns - self._time.shifted_ns
+
     def reading(self) -> tuple[int, int]:
-        """Return the time, and the monotonic clock's of the same instant, both ns."""
-        ros = self._ros
+        """Return the present instant, and the monotonic clock's time of it, both ns."""
+        ros, lab = self._ros, self._time
         with self._lock:
             if ros is not None and ros.ros_time_is_active:
                 steady_ns = self._steady_ns()
-                return self._time.follow_clock(ros.now().nanoseconds, steady_ns), steady_ns
-            steady_ns, wall_ns = self._read()
-            return self._time.follow_wall(steady_ns, wall_ns), steady_ns
+                now_ns = lab.follow_clock(ros.now().nanoseconds, steady_ns)
+            else:
+                steady_ns, wall_ns = self._read()
+                now_ns = lab.follow_wall(steady_ns, wall_ns)
+            return now_ns - lab.shifted_ns, steady_ns
 
     def _read(self) -> tuple[int, int]:
         """Return steady and wall time of one instant."""

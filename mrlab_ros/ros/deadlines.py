@@ -108,7 +108,7 @@ class Player:
     def send(self, sample: Sample, ahead_ns: int) -> None:
         """Publish a prepared joint state; keep its deadline error.
 
-        ahead_ns: by how much the lab's clock is ahead of the monotonic one.
+        ahead_ns: by how much instants are ahead of the monotonic clock.
         """
         self._send(sample)
         trajectory, sent, lost = self.playback.progress()
@@ -130,7 +130,8 @@ def _due(item: tuple[int, Player]) -> int:
 class Scheduler:
     """Serves players at their deadlines; commands run between two of them.
 
-    Use `with scheduler.command(player) as now_ns:` around every use of a playback. What a player
+    Use `with scheduler.command(player) as now_ns:` around every use of a playback. All times are
+    instants of `clock`, which gives the stamps that messages carry. What a player
     raises is printed while `connected()`: a failure after the shutdown of the context is expected.
 
     precedence: in words which priority the deadline thread got; empty before start().
@@ -140,7 +141,7 @@ class Scheduler:
         self, connected: Callable[[], bool] = lambda: True, clock: LabClock | None = None
     ) -> None:
         self.clock = clock or LabClock()
-        # The shifts of the clock that the playbacks know.
+        # The shift of the clock with which states were announced.
         self._shifted_ns = self.clock.shifted_ns
         self._connected = connected
         self._changed = threading.Condition(threading.Lock())
@@ -213,16 +214,15 @@ class Scheduler:
         return min((ns for ns in due if ns is not None), default=None)
 
     def _reading(self) -> tuple[int, int]:
-        """Return the time and the monotonic clock's; hold the lock.
+        """Return the present instant and the monotonic clock's time; hold the lock.
 
-        Where the clock was shifted, what is scheduled is shifted as much.
+        Where the clock was set, states are announced again, with their new stamps.
         """
         now_ns, steady_ns = self.clock.reading()
-        by_ns = self.clock.shifted_ns - self._shifted_ns
-        if by_ns:
-            self._shifted_ns += by_ns
+        if self.clock.shifted_ns != self._shifted_ns:
+            self._shifted_ns = self.clock.shifted_ns
             for player in self._players:
-                player.playback.shift(by_ns)
+                player.playback.announce_again()
                 try:
                     player.announce(now_ns)
                 except Exception:
@@ -234,9 +234,8 @@ class Scheduler:
     ) -> None:
         """Prepare all joint states that are due, then publish each at its deadline.
 
-        ahead_ns: by how much the lab's clock, which shows `now_ns`, is ahead of the monotonic
-        clock. The batch goes by the latter: it costs little, and the wall clock may be set
-        meanwhile.
+        ahead_ns: by how much the instant `now_ns` is ahead of the monotonic clock. The batch goes
+        by the latter, which costs little to read.
         """
         steady_ns = time.monotonic_ns
         ready = []
@@ -285,7 +284,7 @@ class Command:
 
     def __exit__(self, *exception: object) -> None:
         scheduler = self._scheduler
-        now_ns = scheduler.clock.now_ns()
+        now_ns = scheduler.clock.instant_ns()
         try:
             for player in self._players or scheduler._players:
                 player.announce(now_ns)

@@ -4,8 +4,10 @@ A trajectory's clock is one pair (stamp, position) and a rate: position(t) = pos
 (t - stamp0), held inside [0, duration]. Stamps are integer nanoseconds of the caller's clock;
 positions are seconds from the first frame.
 
-The time of a lab follows the wall clock, which may be set while a robot plays. A step of it shifts
-the time and all that is scheduled by it alike, so that no frame waits or hurries.
+The time of a lab follows the wall clock, which may be set while a robot plays. A node stores and
+schedules by instants, which no set clock moves, and messages carry stamps, which follow the wall
+clock: stamp = instant + shifted_ns. So no frame waits or hurries, and nothing that is stored has
+to be moved when the clock is set.
 """
 
 from __future__ import annotations
@@ -71,7 +73,7 @@ AGREED_NS = SECOND // 1000
 class LabTime:
     """Time in ns that advances steadily and agrees with its source. All arguments are ns.
 
-    shifted_ns: the sum of all shifts; what was scheduled before a shift is moved by it.
+    shifted_ns: the sum of all shifts: by how much stamps are ahead of instants.
     """
 
     def __init__(self, steady_ns: int, wall_ns: int) -> None:

@@ -147,6 +147,10 @@ class Execution:
         self._message = message
         self._statuses.append(self.status())
 
+    def announce_again(self) -> None:
+        """Add the present state once more."""
+        self.announce(self._message)
+
     # Each of these fires an event, has the arm do what the new state says, and announces it.
 
     def stand(self, now_ns: int, event: Event, position: float, message: Diagnostic) -> None:

@@ -138,9 +138,3 @@ class External:
         if silent:
             self._execution.halt(now_ns, Event.HELD, say.COMMANDS_ENDED())
         return sample
-
-    def shift(self, by_ns: int) -> None:
-        """Go on as before after the clock was set by `by_ns`."""
-        self._set_points.shift(by_ns)
-        if self._commanded_ns is not None:
-            self._commanded_ns += by_ns

@@ -160,13 +160,6 @@ class SetPoints:
             way, reference = way / needed, arm + way / needed
         return reference, way / passed
 
-    def shift(self, by_ns: int) -> None:
-        """Go on as before after the clock was set by `by_ns`."""
-        self._last_ns += by_ns
-        self._stepped_ns += by_ns
-        if self._line is not None:
-            self._line = replace(self._line, start_ns=self._line.start_ns + by_ns)
-
     def place(self, arm: Array) -> Trajectory:
         """Return what stands for the stream while it lasts: standing where it began."""
         standing = np.vstack([arm, arm])

@@ -250,12 +250,6 @@ class Playback(Execution):
             return sample
         return stream.standing_sample(now_ns)
 
-    def shift(self, by_ns: int) -> None:
-        """Go on as before after the clock was set by `by_ns`."""
-        self.stream.shift(by_ns)
-        self.external.shift(by_ns)
-        self.announce(self._message)
-
     # inside ---------------------------------------------------------------------------------
 
     def _approach(

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -173,16 +172,6 @@ class Stream:
         self.stand(now_ns, 0.0)
         self.streamed = 0.0
         self.sent, self.lost = 1, 0
-
-    def shift(self, by_ns: int) -> None:
-        """Move what is scheduled by `by_ns`: the clock was set, and no time has passed."""
-        self.clock = replace(self.clock, stamp_ns=self.clock.stamp_ns + by_ns)
-        self._due_ns += by_ns
-        self._motion_start_ns += by_ns
-        if self.next_ns is not None:
-            self.next_ns += by_ns
-        if self._last is not None:
-            self._last = self._last._replace(due_ns=self._last.due_ns + by_ns)
 
     # where it is ----------------------------------------------------------------------------
 

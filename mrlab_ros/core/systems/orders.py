@@ -74,10 +74,6 @@ class Orders:
             self.stop(now_ns, self.stranded, RETRY_TIMEOUT_S)
         return not self.stranded
 
-    def shift(self, by_ns: int) -> None:
-        """Go on as before after the clock was set by `by_ns`."""
-        self._retry_ns += by_ns
-
     def _reach(
         self, members: Sequence[Member], command: Command, timeout: float | None
     ) -> list[Member]:

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import replace
 from enum import Enum
 
 from mrlab_ros.core.base.clock import SECOND, PlaybackClock, checked_position, checked_rate
@@ -295,15 +294,6 @@ class RobotSystem:
         """Do what time has made due: starts, met waits, the end, a staging that takes too long."""
         with self._announcing():
             self._poll(now_ns)
-
-    def shift(self, by_ns: int) -> None:
-        """Go on as before after the clock was set by `by_ns`."""
-        self.clock = replace(self.clock, stamp_ns=self.clock.stamp_ns + by_ns)
-        self._staged_by_ns += by_ns
-        self._orders.shift(by_ns)
-        for member in self._timeline:
-            member.replied_ns += by_ns
-        self._announce()
 
     # inside: states -------------------------------------------------------------------------
 

@@ -39,6 +39,7 @@ from mrlab_ros.messages.systems import (
 )
 from mrlab_ros.messages.time import time_from_message
 from mrlab_ros.ros.calls import NoAnswer, call_all, call_each
+from mrlab_ros.ros.clock import LabClock
 
 # A playback loads a trajectory within this time, and publishes its state within this time, s.
 LOAD_TIMEOUT_S = 15.0
@@ -123,10 +124,13 @@ class MemberClient:
 class RosFleet:
     """The members of one system, commanded through the hosts that play them."""
 
-    def __init__(self, system: str, members: Mapping[str, MemberClient], hosts: Hosts) -> None:
+    def __init__(
+        self, system: str, members: Mapping[str, MemberClient], hosts: Hosts, clock: LabClock
+    ) -> None:
         self._system = system
         self._members = members
         self._hosts = hosts
+        self._clock = clock
 
     def claim(self, robots: Sequence[str]) -> list[Loaded]:
         """Make the robots members of the system; wait for a host that is just starting."""
@@ -169,17 +173,18 @@ class RosFleet:
             if host
         ]
         answers = iter(call_each(calls, ORDER_TIMEOUT_S if timeout is None else timeout))
-        return [_reply(next(answers)) if host else None for host in hosts]
+        return [self._reply(next(answers)) if host else None for host in hosts]
 
     def _request(self, orders: Sequence[Order]) -> srv.CommandMembers.Request:
+        shifted_ns = self._clock.shifted_ns
         return srv.CommandMembers.Request(
-            system=self._system, orders=[order_to_message(order) for order in orders]
+            system=self._system, orders=[order_to_message(order, shifted_ns) for order in orders]
         )
 
     def _send(self, orders: Sequence[Order]) -> list[tuple[msg.DriveReply, int]]:
         """Send each host its members' orders, all hosts at once.
 
-        Returns for each order its reply and when it was carried out, ns.
+        Returns for each order its reply and the instant, ns, when it was carried out.
         """
         by_host: dict[str, list[Order]] = {}
         for order in orders:
@@ -196,19 +201,18 @@ class RosFleet:
                 raise NoAnswer(silent) from answer
             if not answer.success:
                 raise Misuse(heard(answer))
-            stamp_ns = time_from_message(answer.stamp)
+            stamp_ns = self._clock.instant(time_from_message(answer.stamp))
             replies.update({reply.robot: (reply, stamp_ns) for reply in answer.replies})
         return [replies[order.robot] for order in orders]
 
-
-def _reply(answer: Any) -> Reply | None:
-    """Return what a robot that was asked by itself replies; None: it did not answer."""
-    if isinstance(answer, NoAnswer):
-        return None
-    stamp_ns = time_from_message(answer.stamp)
-    if not answer.success:
-        return Reply(State.IDLE, 0.0, stamp_ns=stamp_ns)
-    return reply_from_message(answer.replies[0], stamp_ns)
+    def _reply(self, answer: Any) -> Reply | None:
+        """Return what a robot that was asked by itself replies; None: it did not answer."""
+        if isinstance(answer, NoAnswer):
+            return None
+        stamp_ns = self._clock.instant(time_from_message(answer.stamp))
+        if not answer.success:
+            return Reply(State.IDLE, 0.0, stamp_ns=stamp_ns)
+        return reply_from_message(answer.replies[0], stamp_ns)
 
 
 class Hosts:

@@ -70,7 +70,7 @@ class CoordinatorNode(
         # After a restart another one.
         self._holder = secrets.token_hex(4)
         self._lab_clock = LabClock(self)
-        # The shifts of the clock that the systems know.
+        # The shift of the clock with which the systems were published.
         self._shifted_ns = self._lab_clock.shifted_ns
         self._hosts = Hosts(self.caller.node)
         self._systems = Systems()
@@ -114,7 +114,7 @@ class CoordinatorNode(
         robots = [member.robot for member in members]
         name = self._systems.check(request.name, robots, frozenset(self._robots))
         clients = {robot: MemberClient(self.caller.node, robot, self) for robot in robots}
-        fleet = RosFleet(name, clients, self._hosts)
+        fleet = RosFleet(name, clients, self._hosts, self._lab_clock)
         system = RobotSystem(name, members, fleet, mode, policy, request.loop, self._publish)
         try:
             # Everything that can be refused is, before any robot is touched.
@@ -126,7 +126,7 @@ class CoordinatorNode(
             raise
         self._adopt(system, clients, fleet)
         self._publish()
-        response.system = system_to_message(system)
+        response.system = system_to_message(system, self._lab_clock.shifted_ns)
         return say.SYSTEM_CREATED(
             system=name, robots=robots, duration=system.duration, mode=mode.name.lower()
         )
@@ -246,7 +246,7 @@ class CoordinatorNode(
                 client.robot,
                 State(message.state),
                 message.clock.position,
-                time_from_message(message.header.stamp),
+                self._lab_clock.instant(time_from_message(message.header.stamp)),
                 message.system,
                 message.trajectory_id,
             )
@@ -284,13 +284,11 @@ class CoordinatorNode(
     # messages -------------------------------------------------------------------------------
 
     def _now_ns(self) -> int:
-        """Return the time, in the worker's thread; a clock that was set shifts the systems."""
-        now_ns = self._lab_clock.now_ns()
-        by_ns = self._lab_clock.shifted_ns - self._shifted_ns
-        if by_ns:
-            self._shifted_ns += by_ns
-            for system in self._systems:
-                system.shift(by_ns)
+        """Return the present instant; where the clock was set, publish the new stamps."""
+        now_ns = self._lab_clock.instant_ns()
+        if self._lab_clock.shifted_ns != self._shifted_ns:
+            self._shifted_ns = self._lab_clock.shifted_ns
+            self._publish()
         return now_ns
 
     def _renew(self) -> None:
@@ -305,7 +303,7 @@ class CoordinatorNode(
         """Bring back the systems of a coordinator that was killed, each where it stood."""
         for name, robots, entry in registry.read(self._journal.load()):
             clients = {robot: MemberClient(self.caller.node, robot, self) for robot in robots}
-            fleet = RosFleet(name, clients, self._hosts)
+            fleet = RosFleet(name, clients, self._hosts, self._lab_clock)
             system = registry.restore(entry, fleet, self._publish, self._now_ns())
             if system is None:
                 self.lost.append(say.SYSTEM_LOST(system=name))
@@ -318,11 +316,14 @@ class CoordinatorNode(
 
     def _publish(self) -> None:
         with self._publishing:
-            now_ns = self._lab_clock.now_ns()
+            now_ns = self._lab_clock.instant_ns()
+            shifted_ns = self._lab_clock.shifted_ns
             # Only the newest is kept for late joiners; the others must have arrived before.
             self._topic.wait_for_all_acked(ARRIVAL)
             self._topic.publish(
-                systems_to_message(now_ns, self._systems, self._identity.lab, self._holder)
+                systems_to_message(
+                    now_ns, self._systems, self._identity.lab, self._holder, shifted_ns
+                )
             )
             self._journal.save(registry.plain(self._systems, now_ns))
 

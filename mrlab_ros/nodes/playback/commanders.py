@@ -6,6 +6,7 @@ import math
 import time
 from collections import deque
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 from control_msgs.action import FollowJointTrajectory
@@ -31,7 +32,7 @@ from mrlab_ros.messages.playback import (
 )
 from mrlab_ros.ros import clock
 from mrlab_ros.ros.actions import GoalServer
-from mrlab_ros.ros.clock import every
+from mrlab_ros.ros.clock import LabClock, every
 from mrlab_ros.ros.deadlines import Command, Player
 
 # Refusals of one kind are logged so far apart, s: a stream of thousands must not fill /rosout.
@@ -55,6 +56,7 @@ class Commanders:
         robot: str,
         playback: Playback,
         player: Player,
+        clock: LabClock,
         command: Callable[[], Command],
         loaded: Callable[[int, Trajectory | None], None],
         warn: Callable[[str], None],
@@ -63,6 +65,7 @@ class Commanders:
         self._robot = robot
         self._playback = playback
         self._player = player
+        self._clock = clock
         self._command = command
         self._loaded = loaded
         self._warn = warn
@@ -99,8 +102,11 @@ class Commanders:
     def _pursue(self, message: JointTrajectory, bounds: Bounds) -> None:
         """Begin to follow a goal in place of the one before it; raise LabError where it is bad."""
         bounds.check(self._playback.model.joint_names)
+        goal = goal_from_message(message)
         with self._command() as now_ns:
-            trajectory = self._playback.external.pursue(now_ns, goal_from_message(message))
+            if goal.stamp_ns:
+                goal = replace(goal, stamp_ns=self._clock.instant(goal.stamp_ns))
+            trajectory = self._playback.external.pursue(now_ns, goal)
             start_ns = self._playback.clock.stamp_ns
             # Statuses from here on are of the new goal.
             self._statuses.clear()
@@ -190,7 +196,8 @@ class Commanders:
         instant = pursuit.instant(now_ns, last.sample.due_ns, last.sample.positions)
         outcome = pursuit.outcome(now_ns, instant)
         joints = pursuit.trajectory.joint_names
-        goal.publish_feedback(feedback_to_message(now_ns, self._robot, joints, instant))
+        stamp_ns = self._clock.stamp(now_ns)
+        goal.publish_feedback(feedback_to_message(stamp_ns, self._robot, joints, instant))
         if outcome is None:
             return
         if outcome.code is not Code.SUCCESSFUL:

@@ -268,7 +268,7 @@ class PlaybackHostNode(
     @answered
     def _command_members(self, request: Any, response: Any) -> None:
         with self.scheduler.command() as now_ns:
-            response.stamp = time_to_message(now_ns)
+            response.stamp = time_to_message(self.scheduler.clock.stamp(now_ns))
             for order in request.orders:
                 node = self.nodes.get(order.robot)
                 if node is None:

@@ -134,7 +134,14 @@ class PlaybackNode(Node):
                 self.playback.stand_at(now_ns, self._back.arm)
         self._scheduler.add(self.player)
         self._commanders = Commanders(
-            self, self.robot, self.playback, self.player, self._command, self._driven, warn
+            self,
+            self.robot,
+            self.playback,
+            self.player,
+            self._scheduler.clock,
+            self._command,
+            self._driven,
+            warn,
         )
 
     def come_back(self, done: Callable[[Diagnostic | None], None]) -> None:
@@ -211,7 +218,10 @@ class PlaybackNode(Node):
         self.destroy_node()
 
     def publish_telemetry(self, now_ns: int) -> None:
-        """Publish the display values of the last joint state, while the robot moves."""
+        """Publish the display values of the last joint state, while the robot moves.
+
+        now_ns: the stamp.
+        """
         last = self.player.last
         if last is None or last.trajectory is None or not self.playback.moving:
             return
@@ -242,12 +252,17 @@ class PlaybackNode(Node):
 
     def _send(self, sample: Sample) -> None:
         self._publish_joint_state(
-            self._encoder.encode(sample.due_ns, sample.positions, sample.velocities)
+            self._encoder.encode(
+                self._scheduler.clock.stamp(sample.due_ns), sample.positions, sample.velocities
+            )
         )
 
     def _announce(self, now_ns: int, status: PlaybackStatus) -> None:
         self._announced = True
-        self._state.publish(status_to_message(now_ns, self.robot, status, self._host, self._lab))
+        shifted_ns = self._scheduler.clock.shifted_ns
+        self._state.publish(
+            status_to_message(now_ns, self.robot, status, self._host, self._lab, shifted_ns)
+        )
         if self._commanders is not None:
             self._commanders.note(status)
 
@@ -258,7 +273,8 @@ class PlaybackNode(Node):
 
     def _announce_targets(self, now_ns: int, trajectory: Trajectory | None) -> None:
         tool0 = self.model.chain.tool0
-        self._targets.publish(targets_to_message(now_ns, self.robot, trajectory, tool0))
+        stamp_ns = self._scheduler.clock.stamp(now_ns)
+        self._targets.publish(targets_to_message(stamp_ns, self.robot, trajectory, tool0))
 
     def _begin_load(self, request: Any, response: Any) -> Future[Any]:
         """Load in the robot's own thread for that: no halt, pause or stop waits for files."""
@@ -335,9 +351,10 @@ class PlaybackNode(Node):
     def drive(self, now_ns: int, by: str, order: Order) -> float:
         """Carry out an order of the system `by`; call it inside `scheduler.command()`.
 
-        Returns how long a staging takes, s.
+        The order's stamp is that of its message. Returns how long a staging takes, s.
         """
-        playback, start_ns = self.playback, order.stamp_ns or None
+        playback = self.playback
+        start_ns = self._scheduler.clock.instant(order.stamp_ns) if order.stamp_ns else None
         if order.command is MemberCommand.CLAIM:
             playback.claim(now_ns, by)
         elif order.command is MemberCommand.RELEASE:

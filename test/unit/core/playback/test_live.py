@@ -128,22 +128,6 @@ def test_an_arm_elsewhere_closes_up_on_a_stream_that_moves_away():
     assert arm.fastest() <= 0.6 + CLOSING_SHARE + 1e-9
 
 
-def test_a_clock_that_is_set_moves_nothing():
-    def run(by_ns):
-        arm = Arm(UR5E.home)
-        arm.follow(ramp(0.4), np.arange(0.0, 0.5, 0.02))
-        arm.set_points.shift(by_ns)
-        goal = ramp(0.4)(0.5)
-        arm.set_points.go_to(arm.now_ns + by_ns, goal)
-        steps = []
-        for number in range(1, 20):
-            arm.at, velocities = arm.set_points.step(arm.now_ns + by_ns + number * TICK, arm.at)
-            steps.append((arm.at, velocities))
-        return np.array(steps)
-
-    assert (run(600 * SECOND) == run(0)).all()
-
-
 def test_after_a_freeze_the_arm_does_not_leap():
     arm = Arm(UR5E.home - 1.0)
     arm.set_points.go_to(START_NS, UR5E.home)

@@ -179,40 +179,6 @@ def test_a_new_stream_sends_its_pose_at_once_and_has_sent_nothing():
     assert (stream.sent, stream.lost, stream.next_ns, stream.frame) == (0, 0, 0, 0)
 
 
-@pytest.mark.parametrize("by_ns", [5 * SECOND, -2 * SECOND])
-def test_a_clock_that_is_set_moves_all_that_is_scheduled(by_ns):
-    """Each joint state leaves as far from the last one as if the clock had not been set."""
-    stream, other = make(), make()
-    for each in (stream, other):
-        each.follow(START, 0.0)
-        take(each, 3)
-    stream.shift(by_ns)
-    assert stream.clock.at(START + by_ns + 50_000_000) == pytest.approx(0.05)
-    assert [s.due_ns - by_ns for s in take(stream, 3)] == [s.due_ns for s in take(other, 3)]
-    last, _, velocities = stream.motion(stream.next_ns)
-    assert last == stream.next_ns - PERIOD
-    assert velocities is not None
-    stream.shift(by_ns)
-    assert stream.motion(stream.next_ns)[0] == stream.next_ns - PERIOD
-
-
-def test_a_clock_that_is_set_while_an_arm_approaches_moves_its_motion_along():
-    stream = make()
-    stream.approach(START, StraightMotion(np.zeros(2), np.ones(2), 1.0), 0.0)
-    stream.shift(SECOND)
-    assert stream.next_ns == START + SECOND
-    stream.next_ns = START + SECOND + SECOND // 2
-    assert stream.approach_sample(stream.next_ns).positions == pytest.approx([0.5, 0.5])
-    assert not stream.arrived
-
-
-def test_a_clock_that_is_set_leaves_a_stream_that_waits_for_nothing_so():
-    stream = make()
-    stream.stand(START, 0.0, sent=True)
-    stream.shift(SECOND)
-    assert stream.next_ns is None
-
-
 def test_who_stands_has_sent_nothing_of_the_trajectory_and_ends_nowhere_before_its_end():
     stream = make()
     stream.follow(START, 0.0)

@@ -945,34 +945,6 @@ def test_an_unknown_system_is_named_with_those_that_are_there():
 
 
 @pytest.mark.parametrize("mode", Mode)
-@pytest.mark.parametrize("by", [-5 * SECOND, 3600 * SECOND])
-def test_a_clock_that_is_set_parts_no_members(mode, by):
-    world = make(TWO, mode)
-
-    def set_clock() -> None:
-        world.now += by
-        for playback in world.playbacks.values():
-            playback.shift(by)
-        world.system.shift(by)
-        world.report()
-
-    world.system.play(world.now)
-    world.advance(0.2)
-    set_clock()
-    assert world.system.state is SystemState.STAGING
-    world.run_until(SystemState.PLAYING)
-    world.advance(0.4)
-    set_clock()
-    world.run_until(SystemState.READY)
-    assert world.system.message.code == "played_to_end"
-    assert world.frames("a") == list(range(101))
-    assert world.frames("b") == list(range(51))
-    # In sequential mode b begins the moment a has ended.
-    lag = world.sent["b"][0][2] - world.sent["a"][0][2]
-    assert lag == (0 if mode is Mode.PARALLEL else SECOND + by)
-
-
-@pytest.mark.parametrize("mode", Mode)
 @pytest.mark.parametrize("rate", [-1.0, -2.0])
 def test_backwards_the_same_run_is_played_from_its_end_to_its_start(mode, rate):
     world = make(TWO, mode, dwell=0.5)
