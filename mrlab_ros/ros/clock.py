@@ -76,8 +76,7 @@ class LabClock:
 
     def instant(self, stamp_ns: int) -> int:
         """Return the instant of a stamp that has just arrived."""
-        self.reading()
-        return stamp_ns - self._time.shifted_ns
+        return self._time.instant(stamp_ns, self.instant_ns())
 
     def reading(self) -> tuple[int, int]:
         """Return the present instant, and the monotonic clock's time of it, both ns."""

@@ -78,6 +78,8 @@ class LabTime:
 
     def __init__(self, steady_ns: int, wall_ns: int) -> None:
         self.shifted_ns = 0
+        # The sum before the newest shift.
+        self._shifted_before_ns = 0
         self._offset_ns = wall_ns - steady_ns
         self._slewed_ns = steady_ns
         # The newest time that /clock gave; None: the wall clock is followed.
@@ -92,12 +94,12 @@ class LabTime:
         """Return the time; a step of the wall clock shifts it."""
         if self._simulated_ns is not None:
             # use_sim_time was switched off.
-            self.shifted_ns += wall_ns - self._simulated_ns
+            self._shift(wall_ns - self._simulated_ns)
             self._simulated_ns = None
             self._offset_ns, self._slewed_ns = wall_ns - steady_ns, steady_ns
         error_ns = wall_ns - steady_ns - self._offset_ns
         if abs(error_ns) >= STEP_NS:
-            self.shifted_ns += error_ns
+            self._shift(error_ns)
             self._offset_ns += error_ns
             self._slewed_ns = steady_ns
         else:
@@ -116,8 +118,21 @@ class LabTime:
         before_ns = self._simulated_ns
         if before_ns is None:
             before_ns = steady_ns + self._offset_ns
-            self.shifted_ns += clock_ns - before_ns
+            self._shift(clock_ns - before_ns)
         elif clock_ns < before_ns or before_ns == 0:
-            self.shifted_ns += clock_ns - before_ns
+            self._shift(clock_ns - before_ns)
         self._simulated_ns = clock_ns
         return clock_ns
+
+    def instant(self, stamp_ns: int, now_ns: int) -> int:
+        """Return the instant of a stamp that arrived at the instant `now_ns`.
+
+        A stamp that was made just before the clock was set is taken as such: of the two instants
+        that it may be the nearer one is meant.
+        """
+        either = stamp_ns - self.shifted_ns, stamp_ns - self._shifted_before_ns
+        return min(either, key=lambda instant_ns: abs(instant_ns - now_ns))
+
+    def _shift(self, by_ns: int) -> None:
+        self._shifted_before_ns = self.shifted_ns
+        self.shifted_ns += by_ns

@@ -38,6 +38,17 @@ def test_a_clock_that_is_set_moves_stamps_and_no_instant(step: int) -> None:
     assert clock.instant(machine.wall_ns) == before + 2 * SECOND
 
 
+@pytest.mark.parametrize("step", [-600, -1, 1, 600])
+def test_a_stamp_on_its_way_while_the_clock_is_set_keeps_its_instant(step: int) -> None:
+    machine = Machine()
+    clock = machine.clock
+    sent, ahead = clock.now_ns(), clock.now_ns() + SECOND // 10
+    machine.wall_ns += step * SECOND
+    machine.wait(0.01)
+    assert clock.instant(sent) == clock.instant_ns() - SECOND // 100
+    assert clock.instant(ahead) == clock.instant_ns() + 9 * SECOND // 100
+
+
 def fail() -> None:
     raise RuntimeError("rcl node's context is invalid")
 

@@ -397,16 +397,11 @@ def test_an_arm_is_staged_where_its_pose_comes_again_later():
     assert (playback.state, playback.clock.position) == (State.PAUSED, 0.08)
 
 
-def test_a_clock_that_was_set_moves_the_run_and_says_its_new_pair():
+def test_a_status_that_is_announced_again_is_the_one_before():
     playback = on_start()
-    playback.play(START)
-    run(playback, START + 2 * PERIOD)
-    playback.take_statuses()
-    position = playback.clock.at(START + 2 * PERIOD)
-    playback.shift(3600 * SECOND)
-    (status,) = playback.take_statuses()
-    assert status.clock == playback.clock
-    assert playback.clock.at(START + 3600 * SECOND + 2 * PERIOD) == pytest.approx(position)
+    before = playback.take_statuses()[-1]
+    playback.announce_again()
+    assert playback.take_statuses() == [before]
 
 
 def test_a_trajectory_for_another_model_is_refused_and_changes_nothing():
