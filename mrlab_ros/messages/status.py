@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from mrlab_msgs import msg
 from mrlab_msgs.msg import Latency, LatencyHop
 
+from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.base.diagnostic import Diagnostic, Severity, to_texts
 from mrlab_ros.core.bridge.latency import Delays
+from mrlab_ros.core.runtime.processes import Phase, ProcessState
 from mrlab_ros.core.runtime.watch import Sign, silence
 from mrlab_ros.messages.texts import told
-from mrlab_ros.messages.time import make_header
+from mrlab_ros.messages.time import make_header, time_from_message, time_to_message
 
 # Prefix of the names of the lab's processes on /diagnostics.
 PREFIX = "mrlab: "
@@ -91,6 +93,55 @@ def _trouble(status: DiagnosticStatus) -> Diagnostic:
     failed = status.level == DiagnosticStatus.ERROR
     severity = Severity.ERROR if failed else Severity.WARNING
     return Diagnostic(code, severity, status.message, values=values)
+
+
+# The phases in the order of the constants of LabProcess.msg.
+PHASES = tuple(phase.value for phase in Phase)
+
+
+def processes_to_message(
+    now_ns: int, states: Sequence[ProcessState], lab: str
+) -> msg.LabProcesses:
+    """Return the processes of the lab with the id `lab`."""
+    return msg.LabProcesses(
+        header=make_header(now_ns), processes=list(map(_process, states)), lab=lab
+    )
+
+
+def _process(state: ProcessState) -> msg.LabProcess:
+    return msg.LabProcess(
+        name=state.name,
+        nodes=list(state.nodes),
+        state=PHASES.index(state.phase),
+        since=time_to_message(round(state.since * SECOND)),
+        restarts=state.restarts,
+        exit_code=state.exit_code,
+        last_exit=state.last_exit,
+        down=time_to_message(round(state.down * SECOND)),
+        down_steady_ns=state.down_steady_ns,
+        restart_in=state.restart_in,
+    )
+
+
+def processes_from_message(message: msg.LabProcesses) -> list[ProcessState]:
+    """Return the processes; one in an unknown state is left out. Their ids are not known."""
+    return [
+        ProcessState(
+            one.name,
+            PHASES[one.state],
+            None,
+            one.restarts,
+            time_from_message(one.since) / SECOND,
+            one.last_exit,
+            one.exit_code,
+            tuple(one.nodes),
+            time_from_message(one.down) / SECOND,
+            one.down_steady_ns,
+            one.restart_in,
+        )
+        for one in message.processes
+        if one.state < len(PHASES)
+    ]
 
 
 def latency_to_message(

@@ -16,10 +16,11 @@ import threading
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from enum import Enum
 from typing import IO
 
+from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.runtime.bucket import RepeatedLines
+from mrlab_ros.core.runtime.processes import Phase, ProcessState
 
 FIRST_DELAY_S = 0.1
 LONGEST_DELAY_S = 10.0
@@ -55,6 +56,7 @@ def guarded(argv: tuple[str, ...], *, unblock_sigint: bool = True) -> tuple[str,
 class ProcessSpec:
     """A process to keep: a short name, its command, and what it adds to the environment.
 
+    nodes: the names of its nodes in the graph.
     unblocks_sigint: the program is started with SIGINT blocked and unblocks it once it has decided
     what SIGINT does. Python would otherwise answer a SIGINT during its start with a traceback.
     """
@@ -63,6 +65,7 @@ class ProcessSpec:
     argv: tuple[str, ...]
     env: Mapping[str, str] = field(default_factory=dict)
     unblocks_sigint: bool = False
+    nodes: tuple[str, ...] = ()
 
 
 # The environment variable with the number of restarts of a process so far.
@@ -102,26 +105,8 @@ class RestartPolicy:
         return delay
 
 
-class Phase(Enum):
-    """The phase of a supervised process."""
-
-    STARTING = "starting"
-    RUNNING = "running"
-    WAITING = "waiting to restart"
-    REFUSED = "wrong configuration"
-    STOPPED = "stopped"
-
-
-@dataclass(frozen=True)
-class ProcessState:
-    """One supervised process as `mrlab status` shows it; since: s of wall time."""
-
-    name: str
-    phase: str
-    pid: int | None
-    restarts: int
-    since: float
-    last_exit: str
+# The phases of a process that ended by itself.
+ENDED = (Phase.WAITING, Phase.REFUSED)
 
 
 def describe_exit(code: int) -> str:
@@ -164,6 +149,10 @@ class Child:
         self._phase, self._since = Phase.STARTING, time.time()
         self._restarts, self._last_exit = 0, ""
         self._last_code: int | None = None
+        # When it ended or froze last: s of wall time, ns of the monotonic clock.
+        self._down, self._down_steady_ns = 0.0, 0
+        # From its last end to the next start, s.
+        self._delay = 0.0
         self._process: subprocess.Popen[bytes] | None = None
         # Guards _process: while it is set, its process group exists and belongs to this child.
         self._lock = threading.Lock()
@@ -178,10 +167,15 @@ class Child:
         return ProcessState(
             self.spec.name,
             self._phase.value,
-            process.pid if process else None,
+            process.pid if process and self._phase not in ENDED else None,
             self._restarts,
             self._since,
             self._last_exit,
+            self._last_code or 0,
+            self.spec.nodes,
+            self._down,
+            self._down_steady_ns,
+            self._delay if self._phase is Phase.WAITING else 0.0,
         )
 
     def start(self) -> None:
@@ -198,7 +192,7 @@ class Child:
     def restart(self) -> None:
         """End the process, which then starts again; start it at once where it does not run."""
         with self._lock:
-            if self._process is None:
+            if self._process is None or self._phase in ENDED:
                 self._start_now.set()
             else:
                 _signal_group(self._process.pid, signal.SIGINT)
@@ -212,41 +206,52 @@ class Child:
         self._phase, self._since = phase, time.time()
         self._changed()
 
+    def _goes_down(self, phase: Phase) -> None:
+        """Announce that the process ended or froze at this instant."""
+        self._down, self._down_steady_ns = time.time(), time.monotonic_ns()
+        self._enter(phase)
+
     def _keep(self) -> None:
         # The child inherits this thread's mask, so it starts with SIGINT blocked.
         signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
         while not self._stop.is_set():
-            self._last_code, self._last_exit = self._run_once()
+            self._run_once()
             if self._stop.is_set():
                 break
-            if self._last_code == WRONG_CONFIGURATION:
-                self._emit(
-                    SELF,
-                    f"{self.spec.name} ended ({self._last_exit}) and is not started again; "
-                    "correct what it named, then start the lab again",
-                )
-                self._enter(Phase.REFUSED)
-                self._start_now.wait()
-            else:
-                delay = self._policy.ended(time.monotonic())
-                self._emit(
-                    SELF, f"{self.spec.name} ended ({self._last_exit}); restarts in {delay:g} s"
-                )
-                self._enter(Phase.WAITING)
-                self._start_now.wait(delay)
+            self._say_end()
+            left = self._delay - (time.monotonic() - self._down_steady_ns / SECOND)
+            self._start_now.wait(None if self._phase is Phase.REFUSED else max(left, 0.0))
             if not self._stop.is_set():
                 self._restarts += 1
         self._enter(Phase.STOPPED)
 
-    def _run_once(self) -> tuple[int | None, str]:
-        """Run the process to its end; return its exit code, and in words how it ended."""
+    def _ended(self, code: int | None, how: str) -> None:
+        """Take how the process ended, and announce it unless that was wanted."""
+        self._last_code, self._last_exit = code, how
+        if self._stop.is_set():
+            return
+        refused = code == WRONG_CONFIGURATION
+        self._delay = 0.0 if refused else self._policy.ended(time.monotonic())
+        self._goes_down(Phase.REFUSED if refused else Phase.WAITING)
+
+    def _say_end(self) -> None:
+        ended = f"{self.spec.name} ended ({self._last_exit})"
+        if self._phase is Phase.REFUSED:
+            ended += " and is not started again; correct what it named, then start the lab again"
+        else:
+            ended += f"; restarts in {self._delay:g} s"
+        self._emit(SELF, ended)
+
+    def _run_once(self) -> None:
+        """Run the process to its end."""
         before = self._last_code
         command = guarded(self.spec.argv, unblock_sigint=not self.spec.unblocks_sigint)
         # Before the start: a program that cannot be started has not run since the one before it.
         self._policy.started(time.monotonic())
         with self._lock:
             if self._stop.is_set():
-                return None, "not started"
+                self._last_exit = "not started"
+                return
             try:
                 process = subprocess.Popen(
                     command,
@@ -262,22 +267,46 @@ class Child:
                     start_new_session=True,
                 )
             except OSError as error:
-                return None, f"could not be started: {_why_not(error)}"
-            self._process = process
-            self._start_now.clear()
+                failed = f"could not be started: {_why_not(error)}"
+            else:
+                failed = ""
+                self._process = process
+                self._start_now.clear()
+        if failed:
+            self._ended(None, failed)
+            return
         self._enter(Phase.RUNNING)
         assert process.stdout is not None
         reader = threading.Thread(target=self._read, args=(process.stdout,), daemon=True)
         reader.start()
-        # The ended process stays unreaped until its group is gone: its id cannot be reused.
-        os.waitid(os.P_PID, process.pid, os.WEXITED | os.WNOWAIT)
+        code = self._until_its_end(process.pid)
+        self._ended(code, describe_exit(code))
         with self._lock:
             _signal_group(process.pid, signal.SIGKILL)
             self._process = None
-            code = process.wait()
+            process.wait()
         # A process outside the group may still hold the pipe; its reader then runs on alone.
         reader.join(READ_TIMEOUT_S)
-        return code, describe_exit(code)
+
+    def _until_its_end(self, pid: int) -> int:
+        """Return the exit code of the process when it ends; it is not reaped.
+
+        Its id cannot be reused before its group is gone. Meanwhile announce when a signal stops
+        it, and when it runs again.
+        """
+        changes = os.WSTOPPED | os.WCONTINUED
+        while True:
+            found = os.waitid(os.P_PID, pid, os.WEXITED | os.WNOWAIT | changes)
+            if found is not None and found.si_code == os.CLD_EXITED:
+                return found.si_status
+            if found is not None and found.si_code in (os.CLD_KILLED, os.CLD_DUMPED):
+                return -found.si_status
+            # Take this change, or a newer one, so that it is not reported again.
+            found = os.waitid(os.P_PID, pid, changes | os.WNOHANG)
+            if found is not None and found.si_code == os.CLD_STOPPED:
+                self._goes_down(Phase.FROZEN)
+            elif found is not None and found.si_code == os.CLD_CONTINUED:
+                self._enter(Phase.RUNNING)
 
     def _read(self, stream: IO[bytes]) -> None:
         repeated = RepeatedLines()

@@ -134,7 +134,8 @@ class LabProcess:
                 "RCUTILS_CONSOLE_OUTPUT_FORMAT", LOG_FORMAT
             ),
         }
-        return ProcessSpec(self.name, self.command(options), env, unblocks_sigint=True)
+        nodes = tuple(NODES[name].graph_name for name in self.nodes)
+        return ProcessSpec(self.name, self.command(options), env, True, nodes)
 
 
 PROCESSES: tuple[LabProcess | GatewayProcess, ...] = (

@@ -12,7 +12,8 @@ import time
 from collections.abc import Callable, Iterable
 from types import TracebackType
 
-from mrlab_ros.processes.child_process import Child, Emit, ProcessSpec, ProcessState, RestartPolicy
+from mrlab_ros.core.runtime.processes import ProcessState
+from mrlab_ros.processes.child_process import Child, Emit, ProcessSpec, RestartPolicy
 
 # From SIGINT to SIGKILL, s; a clean stop of a process takes well under 1 s.
 STOP_TIMEOUT_S = 1.5

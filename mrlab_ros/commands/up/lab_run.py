@@ -14,7 +14,9 @@ from mrlab_ros.commands.up.speaker import Speaker
 from mrlab_ros.commands.up.web import run_facts, say_where
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.runtime.identity import Identity
-from mrlab_ros.processes.child_process import SELF, ProcessState
+from mrlab_ros.core.runtime.processes import ProcessState
+from mrlab_ros.processes.announcer import Announcer
+from mrlab_ros.processes.child_process import SELF
 from mrlab_ros.processes.lab import lab_nodes, lab_processes
 from mrlab_ros.processes.options import LabOptions
 from mrlab_ros.processes.parameter_file import parameter
@@ -58,8 +60,10 @@ class LabRun:
             self.say(SELF, f"{run_file.not_usual}; {run_file.folder} is used instead")
         self._begin = time.monotonic()
         refusals = Refusals(self.stop)
+        announcer = Announcer(self.options.lab_id)
 
         def changed(states: list[ProcessState]) -> None:
+            announcer.announce(states)
             run_file.write(states)
             refusals.check(states)
 
@@ -67,6 +71,7 @@ class LabRun:
             with Supervisor(specs, self.say, changed) as supervisor:
                 self.say(SELF, f"starts the lab on ROS domain {domain}; Ctrl-C stops it")
                 self._say_notices()
+                announcer.open()
                 missing = self._missing()
                 refusals.raise_any()
                 self._say_ready_or_wait(missing)
@@ -78,6 +83,7 @@ class LabRun:
                 refusals.raise_any()
                 self.say(SELF, "stops")
         finally:
+            announcer.close()
             run_file.release()
 
     def _facts(self) -> dict[str, object]:

@@ -26,6 +26,7 @@ RESERVED = frozenset(
         "objects",
         "physics",
         "playback_host",
+        "processes",
         "recorder",
         "robot_description",
         "robots",

@@ -49,12 +49,15 @@ class Claims:
         if members:
             claimed = self._fleet.claim([m.robot for m in members])
             loaded = {m.robot: found for m, found in zip(members, claimed, strict=True)}
+            for member in members:
+                _take_place(member, loaded[member.robot])
             self._take(members, loaded, _other_trajectories(members, loaded))
 
     def take_back(self, member: Member) -> State:
         """Claim a member again that came back with its trajectory; return its state."""
         [loaded] = self._fleet.claim([member.robot])
         if loaded.trajectory_id == member.trajectory_id:
+            _take_place(member, loaded)
             member.playback_state, member.replied_ns = loaded.state, loaded.stamp_ns
         return member.playback_state
 
@@ -103,6 +106,13 @@ class Claims:
         except LabError as error:
             changed = list(loads) or robots
             raise Misuse(NOT_TAKEN_BACK(why=why, error=error, robots=changed)) from error
+
+
+def _take_place(member: Member, loaded: Loaded) -> None:
+    """Take where a member that was claimed again stands on the trajectory of its share."""
+    stands = loaded.state in (State.PAUSED, State.COLLISION_HALT)
+    if stands and loaded.trajectory_id == member.trajectory_id:
+        member.position = loaded.position
 
 
 def _other_trajectories(members: Iterable[Member], loaded: Mapping[str, Loaded]) -> dict[str, str]:

@@ -70,6 +70,25 @@ MEMBERS_SILENT = Code(
     severity=WARNING,
     meaning="Members did not answer an order; all stand, and they are lost until they answer.",
 )
+PROCESS_DIED = Code(
+    "process_died",
+    "{process} died ({how:problem}) with {robots:list}; all stand at {position:time}",
+    severity=WARNING,
+    meaning="The process that plays members of a system ended; the system stands where they did.",
+)
+PROCESS_FROZE = Code(
+    "process_froze",
+    "{process} does not run, and with it {robots:list}; all stand at {position:time}",
+    severity=WARNING,
+    meaning="A signal stopped the process that plays members of a system.",
+    data=("how",),
+)
+MEMBERS_BACK = Code(
+    "members_back",
+    "{robots:list} came back; play goes on from {position:time}",
+    severity=INFO,
+    meaning="All members are there again after the process that plays them ended or froze.",
+)
 MAY_STILL_MOVE = Code(
     "may_still_move",
     "{why:problem}; {robots:list} did not answer and may still move",

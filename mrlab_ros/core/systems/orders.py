@@ -68,6 +68,14 @@ class Orders:
         self._retry_ns = now_ns + round(RETRY_PERIOD_S * SECOND)
         return self.stranded
 
+    def forget(self, members: Sequence[Member]) -> None:
+        """Stop asking stranded members whose process has ended: they stand."""
+        self.stranded = [m for m in self.stranded if all(m is not one for one in members)]
+
+    def leave(self, members: Sequence[Member]) -> None:
+        """Leave each frozen member the order to pause; it is carried out when it runs again."""
+        self._fleet.reach([Order(m.robot, Command.PAUSE) for m in members], 0.0)
+
     def retry(self, now_ns: int) -> bool:
         """Ask the stranded again where that is due; return whether none is left."""
         if now_ns >= self._retry_ns:

@@ -19,6 +19,7 @@ from mrlab_ros.core.playback import diagnostics as playback
 from mrlab_ros.core.playback.states import MOVING, State
 from mrlab_ros.core.systems import diagnostics as say
 from mrlab_ros.core.systems.claims import Claims
+from mrlab_ros.core.systems.line import Line
 from mrlab_ros.core.systems.members import Command, Fleet, Order
 from mrlab_ros.core.systems.orders import RETRY_TIMEOUT_S, Orders
 from mrlab_ros.core.systems.states import ACTIVE, TABLE, SystemEvent, SystemState, reason
@@ -81,9 +82,11 @@ class RobotSystem:
         self._announce = announce
         self._machine = Machine(TABLE, reason)
         self._orders = Orders(fleet, self._timeline, self._fail)
+        self._line = Line(self._timeline)
         self._staged_by_ns = 0
-        # Robots that were lost last.
+        # Robots that were lost last, and those whose process ended or froze and is not back.
         self._silent: list[str] = []
+        self._down: list[str] = []
 
     # what it is -----------------------------------------------------------------------------
 
@@ -135,7 +138,7 @@ class RobotSystem:
         self._machine.fire(SystemEvent.RETURN)
         self.rate = rate
         self._timeline.turn(backwards=rate < 0)
-        self._timeline.place(position)
+        self._line.come_back(position)
         self.clock = PlaybackClock(now_ns, min(position, self.duration), 0.0)
         self.message = say.COORDINATOR_RESTARTED()
 
@@ -271,18 +274,52 @@ class RobotSystem:
                 return
             before, member.playback_state = member.playback_state, state
             if state is State.COLLISION_HALT:
-                member.position = position
                 if before is not State.COLLISION_HALT:
                     self._collide(now_ns, member)
+                member.position = position
+                self._line_up(now_ns)
             elif state is State.PAUSED:
                 member.position = position
                 member.ordered = False
+                self._line_up(now_ns)
                 self._clear()
                 self._start_when_staged(now_ns)
             elif state is State.READY and member.ordered:
                 member.ordered, member.done = False, True
                 member.position = member.last
             self._poll(now_ns)
+
+    def members_down(
+        self, now_ns: int, at_ns: int, robots: Collection[str], process: str, how: str
+    ) -> None:
+        """Stand as at `at_ns`, when the process that plays `robots` ended or froze.
+
+        how: how it ended, such as SIGKILL; empty: it froze, and orders wait for it.
+        """
+        lost = [m for m in self._timeline if m.robot in robots]
+        with self._announcing():
+            for member in lost:
+                member.playback_state = State.IDLE
+            if how:
+                # A process that has ended moves nothing.
+                self._orders.forget(lost)
+            self._down = [m.robot for m in lost]
+            complete = self.state is SystemState.COMPLETE
+            if self._machine.ignores(SystemEvent.LOSE):
+                for member in lost:
+                    member.ordered = False
+                self._poll(now_ns)
+                return
+            self._machine.fire(SystemEvent.LOSE)
+            if complete:
+                self._rewind(now_ns)
+            else:
+                self._stand(now_ns, at_ns)
+            if not how:
+                self._orders.leave(lost)
+            said = say.PROCESS_DIED if how else say.PROCESS_FROZE
+            at = self.clock.position
+            self.message = said(process=process, how=how or None, robots=self._down, position=at)
 
     def grasped(self, now_ns: int, robot: str, held: str | None) -> None:
         """Take what a robot holds now: an object's name, or None."""
@@ -317,10 +354,11 @@ class RobotSystem:
         self._claims.revive()
         if self.state is not SystemState.PAUSED:
             self._rewind(now_ns)
+        self._line_up(now_ns)
         self._machine.fire(event)
         self.message = say.STAGES()
         orders = [
-            Order(m.robot, Command.STAGE, position=m.position)
+            Order(m.robot, Command.STAGE, position=self._line.place(m, self.clock.position))
             for m in self._timeline
             if not m.done
         ]
@@ -343,6 +381,7 @@ class RobotSystem:
 
     def _start(self, now_ns: int) -> None:
         self.message = None
+        self._line.leave()
         start_ns = now_ns + round(START_LEAD_S * SECOND)
         self.clock = PlaybackClock(start_ns, self.clock.position, self.rate)
         self._order_due(now_ns)
@@ -354,6 +393,7 @@ class RobotSystem:
         self._claims.revive()
         if self.state is SystemState.PLAYING:
             self._freeze(now_ns)
+        self._line.leave()
         self._timeline.seek(position)
         orders = [Order(m.robot, Command.SEEK, position=m.position) for m in self._timeline]
         try:
@@ -361,6 +401,7 @@ class RobotSystem:
         except Unreached:
             if self.state is not SystemState.READY:
                 self._timeline.seek(self.clock.position)
+                self._line.come_back(self.clock.position)
             raise
         self.clock = PlaybackClock(now_ns, position, 0.0)
         self._machine.fire(event)
@@ -370,14 +411,15 @@ class RobotSystem:
 
     def _collide(self, now_ns: int, member: Member) -> None:
         """Halt all members, or let the others go on, as the policy says."""
-        member.ordered = False
         event = COLLISIONS[self.policy]
         if self._machine.ignores(event):
+            member.ordered = False
             return
         if self._machine.fire(event) is SystemState.COLLISION_HALT:
             self.message = say.MEMBER_COLLIDED(robot=member.robot)
             self._freeze(now_ns)
             return
+        member.ordered = False
         self.message = say.OTHERS_GO_ON(robot=member.robot)
         if self.mode is Mode.SEQUENTIAL:
             self._orders.withdraw(now_ns, self._split_ordered(self.clock.at(now_ns))[1])
@@ -393,8 +435,8 @@ class RobotSystem:
     def _lose(self, now_ns: int, member: Member) -> None:
         """Stop all: a member was unloaded or joined another system."""
         known, member.playback_state = member.playback_state, State.IDLE
-        member.ordered = False
         if known is State.IDLE or self._machine.ignores(SystemEvent.LOSE):
+            member.ordered = False
             return
         complete = self.state is SystemState.COMPLETE
         self._machine.fire(SystemEvent.LOSE)
@@ -415,32 +457,58 @@ class RobotSystem:
             return
         self._machine.fire(SystemEvent.LOSE)
         setting_out = {o.robot for o in orders if o.command in (Command.STAGE, Command.PLAY)}
-        lost = self._stand(now_ns, setting_out, RETRY_TIMEOUT_S)
+        lost = self._stand(now_ns, None, setting_out, RETRY_TIMEOUT_S)
         self._silent = [m.robot for m in lost]
         self.message = say.MEMBERS_SILENT(robots=self._silent)
 
     def _stand(
-        self, now_ns: int, setting_out: Collection[str] = (), timeout: float | None = None
+        self,
+        now_ns: int,
+        at_ns: int | None = None,
+        setting_out: Collection[str] = (),
+        timeout: float | None = None,
     ) -> list[Member]:
         """Let the timeline and all members that move stand in place; return those lost.
 
-        setting_out: robots that may move as well. timeout: as Fleet.reach() takes it.
+        at_ns: as they were then; None: now. setting_out: robots that may move as well. timeout: as
+        Fleet.reach() takes it.
         """
-        position = self._position(now_ns)
-        self.clock = PlaybackClock(now_ns, position, 0.0)
-        self._timeline.place(position)
-        for member in self._timeline:
-            member.ordered = False
+        self._stop_clock(now_ns, now_ns if at_ns is None else at_ns)
         moving = [
             m for m in self._timeline if m.playback_state in MOVING or m.robot in setting_out
         ]
         lost = self._orders.pause(moving, timeout)
+        self._line_up(now_ns)
         self._clear()
         return lost
+
+    def _stop_clock(self, now_ns: int, at_ns: int) -> None:
+        """Let the timeline stand where it was at `at_ns`, at the last joint states before that."""
+        position = self._position(at_ns)
+        if self.clock.rate:
+            self._line.stand(position, self.clock.rate, self._split_ordered(position)[0])
+        for member in self._timeline:
+            member.ordered = False
+        self.clock = PlaybackClock(now_ns, position, 0.0)
+
+    def _line_up(self, now_ns: int) -> None:
+        """Let the timeline stand where the member furthest behind stands."""
+        if self.state is SystemState.STAGING:
+            return
+        position = self._line.position(self.clock.position)
+        if position != self.clock.position:
+            self.clock = PlaybackClock(now_ns, position, 0.0)
 
     def _take_back(self, now_ns: int, member: Member) -> None:
         """Claim a member that came back; the next play moves it to its place."""
         state = self._claims.take_back(member)
+        self._line_up(now_ns)
+        if member.robot in self._down and all(
+            m.playback_state is not State.IDLE for m in self._timeline if m.robot in self._down
+        ):
+            at = self.clock.position
+            self.message = say.MEMBERS_BACK(robots=self._down, position=at)
+            self._down = []
         if state is State.COLLISION_HALT and self._machine.can(SystemEvent.RETURN_HALTED):
             self._machine.fire(SystemEvent.RETURN_HALTED)
             self.message = say.STILL_COLLIDES(robot=member.robot)
@@ -490,6 +558,7 @@ class RobotSystem:
 
     def _rewind(self, now_ns: int) -> None:
         self._timeline.rewind()
+        self._line.leave()
         self.clock = PlaybackClock(now_ns, self._timeline.first, 0.0)
 
     def _position(self, now_ns: int) -> float:
@@ -498,11 +567,10 @@ class RobotSystem:
 
     def _freeze(self, now_ns: int) -> None:
         """Let the timeline and every moving member stand."""
-        self.clock = PlaybackClock(now_ns, self._position(now_ns), 0.0)
+        self._stop_clock(now_ns, now_ns)
         moving = [m for m in self._timeline if m.playback_state in MOVING]
-        for member in self._timeline:
-            member.ordered = False
         self._orders.drive(now_ns, [Order(m.robot, Command.PAUSE) for m in moving])
+        self._line_up(now_ns)
 
     def _split_ordered(self, position: float) -> tuple[list[Member], list[Member]]:
         """Return the ordered members whose share began by `position` (s), and the others."""

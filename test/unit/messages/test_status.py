@@ -2,12 +2,22 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from diagnostic_msgs.msg import DiagnosticStatus
+from mrlab_msgs.msg import LabProcess
 
 from mrlab_ros.core.base.diagnostic import Severity, of_text
+from mrlab_ros.core.runtime.processes import Phase, ProcessState
 from mrlab_ros.core.runtime.watch import Sign
 from mrlab_ros.core.systems.diagnostics import SYSTEM_LOST
-from mrlab_ros.messages.status import living_in, signs_to_message, troubles_in
+from mrlab_ros.messages.status import (
+    living_in,
+    processes_from_message,
+    processes_to_message,
+    signs_to_message,
+    troubles_in,
+)
 
 
 def test_a_failure_is_an_error_of_a_process_that_lives():
@@ -31,3 +41,27 @@ def test_a_restart_is_a_warning_with_its_values():
     said = troubles_in(signs_to_message(0, Sign("lab", 1, "SIGKILL"), 5.0, {}))["lab"]
     assert (said.code, said.severity) == ("died", Severity.WARNING)
     assert (said.values["last_exit"], said.values["ago"]) == ("SIGKILL", "5")
+
+
+def test_processes_come_back_as_they_were_without_their_ids():
+    dead = ProcessState(
+        "playback",
+        Phase.WAITING.value,
+        7,
+        2,
+        12.5,
+        "SIGKILL",
+        -9,
+        ("playback_host",),
+        12.5,
+        77,
+        0.4,
+    )
+    message = processes_to_message(
+        0, [dead, ProcessState("web", "running", 8, 0, 1.0, "")], "ours"
+    )
+    assert message.lab == "ours"
+    assert [one.state for one in message.processes] == [LabProcess.WAITING, LabProcess.RUNNING]
+    back = processes_from_message(message)
+    assert back[0] == replace(dead, pid=None)
+    assert (back[1].down, back[1].nodes) == (0.0, ())

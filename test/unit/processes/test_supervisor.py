@@ -9,12 +9,14 @@ import sys
 import textwrap
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import psutil
 import pytest
 
 from mrlab_ros.core.base.errors import Misuse
+from mrlab_ros.core.runtime.processes import Deaths, ProcessState
 from mrlab_ros.processes.child_process import (
     RESTARTS,
     WRONG_CONFIGURATION,
@@ -245,6 +247,7 @@ class TestSupervisor:
         refuse = spec("a", f"print('no such robot')\nraise SystemExit({WRONG_CONFIGURATION})")
         with Supervisor([refuse], lines, policy=lambda: RestartPolicy(0.01)) as supervisor:
             wait_for(lambda: supervisor.states[0].phase == "wrong configuration", "the refusal")
+            wait_for(lambda: lines.of("mrlab"), "a word on it")
             assert "is not started again" in lines.of("mrlab")[-1]
             assert lines.of("a") == ["no such robot"]
             # The keys were corrected, say: whoever asks for a restart gets one.
@@ -272,6 +275,57 @@ class TestSupervisor:
             wait_for(lambda: lines.of("a"), "up")
         assert phases == ["running", "stopped"]
 
+    def test_an_end_is_reported_at_once_with_its_instant_and_what_follows(
+        self, lines: Lines
+    ) -> None:
+        reports: list[tuple[int, ProcessState]] = []
+
+        def take(states: list[ProcessState]) -> None:
+            reports.append((time.monotonic_ns(), states[0]))
+
+        # The grandchild keeps the pipe open: the last lines are awaited, the report is not.
+        what = replace(spec("a", PARENT), nodes=("node_a",))
+        with Supervisor([what], lines, take, lambda: RestartPolicy(0.3)) as supervisor:
+            wait_for(lambda: lines.of("a"), "up")
+            killed_ns = time.monotonic_ns()
+            os.kill(supervisor.states[0].pid or 0, signal.SIGKILL)
+            wait_for(lambda: len(lines.of("a")) == 2, "up again")
+        phases = [state.phase for _, state in reports]
+        assert phases == ["running", "waiting to restart", "running", "stopped"]
+        (at_ns, dead), (_, back) = reports[1:3]
+        assert (dead.exit_code, dead.last_exit, dead.pid) == (-signal.SIGKILL, "SIGKILL", None)
+        assert (dead.nodes, dead.restart_in) == (("node_a",), 0.3)
+        assert killed_ns < dead.down_steady_ns <= at_ns
+        assert abs(dead.down - time.time()) < DEADLINE
+        assert (back.restarts, back.down_steady_ns) == (1, dead.down_steady_ns)
+
+    def test_a_process_that_a_signal_stops_is_reported_as_frozen_and_its_return_too(
+        self, lines: Lines
+    ) -> None:
+        states: list[ProcessState] = []
+        deaths = Deaths(time.monotonic_ns())
+        found: list[ProcessState] = []
+
+        def take(now: list[ProcessState]) -> None:
+            states.extend(now)
+            found.extend(deaths.new(now))
+
+        with Supervisor([spec("a", SLEEPER)], lines, take) as supervisor:
+            wait_for(lambda: lines.of("a"), "up")
+            pid = supervisor.states[0].pid or 0
+            for number, phase in (
+                (signal.SIGSTOP, "stopped by a signal"),
+                (signal.SIGCONT, "running"),
+            ):
+                os.kill(pid, number)
+                wait_for(lambda phase=phase: states[-1].phase == phase, phase)
+            os.kill(pid, signal.SIGSTOP)
+            wait_for(lambda: states[-1].frozen, "the second freeze")
+            os.kill(pid, signal.SIGKILL)
+            wait_for(lambda: states[-1].restarts == 1, "the restart")
+        assert [state.frozen for state in found] == [True, True, False]
+        assert found[-1].last_exit == "SIGKILL"
+
     @pytest.mark.parametrize("unblocks_sigint", [True, False])
     def test_a_program_that_unblocks_sigint_is_started_with_it_blocked(
         self, lines: Lines, unblocks_sigint: bool
@@ -290,7 +344,7 @@ class TestSupervisor:
     def test_no_orphan_when_the_supervisor_is_killed(self, tmp_path: Path) -> None:
         code = f"""
             import sys, time
-            from mrlab_ros.processes.child import ProcessSpec
+            from mrlab_ros.processes.child_process import ProcessSpec
             from mrlab_ros.processes.supervisor import Supervisor
             argv = (sys.executable, "-u", "-S", "-c", {textwrap.dedent(STUBBORN)!r})
             specs = [ProcessSpec("a", argv), ProcessSpec("b", argv)]

@@ -1890,6 +1890,7 @@ export const diagnostics: Templates = {
   member_without_motion: [
     '{file} nennt keine Trajektorie für {robot}; füge eine hinzu, zum Beispiel trajectory: run.mat',
   ],
+  members_back: ['{robots:list} ist wieder da; Abspielen macht bei {position:time} weiter'],
   members_move_to_places: [
     'Die Mitglieder fahren an ihre Plätze.',
     'Halte an, ändere dann die Richtung und spiele ab.',
@@ -2889,6 +2890,10 @@ export const diagnostics: Templates = {
   positions_shape: [
     "Die Positionen von '{id}' sind {size}; erwartet werden mindestens 2 Zeilen und {joints:count Spalte|Spalten}, eine für jedes Gelenk.",
   ],
+  process_died: [
+    '{process} ist gestorben ({how:problem}), mit ihm {robots:list}; alle stehen bei {position:time}',
+  ],
+  process_froze: ['{process} läuft nicht, mit ihm {robots:list}; alle stehen bei {position:time}'],
   process_silent: [
     'seit {silent:integer} s kein Lebenszeichen: abgebrochen oder hängen geblieben',
   ],

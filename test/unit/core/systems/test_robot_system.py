@@ -20,7 +20,9 @@ from mrlab_ros.core.base.diagnostics import (
 from mrlab_ros.core.base.errors import BadInput, IllegalEvent, LabError, Misuse, Unreached
 from mrlab_ros.core.playback import diagnostics as playback_codes
 from mrlab_ros.core.playback.playback import Playback
-from mrlab_ros.core.playback.states import State
+from mrlab_ros.core.playback.saved_state import come_back as back
+from mrlab_ros.core.playback.saved_state import keep
+from mrlab_ros.core.playback.states import Event, State
 from mrlab_ros.core.systems import diagnostics as say
 from mrlab_ros.core.systems.members import (
     Command,
@@ -1023,3 +1025,176 @@ def test_a_restarted_system_goes_on_at_the_rate_that_it_had(rate):
     world.system.play(world.now)
     world.run_until(SystemState.PLAYING)
     assert world.system.clock.rate == rate
+
+
+# Death of a process: the members that it plays are where their last joint states were.
+
+
+def go_down(world: World, robots: str, *, frozen: bool = False, heard_after: float = 0.0) -> None:
+    """End or freeze the process that plays `robots`; the system is told `heard_after` s later."""
+    at_ns = world.now
+    world.frozen |= set(robots)
+    if not frozen:
+        for robot in robots:
+            world.playbacks[robot].take_statuses()
+            world.playbacks[robot].due_ns = lambda: None
+    world.now += round(heard_after * SECOND)
+    how = "" if frozen else "SIGKILL"
+    world.system.members_down(world.now, at_ns, list(robots), "playback", how)
+
+
+def come_up(world: World, robots: str, behind: int = 0) -> None:
+    """Bring a process back that had ended; its members stand `behind` frames before their last."""
+    world.frozen -= set(robots)
+    for robot in robots:
+        before = world.playbacks[robot]
+        position = max(before.stream.position - behind / before.stream.trajectory.frame_rate, 0.0)
+        fresh = world.playbacks[robot] = Playback(make_model(), StraightPlanner(), 0.0)
+        kept = keep(before)._replace(
+            position=position, arm=before.stream.trajectory.sample(position)
+        )
+        back(fresh, world.now, before.stream.trajectory, kept)
+        fresh.take_statuses()
+        world.system.member_changed(
+            world.now, robot, fresh.state, position, owner="", trajectory_id=robot
+        )
+
+
+def places(world: World) -> list[float]:
+    """The places of the system and of those members that are inside their shares, s."""
+    found = [(m, world.playbacks[m.robot].clock.position) for m in world.system.members.values()]
+    inside = [m.start + place for m, place in found if 0 < place < m.duration]
+    return [world.system.clock.position, *inside]
+
+
+@pytest.mark.parametrize("heard_after", [0.005, 8.0])
+@pytest.mark.parametrize("behind", [0, 7])
+@pytest.mark.parametrize("rate", [1.0, 0.5, -1.0])
+def test_a_system_whose_members_died_stands_where_they_did_and_plays_on_from_one_place(
+    heard_after, behind, rate
+):
+    world = make({"a": 101, "b": 101})
+    world.system.set_rate(world.now, rate)
+    playing(world, 0.3)
+    go_down(world, "ab", heard_after=heard_after)
+    system = world.system
+    assert system.state is SystemState.PAUSED
+    assert system.message.code == "process_died"
+    assert system.message.values["how"] == "SIGKILL"
+    last = [world.playbacks[robot].stream.position for robot in "ab"]
+    assert system.clock.position == pytest.approx((min if rate > 0 else max)(last), abs=1e-12)
+    come_up(world, "ab", behind)
+    assert system.message.code == "members_back"
+    assert places(world) == pytest.approx([places(world)[0]] * 3, abs=1e-12)
+    came = system.clock.position
+    assert abs(came - last[0]) <= (behind + 1) / 100
+    world.sent = {"a": [], "b": []}
+    system.play(world.now)
+    world.run_until(SystemState.PLAYING)
+    world.advance(0.15)
+    for robot in "ab":
+        clock = world.playbacks[robot].clock
+        assert clock.at(world.now) == pytest.approx(system.clock.at(world.now), abs=1e-9)
+    world.run_until(SystemState.READY)
+    assert world.frames("a")[-1] == (100 if rate > 0 else 0)
+
+
+def test_a_member_that_survives_stands_at_once_and_waits_for_the_one_that_died():
+    world = playing(make(TWO), 0.3)
+    died_at = world.playbacks["a"].stream.position
+    world.advance(0.05)
+    world.frozen = {"a"}
+    world.system.members_down(world.now, world.now - 50 * MS, ["a"], "playback", "SIGKILL")
+    assert world.playbacks["b"].state is State.PAUSED
+    assert world.system.clock.position == pytest.approx(died_at)
+    world.playbacks["a"].take_statuses()
+    world.playbacks["a"].halt(world.now, Event.PAUSE, None)
+    world.playbacks["a"].stream.streamed = None
+    world.playbacks["a"].stream.jump(world.now, died_at)
+    come_up(world, "a")
+    ahead = world.playbacks["b"].stream.position
+    assert ahead == pytest.approx(died_at + 0.05)
+    world.sent = {"a": [], "b": []}
+    world.play_to_the_end()
+    # Nobody moved back, no frame is missing, and both begin on one line.
+    assert world.frames("b")[0] == round(ahead * 100) + 1
+    first = {robot: (due, frame) for robot in "ab" for due, frame, _ in world.sent[robot][:1]}
+    assert first["b"][0] - first["a"][0] == (first["b"][1] - first["a"][1]) * PERIOD
+
+
+def test_a_member_that_is_far_ahead_of_the_line_moves_to_it_before_the_system_plays():
+    world = playing(make({"a": 101, "b": 101}), 0.3)
+    # The death of a is noticed late, by its absence.
+    world.playbacks["a"].due_ns = lambda: None
+    world.advance(0.5)
+    world.frozen = {"a"}
+    world.system.pause(world.now)
+    come_up(world, "a")
+    place = world.system.clock.position
+    assert place == pytest.approx(world.playbacks["a"].clock.position, abs=1e-12)
+    assert world.playbacks["b"].clock.position > place + 0.4
+    world.sent = {"a": [], "b": []}
+    world.play_to_the_end()
+    assert world.frames("b") == list(range(round(place * 100), 101))
+    assert world.sent["b"][-1][0] == world.sent["a"][-1][0]
+
+
+def test_a_frozen_process_is_left_the_order_to_pause_and_its_members_are_lined_up():
+    world = playing(make(TWO), 0.3)
+    left: list[Order] = []
+    reach = world.reach
+    world.reach = lambda orders, timeout=None: left.extend(orders) or reach(orders, timeout)
+    go_down(world, "ab", frozen=True)
+    assert world.system.message.code == "process_froze"
+    assert [(order.robot, order.command) for order in left] == [
+        ("a", Command.PAUSE), ("b", Command.PAUSE),
+    ]  # fmt: skip
+    place = world.system.clock.position
+    # Both send what was late before they carry out the order, one of them more.
+    world.frozen = set()
+    for robot, count in (("a", 2), ("b", 3)):
+        playback = world.playbacks[robot]
+        for _ in range(count):
+            world.now = max(playback.due_ns(), world.now)
+            assert playback.tick(world.now) is not None
+        playback.pause(world.now, by="cell")
+        world.system.member_changed(
+            world.now,
+            robot,
+            State.PAUSED,
+            playback.clock.position,
+            owner="cell",
+            trajectory_id=robot,
+        )
+    assert world.system.message.code == "members_back"
+    assert world.system.clock.position == world.playbacks["a"].clock.position
+    assert place < world.system.clock.position < world.playbacks["b"].clock.position
+    world.play_to_the_end()
+    assert world.frames("a")[-1] == 100
+
+
+@pytest.mark.parametrize("state", SystemState)
+def test_a_death_in_every_state_leaves_the_system_standing_and_playable(state):
+    world = in_state(state)
+    world.frozen = set()
+    go_down(world, "ab")
+    expected = TABLE.rows.get((state, SystemEvent.LOSE), state)
+    if state is SystemState.STOPPING:
+        # What a stop did not reach before stands with its process.
+        expected = SystemState.READY
+    elif state is SystemState.COLLISION_HALT:
+        # Nobody is halted until it comes back so.
+        expected = SystemState.PAUSED
+    assert world.system.state is expected
+    come_up(world, "ab")
+    world.advance(0.01)
+    if world.system.state is SystemState.COLLISION_HALT:
+        world.playbacks["a"].clear(world.now)
+        world.report()
+    if world.system.state is SystemState.PAUSED:
+        position = world.system.clock.position
+        assert places(world) == pytest.approx([position] * len(places(world)), abs=1e-12)
+    world.sent = {"a": [], "b": []}
+    world.play_to_the_end()
+    assert world.frames("a")[-1] == 100
+    assert world.frames("b")[-1] == 50

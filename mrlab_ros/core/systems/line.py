@@ -1,0 +1,92 @@
+"""The line of a system that stands: its timeline stands where its members do.
+
+When a system stands, its members that play stop at a joint state each. The timeline goes on from
+the one that is furthest behind; the others are at most a few joint states ahead and begin when it
+reaches them. A member whose process died is where its last joint state was; until it is back, that
+is computed from the instant of the death.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+from mrlab_ros.core.systems.timeline import Member, Timeline
+
+# A member that is no further than this ahead of the line waits for its turn where it stands; one
+# that is further away moves to the line first, s.
+TOGETHER_S = 0.1
+# Slack when a position is turned into a number of joint states.
+ON_FRAME = 1e-6
+
+
+class Line:
+    """The members that were playing when the system stood, and where their timeline is."""
+
+    def __init__(self, timeline: Timeline) -> None:
+        self._timeline = timeline
+        self._members: list[Member] = []
+
+    def leave(self) -> None:
+        """Forget the members: the timeline goes on, or was put somewhere."""
+        self._members = []
+
+    def stand(self, position: float, rate: float, playing: Iterable[Member]) -> None:
+        """Note that `playing` stood when the timeline was at `position` (s) and went at `rate`.
+
+        Each is at its last joint state before that, until it says where it is.
+        """
+        self._members = list(playing)
+        for member in self._members:
+            reached = _last_joint_state(member, position, rate)
+            furthest = min if member.backwards else max
+            member.position = furthest(member.position, reached)
+
+    def come_back(self, position: float) -> None:
+        """Note that the timeline stood at `position` (s) when its coordinator ended.
+
+        Members inside their shares were playing, unless they waited.
+        """
+        self._timeline.place(position)
+        self._members = [
+            m
+            for m in self._timeline
+            if not m.done and m.waiting_for is None and 0.0 < m.position < m.duration
+        ]
+
+    def position(self, otherwise: float) -> float:
+        """Return where the timeline is, s: at the member furthest behind; `otherwise`: at none.
+
+        Members that have ended further ahead play on from there, too.
+        """
+        if not self._members:
+            return otherwise
+        furthest_behind = max if self._timeline.backwards else min
+        position = furthest_behind(m.start + m.position for m in self._members)
+        for member in self._timeline:
+            if member.done and abs(member.position - self._own(member, position)) > TOGETHER_S:
+                member.done = False
+                self._members.append(member)
+        return position
+
+    def place(self, member: Member, position: float) -> float:
+        """Return where `member` goes before the timeline starts at `position`, s of its own."""
+        if not any(member is one for one in self._members):
+            return member.position
+        own = self._own(member, position)
+        return own if abs(member.position - own) > TOGETHER_S else member.position
+
+    def _own(self, member: Member, position: float) -> float:
+        own = min(max(position - member.start, 0.0), member.duration)
+        return own if member.until is None else min(own, member.until)
+
+
+def _last_joint_state(member: Member, position: float, rate: float) -> float:
+    """Return where the last joint state of a member was at `position` of the timeline, s."""
+    end = member.last if member.until is None else member.until
+    own = position - member.start
+    if (own - end) * rate >= 0:
+        return end
+    step = rate / member.frame_rate
+    ticks = math.floor((own - member.first) / step + ON_FRAME)
+    return min(max(member.first + ticks * step, 0.0), member.duration)

@@ -1,0 +1,72 @@
+"""Publishes the state of the supervised processes from within the supervisor.
+
+The supervisor outlives every process that it keeps, and its children die with it: so an end is
+published by whoever notices it first, and is there for those that come later.
+"""
+
+from __future__ import annotations
+
+import os
+import threading
+import time
+from collections.abc import Sequence
+from typing import Any
+
+from mrlab_ros.core.runtime.processes import ProcessState
+
+
+class Announcer:
+    """A hidden node that publishes /processes; it has no executor, since it receives nothing.
+
+    lab: its id. What is announced before open() is published by that.
+    """
+
+    def __init__(self, lab: str) -> None:
+        self._lab = lab
+        self._lock = threading.Lock()
+        self._states: Sequence[ProcessState] = ()
+        self._context: Any = None
+        self._node: Any = None
+        self._topic: Any = None
+
+    def open(self) -> None:
+        """Join the graph. It imports rclpy, which takes a while: start the processes first."""
+        import rclpy
+        from mrlab_msgs.msg import LabProcesses
+        from rclpy.context import Context
+        from rclpy.signals import SignalHandlerOptions
+
+        from mrlab_ros.messages import qos
+        from mrlab_ros.ros import environment
+
+        environment.prepare()
+        self._context = Context()
+        no_signals = SignalHandlerOptions.NO
+        rclpy.init(args=[], context=self._context, signal_handler_options=no_signals)
+        self._node = rclpy.create_node(
+            f"_supervisor_{os.getpid()}",
+            context=self._context,
+            start_parameter_services=False,
+            enable_rosout=False,
+        )
+        with self._lock:
+            self._topic = self._node.create_publisher(LabProcesses, "/processes", qos.LATCHED)
+        self.announce(self._states)
+
+    def announce(self, states: Sequence[ProcessState]) -> None:
+        """Publish the state of all processes."""
+        with self._lock:
+            self._states = states
+            if self._topic is None:
+                return
+            from mrlab_ros.messages.status import processes_to_message
+
+            self._topic.publish(processes_to_message(time.time_ns(), states, self._lab))
+
+    def close(self) -> None:
+        """Leave the graph."""
+        with self._lock:
+            self._topic = None
+        if self._node is not None:
+            self._node.destroy_node()
+            self._context.try_shutdown()
