@@ -42,17 +42,18 @@ PRIMITIVES = {
 }
 
 
-def playing_from_message(message: msg.PlaybackState) -> Playing:
+def playing_from_message(message: msg.PlaybackState, shifted_ns: int) -> Playing:
+    """shifted_ns: by how much the message's stamps are ahead of instants."""
     clock = message.clock
     return Playing(
         State(message.state),
         message.trajectory_id,
-        PlaybackClock(time_from_message(clock.stamp), clock.position, clock.rate),
+        PlaybackClock(time_from_message(clock.stamp) - shifted_ns, clock.position, clock.rate),
         message.frame,
         message.frame_count,
         message.frame_rate,
         message.duration,
-        time_from_message(message.header.stamp),
+        time_from_message(message.header.stamp) - shifted_ns,
     )
 
 
@@ -68,10 +69,11 @@ def velocity_from_message(message: Vector3) -> Vector:
     return checked_vector((message.x, message.y, message.z), "velocity")
 
 
-def contact_to_message(contact: Contact) -> msg.Contact:
+def contact_to_message(contact: Contact, shifted_ns: int) -> msg.Contact:
+    """shifted_ns: by how much stamps are ahead of instants, here and below."""
     touch = contact.touch
     return msg.Contact(
-        stamp=time_to_message(contact.stamp_ns),
+        stamp=time_to_message(contact.stamp_ns + shifted_ns),
         robot=contact.robot,
         link=touch.link,
         held=touch.held,
@@ -86,9 +88,10 @@ def contact_to_message(contact: Contact) -> msg.Contact:
     )
 
 
-def contacts_to_message(now_ns: int, contacts: Iterable[Contact]) -> msg.Contacts:
+def contacts_to_message(now_ns: int, contacts: Iterable[Contact], shifted_ns: int) -> msg.Contacts:
     return msg.Contacts(
-        header=make_header(now_ns, WORLD), contacts=[contact_to_message(c) for c in contacts]
+        header=make_header(now_ns + shifted_ns, WORLD),
+        contacts=[contact_to_message(contact, shifted_ns) for contact in contacts],
     )
 
 
@@ -102,19 +105,20 @@ def surfaces_to_message(now_ns: int, surfaces: Iterable[Surface]) -> msg.Surface
     )
 
 
-def collision_to_message(event: CollisionChanged) -> msg.Collision:
+def collision_to_message(event: CollisionChanged, shifted_ns: int) -> msg.Collision:
+    contact = event.contact
     return msg.Collision(
-        header=make_header(event.stamp_ns, WORLD),
+        header=make_header(event.stamp_ns + shifted_ns, WORLD),
         colliding=event.colliding,
-        contact=contact_to_message(event.contact) if event.contact else msg.Contact(),
+        contact=contact_to_message(contact, shifted_ns) if contact else msg.Contact(),
         clearance=event.clearance,
     )
 
 
-def grasp_to_message(event: GraspChanged, fingers: list[str]) -> msg.Grasp:
+def grasp_to_message(event: GraspChanged, fingers: list[str], shifted_ns: int) -> msg.Grasp:
     """fingers: the finger joints, in the order of the event's positions."""
     return msg.Grasp(
-        header=make_header(event.stamp_ns, f"{event.robot}/tool0"),
+        header=make_header(event.stamp_ns + shifted_ns, f"{event.robot}/tool0"),
         state=event.state.value,
         object=event.object,
         fingers=fingers,
@@ -146,9 +150,9 @@ def fingers_to_message(now_ns: int, robot: str, positions: Mapping[str, float]) 
     )
 
 
-def removed_to_message(event: ObjectRemoved) -> msg.ObjectRemoved:
+def removed_to_message(event: ObjectRemoved, shifted_ns: int) -> msg.ObjectRemoved:
     return msg.ObjectRemoved(
-        header=make_header(event.stamp_ns, WORLD),
+        header=make_header(event.stamp_ns + shifted_ns, WORLD),
         name=event.name,
         type=event.type,
         **told(event.why, "reason"),

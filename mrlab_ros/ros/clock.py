@@ -75,7 +75,7 @@ class LabClock:
         return instant_ns + self._time.shifted_ns
 
     def instant(self, stamp_ns: int) -> int:
-        """Return the instant of a stamp that has just arrived."""
+        """Return the instant of a stamp that was made shortly before it arrived, which is now."""
         return self._time.instant(stamp_ns, self.instant_ns())
 
     def reading(self) -> tuple[int, int]:

@@ -66,6 +66,8 @@ class PlaybackClock:
 STEP_NS = SECOND // 10
 # ns of correction for each ns: deadlines at 100 Hz then lie 50 us closer or further apart.
 SLEW = 0.005
+# A stamp is under way from one node to another for no longer, ns.
+UNDER_WAY_NS = SECOND
 # A difference that stays, ns: two clocks are never read at exactly one instant.
 AGREED_NS = SECOND // 1000
 
@@ -78,8 +80,8 @@ class LabTime:
 
     def __init__(self, steady_ns: int, wall_ns: int) -> None:
         self.shifted_ns = 0
-        # The sum before the newest shift.
-        self._shifted_before_ns = 0
+        # The sum before the newest shift, and the instant of that shift.
+        self._shifted_before_ns, self._shift_ns = 0, 0
         self._offset_ns = wall_ns - steady_ns
         self._slewed_ns = steady_ns
         # The newest time that /clock gave; None: the wall clock is followed.
@@ -94,12 +96,12 @@ class LabTime:
         """Return the time; a step of the wall clock shifts it."""
         if self._simulated_ns is not None:
             # use_sim_time was switched off.
-            self._shift(wall_ns - self._simulated_ns)
+            self._shift(self._simulated_ns, wall_ns)
             self._simulated_ns = None
             self._offset_ns, self._slewed_ns = wall_ns - steady_ns, steady_ns
         error_ns = wall_ns - steady_ns - self._offset_ns
         if abs(error_ns) >= STEP_NS:
-            self._shift(error_ns)
+            self._shift(wall_ns - error_ns, wall_ns)
             self._offset_ns += error_ns
             self._slewed_ns = steady_ns
         else:
@@ -118,21 +120,26 @@ class LabTime:
         before_ns = self._simulated_ns
         if before_ns is None:
             before_ns = steady_ns + self._offset_ns
-            self._shift(clock_ns - before_ns)
+            self._shift(before_ns, clock_ns)
         elif clock_ns < before_ns or before_ns == 0:
-            self._shift(clock_ns - before_ns)
+            self._shift(before_ns, clock_ns)
         self._simulated_ns = clock_ns
         return clock_ns
 
     def instant(self, stamp_ns: int, now_ns: int) -> int:
         """Return the instant of a stamp that arrived at the instant `now_ns`.
 
-        A stamp that was made just before the clock was set is taken as such: of the two instants
-        that it may be the nearer one is meant.
+        Just after the clock was set the stamp may have been made before: the nearer instant of
+        the two is meant.
         """
-        either = stamp_ns - self.shifted_ns, stamp_ns - self._shifted_before_ns
-        return min(either, key=lambda instant_ns: abs(instant_ns - now_ns))
+        instant_ns = stamp_ns - self.shifted_ns
+        if now_ns - self._shift_ns > UNDER_WAY_NS:
+            return instant_ns
+        former_ns = stamp_ns - self._shifted_before_ns
+        return min(instant_ns, former_ns, key=lambda each: abs(each - now_ns))
 
-    def _shift(self, by_ns: int) -> None:
+    def _shift(self, before_ns: int, after_ns: int) -> None:
+        """Let `after_ns` be the time at the instant at which it would be `before_ns`."""
+        self._shift_ns = before_ns - self.shifted_ns
         self._shifted_before_ns = self.shifted_ns
-        self.shifted_ns += by_ns
+        self.shifted_ns += after_ns - before_ns

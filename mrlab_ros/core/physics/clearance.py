@@ -65,11 +65,6 @@ class Clearance:
             return False
         return self._fire(HaltEvent.LEFT)
 
-    def shift(self, by_ns: int) -> None:
-        """Go on as before after the clock was set by `by_ns`."""
-        if self._since_ns is not None:
-            self._since_ns += by_ns
-
     def _fire(self, event: HaltEvent) -> bool:
         """Fire an event; return whether it changed the state."""
         before = self._machine.state

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import isfinite
 from operator import sub
 from typing import NamedTuple
@@ -201,15 +201,6 @@ class JointStream:
         if self._moves or self._streams or len(pieces) > 1:
             return False
         return not pieces or (not self._fresh and now_ns - self.delay_ns > pieces[0].end_ns)
-
-    def shift(self, by_ns: int) -> None:
-        """Go on as before after the clock was set by `by_ns`."""
-        if self._last is not None:
-            self._last = (self._last[0] + by_ns, self._last[1])
-        for i, piece in enumerate(self._pieces):
-            self._pieces[i] = replace(
-                piece, start_ns=piece.start_ns + by_ns, end_ns=piece.end_ns + by_ns
-            )
 
     def shown_ns(self, now_ns: int) -> int:
         """Return the stamp of the motion at the world's time `now_ns`.

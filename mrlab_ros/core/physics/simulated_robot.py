@@ -5,7 +5,7 @@ from __future__ import annotations
 import bisect
 from collections import deque
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from operator import mul, sub
 
 from mrlab_ros.core.base.clock import SECOND, PlaybackClock
@@ -56,11 +56,6 @@ class Playing:
             return self.frame
         frame = int(self.position(now_ns) * self.frame_rate + 1e-6)
         return min(frame, max(self.frame_count - 1, 0))
-
-    def shifted(self, by_ns: int) -> Playing:
-        """Return the same state on a clock that was set by `by_ns`."""
-        clock = replace(self.clock, stamp_ns=self.clock.stamp_ns + by_ns)
-        return replace(self, clock=clock, stamp_ns=self.stamp_ns + by_ns)
 
     def sought(self, new: Playing) -> bool:
         """Return whether `new` has another position than undisturbed playback would have."""
@@ -217,24 +212,6 @@ class Robot:
                 # The arm stands in the obstacle that halted it.
                 self.tolerated.clear()
             yield before
-
-    def shift(self, by_ns: int) -> None:
-        """Go on as before after the clock was set by `by_ns`."""
-        self.playing = self.playing.shifted(by_ns)
-        self.queued = deque(playing.shifted(by_ns) for playing in self.queued)
-        self.stream.shift(by_ns)
-        self.clearance.shift(by_ns)
-        self.watch.reset()
-        self.closing_since_ns += by_ns
-        self.held_since_ns += by_ns
-        self.remarked_ns = deque((at + by_ns for at in self.remarked_ns), maxlen=REMARKS)
-        self.pressed = {
-            key: replace(pressed, seen_ns=pressed.seen_ns + by_ns)
-            for key, pressed in self.pressed.items()
-        }
-        if self.pending is not None:
-            self.pending = (self.pending[0] + by_ns, self.pending[1])
-        self._update_stream()
 
     def _update_stream(self) -> None:
         newest = self.queued[-1] if self.queued else self.playing

@@ -266,11 +266,6 @@ class World:
             self._world_state.now_ns = self._called_ns = now_ns
         waited_ns = min(max(now_ns - self._called_ns, 0), STALL_NS)
         self._called_ns = now_ns
-        if now_ns < self._world_state.now_ns - SECOND:
-            # The clock was set back: continue from there.
-            self._shift(now_ns - self._world_state.now_ns)
-            for robot in self._robots.values():
-                self._apply_due(robot, None)
         target_ns = now_ns
         for robot in self._robots.values():
             until = robot.stream.known_until(now_ns, waited_ns)
@@ -279,7 +274,8 @@ class World:
         behind_ns = target_ns - self._world_state.now_ns
         if behind_ns > self._settings.max_catch_up * SECOND:
             self.skipped_ns += behind_ns
-            self._shift(behind_ns)
+            self._grid.shift(behind_ns)
+            self._world_state.now_ns += behind_ns
         made = 0
         while made != most:
             count = grid.next(resting=self._rest.resting)
@@ -291,19 +287,6 @@ class World:
             made += 1
         self.steps += made
         return made
-
-    def shift(self, by_ns: int) -> None:
-        """Go on as before after the clock of advance() was set by `by_ns`."""
-        if self._grid.started:
-            self._shift(by_ns)
-            self._called_ns += by_ns
-            for robot in self._robots.values():
-                robot.shift(by_ns)
-
-    def _shift(self, by_ns: int) -> None:
-        """Shift the world's clock."""
-        self._grid.shift(by_ns)
-        self._world_state.now_ns += by_ns
 
     def _step(self, now_ns: int) -> None:
         for robot in self._robots.values():

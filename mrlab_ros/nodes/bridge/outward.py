@@ -279,13 +279,13 @@ class Outward(TopicRoutes[OutRoute]):
             self._ledger.window(name).add,
             self._bridge.warn_of_loss,
         )
-        since = time.time_ns()
+        since_ns = time.monotonic_ns()
 
         def emit(payload: bytes, published_ns: int) -> None:
             count.messages += 1
             count.bytes += len(payload)
             now = time.time_ns()
-            if published_ns >= since:
+            if now - published_ns <= time.monotonic_ns() - since_ns:
                 note(now - published_ns)
             try:
                 put(payload, attachment(count.messages, published_ns, now))

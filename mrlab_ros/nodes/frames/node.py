@@ -20,7 +20,7 @@ from tf2_msgs.msg import TFMessage
 
 from mrlab_ros.adapters.robots import urdf
 from mrlab_ros.adapters.robots.exporting import together
-from mrlab_ros.core.base.clock import SECOND
+from mrlab_ros.core.base.clock import STEP_NS
 from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.base.geometry import Array, Pose
 from mrlab_ros.core.robots.frames import WORLD, LinkFrames
@@ -80,7 +80,7 @@ class ShownRobot:
     def moved(self) -> bool:
         """Return whether there is something new to publish. tf2 warns of a repeated stamp."""
         # A stamp from before the last one: the lab's clock was set back, or went back in a loop.
-        return self.stamp_ns > self.sent_ns or self.sent_ns - self.stamp_ns > SECOND
+        return self.stamp_ns > self.sent_ns or self.sent_ns - self.stamp_ns >= STEP_NS
 
     def fixed(self) -> list[tuple[str, str, Pose]]:
         """Return what never moves while the robot stands where it does: (parent, child, pose)."""

@@ -29,7 +29,9 @@ from mrlab_ros.core.runtime.identity import Identity
 from mrlab_ros.messages import joint_states, qos
 from mrlab_ros.messages import physics as messages
 from mrlab_ros.messages.poses import pose_from_message
+from mrlab_ros.messages.time import time_from_message
 from mrlab_ros.nodes.physics.publishers import WorldPublishers
+from mrlab_ros.ros.clock import LabClock
 from mrlab_ros.ros.raw_streams import WaitSetThread
 
 
@@ -55,8 +57,7 @@ class GraphListener:
     Joint states arrive a thousand times a second, so they bypass the executor. turn: advances
     the world and returns how long to wait at most, ns. never_touch: returns the pairs of links
     of a model that never touch. tool: returns what is stated of a model with an end effector.
-    lab: the id of this lab. follow_clock: returns the time, and shifts the world where the clock
-    was set; called with the lock.
+    lab: the id of this lab. The world gets instants of `clock`, messages have the stamps of it.
     """
 
     def __init__(
@@ -70,10 +71,10 @@ class GraphListener:
         gripper: Callable[[str], Gripper],
         tool: Callable[[str, str], Tool],
         lab: str,
-        follow_clock: Callable[[], int],
+        clock: LabClock,
     ) -> None:
         self._world = world
-        self._follow_clock = follow_clock
+        self._clock = clock
         self._never_touch = never_touch
         self._gripper, self._tool = gripper, tool
         self._publishers = publishers
@@ -185,7 +186,7 @@ class GraphListener:
         if not known.description or known.built == wanted:
             return
         with self._lock:
-            now_ns = self._follow_clock()
+            now_ns = self._clock.instant_ns()
             held = self._world.remove_robot(name) if name in self._world.robots else ""
             if held:
                 said = LET_GO(object=held, robot=name)
@@ -213,17 +214,18 @@ class GraphListener:
     def _on_joint_state(self, name: str, joints: tuple[str, ...], data: bytes) -> None:
         stamp_ns, positions, velocities = joint_states.read(data, joints)
         with self._lock:
-            self._follow_clock()
             if name in self._world.robots:
-                self._world.joint_state(name, stamp_ns, positions, velocities)
+                instant_ns = self._clock.instant(stamp_ns)
+                self._world.joint_state(name, instant_ns, positions, velocities)
 
     def _on_playback(self, name: str, message: msg.PlaybackState) -> None:
         if name not in self.robots or not self._identity.accepts(message.lab):
             return
-        playing = messages.playing_from_message(message)
+        stamp_ns = time_from_message(message.header.stamp)
+        shifted_ns = stamp_ns - self._clock.instant(stamp_ns)
+        playing = messages.playing_from_message(message, shifted_ns)
         self.robots[name].playing = playing
         with self._lock:
-            self._follow_clock()
             if name in self._world.robots:
                 self._world.playback(name, playing)
 

@@ -84,10 +84,9 @@ class PhysicsNode(
         self._resolve = library.mesh_path
         self._lock = threading.Lock()
         self._lab_clock = LabClock(self)
-        self._shifted_ns = self._lab_clock.shifted_ns
         self._engine = BulletEngine(self._resolve)
         self._world = World(self._engine, self._types, self._settings)
-        self._world_publishers = WorldPublishers(self, self._world)
+        self._world_publishers = WorldPublishers(self, self._world, self._lab_clock)
         self._contents = Contents(
             self._world,
             self._lock,
@@ -97,7 +96,7 @@ class PhysicsNode(
             log.warning,
         )
         self._contents.restore()
-        self._world_publishers.publish_surfaces(self._lab_clock.now_ns(), self._world.surfaces)
+        self._world_publishers.publish_surfaces(self._world.surfaces)
         self._listener = GraphListener(
             self,
             self._world,
@@ -108,7 +107,7 @@ class PhysicsNode(
             library.gripper,
             library.hand_facts,
             self.parameters.lab_id,
-            self._follow_clock,
+            self._lab_clock,
         )
         for kind, name, callback in (
             (srv.SpawnObject, "spawn_object", self._on_spawn),
@@ -153,7 +152,7 @@ class PhysicsNode(
         """
         try:
             with self._lock:
-                now_ns = self._follow_clock()
+                now_ns = self._lab_clock.instant_ns()
                 made = self._world.advance(now_ns, MOST_STEPS)
                 if self._contents.waiting:
                     self._contents.regrip(now_ns, self._listener.known_robots)
@@ -168,16 +167,6 @@ class PhysicsNode(
             if self.context.ok():
                 self.get_logger().error(f"physics: {error!r}", throttle_duration_sec=1.0)
             return TURN_NS
-
-    def _follow_clock(self) -> int:
-        """Return the time; where the clock was set, shift the world by as much."""
-        now_ns = self._lab_clock.now_ns()
-        by_ns = self._lab_clock.shifted_ns - self._shifted_ns
-        if by_ns:
-            self._shifted_ns += by_ns
-            self._world.shift(by_ns)
-            self._world_publishers.shift(by_ns)
-        return now_ns
 
     # services -------------------------------------------------------------------------------
 
@@ -253,7 +242,7 @@ class PhysicsNode(
         if request.dry_run:
             placed = self._contents.check(objects, surfaces)
         else:
-            placed = self._contents.replace(objects, surfaces, self._lab_clock.now_ns())
+            placed = self._contents.replace(objects, surfaces, self._lab_clock.instant_ns())
             self._publish_surfaces()
         response.objects = [placement_to_message(thing) for thing in placed]
         code = CONTENTS_FIT if request.dry_run else CONTENTS_SET
@@ -264,5 +253,5 @@ class PhysicsNode(
         with self._lock:
             self._contents.changed = True
             surfaces = self._world.surfaces
-        self._world_publishers.publish_surfaces(self._lab_clock.now_ns(), surfaces)
+        self._world_publishers.publish_surfaces(surfaces)
         return len(surfaces)

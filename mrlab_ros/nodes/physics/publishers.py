@@ -18,6 +18,7 @@ from mrlab_ros.core.physics.world_state import CollisionChanged, Event, LoadChan
 from mrlab_ros.core.scene.surfaces import Surface
 from mrlab_ros.messages import physics as messages
 from mrlab_ros.messages import qos
+from mrlab_ros.ros.clock import LabClock
 
 CONTACTS_NS = SECOND // 50
 OBJECTS_NS = SECOND // 30
@@ -46,12 +47,14 @@ class PublishedObject:
 class WorldPublishers:
     """Publishes the events and the state of a world.
 
-    The caller must hold the world's lock unless a method says otherwise.
+    The caller must hold the world's lock unless a method says otherwise. The world has instants
+    of `clock`, and messages the stamps of it.
     """
 
-    def __init__(self, node: Node, world: World) -> None:
+    def __init__(self, node: Node, world: World, clock: LabClock) -> None:
         self._node = node
         self._world = world
+        self._clock = clock
         self._collisions: dict[str, Publisher] = {}
         self._grasps: dict[str, Publisher] = {}
         self._fingers: dict[str, Publisher] = {}
@@ -80,12 +83,6 @@ class WorldPublishers:
         self._node.destroy_publisher(self._fingers.pop(name))
         self._finger_positions.pop(name, None)
 
-    def shift(self, by_ns: int) -> None:
-        """Go on as before after the clock was set by `by_ns`."""
-        self._next_contacts_ns += by_ns
-        self._next_objects_ns += by_ns
-        self._repeat_ns += by_ns
-
     def publish_due(self, now_ns: int) -> bool:
         """Publish what is due; return whether an object was added, removed or moved."""
         for event in self._world.take_events():
@@ -94,7 +91,8 @@ class WorldPublishers:
             contacts = self._world.take_contacts()
             if contacts:
                 self._next_contacts_ns = now_ns + CONTACTS_NS
-                self._contacts.publish(messages.contacts_to_message(now_ns, contacts))
+                shifted_ns = self._clock.shifted_ns
+                self._contacts.publish(messages.contacts_to_message(now_ns, contacts, shifted_ns))
         if now_ns < self._next_objects_ns:
             return False
         self._next_objects_ns = now_ns + OBJECTS_NS
@@ -102,17 +100,20 @@ class WorldPublishers:
         return self._publish_objects(now_ns)
 
     def _publish_event(self, event: Event) -> None:
+        shifted_ns = self._clock.shifted_ns
         if isinstance(event, ObjectRemoved):
             self._node.get_logger().info(f"{event.name} is removed: {event.why}")
-            self._removed.publish(messages.removed_to_message(event))
+            self._removed.publish(messages.removed_to_message(event, shifted_ns))
         elif isinstance(event, CollisionChanged):
             if event.robot in self._collisions:
-                self._collisions[event.robot].publish(messages.collision_to_message(event))
+                said = messages.collision_to_message(event, shifted_ns)
+                self._collisions[event.robot].publish(said)
         elif isinstance(event, LoadChanged):
             self._publish_event(event.grasp)
         elif event.robot in self._grasps and event.robot in self._world.robots:
             fingers = [finger.joint for finger in self._world.robot(event.robot).arm.fingers]
-            self._grasps[event.robot].publish(messages.grasp_to_message(event, fingers))
+            said = messages.grasp_to_message(event, fingers, shifted_ns)
+            self._grasps[event.robot].publish(said)
 
     def _publish_fingers(self, now_ns: int) -> None:
         """Publish the fingers of each gripper where they moved; else once a second."""
@@ -128,7 +129,8 @@ class WorldPublishers:
             )
             if moved or again:
                 self._finger_positions[name] = positions
-                self._fingers[name].publish(messages.fingers_to_message(now_ns, name, positions))
+                stamp_ns = self._clock.stamp(now_ns)
+                self._fingers[name].publish(messages.fingers_to_message(stamp_ns, name, positions))
 
     def _publish_objects(self, now_ns: int) -> bool:
         """Publish all objects where one was added, removed or moved; else once a second."""
@@ -153,10 +155,10 @@ class WorldPublishers:
             self._repeat_ns = now_ns + REPEAT_NS
             objects = [known.message for known in published.values()]
             # The instant of the poses: the arms' joint states have the same stamps.
-            stamp_ns = self._world.now_ns or now_ns
+            stamp_ns = self._clock.stamp(self._world.now_ns or now_ns)
             self._objects.publish(messages.objects_to_message(stamp_ns, objects))
         return changed
 
-    def publish_surfaces(self, now_ns: int, surfaces: Sequence[Surface]) -> None:
+    def publish_surfaces(self, surfaces: Sequence[Surface]) -> None:
         """Publish the surfaces. The caller need not hold the lock: a large room takes long."""
-        self._surfaces.publish(messages.surfaces_to_message(now_ns, surfaces))
+        self._surfaces.publish(messages.surfaces_to_message(self._clock.now_ns(), surfaces))

@@ -48,11 +48,3 @@ def test_a_touch_begins_the_hold_anew_also_of_the_second_collision(clearance):
     assert not clearance.apart(3 * HOLD, 1.0)
     assert not clearance.apart(4 * HOLD - 1, 1.0)
     assert clearance.apart(4 * HOLD, 1.0)
-
-
-def test_a_clock_that_is_set_moves_the_hold_along(clearance):
-    clearance.shift(1000)
-    clearance.apart(0, 1.0)
-    clearance.shift(1000)
-    assert not clearance.apart(1000 + HOLD - 1, 1.0)
-    assert clearance.apart(1000 + HOLD, 1.0)

@@ -720,27 +720,6 @@ def test_catalogue_entries_that_cannot_be_are_refused(entry, code, values):
         catalogue.parse({"objects": {"thing": entry}})
 
 
-@pytest.mark.parametrize("by", [-5 * SECOND, 3600 * SECOND])
-def test_a_clock_that_is_set_stops_and_rewinds_nothing(by):
-    lab = Lab(gripper=kinds.FINGERS)
-    lab.world.spawn("ball", "ball", Pose((2.0, 0.0, 0.5)))
-    lab.play()
-    lab.go(0.1, 500 * MS)
-    lab.world.move("ball", Pose((3.0, 0.0, 0.5)), (0, 0, 0), (0, 0, 0), held=True)
-    steps, playing = lab.world.steps, lab.world.robot("a").playing
-    lab.now_ns += by
-    lab.world.shift(by)
-    # The playback says its clock anew, as it does after a shift.
-    lab.world.playback("a", playing.shifted(by))
-    lab.go(0.2, 500 * MS)
-    assert 118 <= lab.world.steps - steps <= 121
-    assert lab.world.robot("a").placed == pytest.approx((0.2, 0.0), abs=1e-3)
-    # Nothing was sought: the ball stays where it was put.
-    assert lab.world.robot("a").pending is None
-    assert lab.world.motion("ball").pose.position == pytest.approx((3.0, 0.0, 0.5))
-    assert lab.world.skipped_ns == 0
-
-
 def test_a_world_at_rest_is_stepped_less_often_and_goes_on_at_once():
     lab = Lab(gripper=kinds.FINGERS)
     world = lab.world
