@@ -122,7 +122,9 @@ def remove(
         print(json.dumps({"removed": removed}))
         return
     for name in removed:
-        print(f"{name} is removed and signed out everywhere")
+        print(
+            f"{name} is removed and signed out everywhere; the trajectories stay for instructors"
+        )
 
 
 @dataclass(frozen=True)

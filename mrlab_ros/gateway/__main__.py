@@ -48,7 +48,7 @@ def main() -> None:
     )
     # Each request of a client of an OpenID Connect provider would be a line.
     logging.getLogger("httpx").setLevel(logging.WARNING)
-    logging.getLogger("uvicorn.error").addFilter(_is_no_end)
+    logging.getLogger("uvicorn.error").addFilter(_is_news)
     try:
         serve(settings_of(sys.argv[1:]))
     except LabError as error:
@@ -59,9 +59,14 @@ def main() -> None:
         sys.exit(WRONG_CONFIGURATION if lasting else 1)
 
 
-def _is_no_end(record: logging.LogRecord) -> bool:
-    """Return False for the traceback of a request that the gateway's own end cut off."""
-    return not (record.exc_info and isinstance(record.exc_info[1], asyncio.CancelledError))
+def _is_news(record: logging.LogRecord) -> bool:
+    """Return False for two tracebacks.
+
+    One is of a request that the gateway's own end cut off, the other of a text frame that is no
+    UTF-8: uvicorn has closed its socket.
+    """
+    cut_off = (asyncio.CancelledError, UnicodeDecodeError)
+    return not (record.exc_info and isinstance(record.exc_info[1], cut_off))
 
 
 def settings_of(arguments: list[str]) -> Settings:
@@ -105,7 +110,7 @@ def serve(settings: Settings) -> None:
     config = uvicorn.Config(
         create_app(settings, real_ports(settings)),
         http=patience.protocol(),
-        ws="websockets-sansio",
+        ws=patience.ReadingSocket,
         # 316 instead of 64 KiB a connection, and a seventh of the processor time.
         ws_per_message_deflate=False,
         ws_max_size=LARGEST_FRAME,

@@ -63,7 +63,13 @@ def create_app(settings: Settings, ports: Ports) -> FastAPI:
         ports.oidc = Oidc(read_provider(settings.oidc))
     policy = read_policy(settings.allow_list)
     limits = read_limits(settings.limits)
-    link = None if ports.lab is None else socket.link_port(ports.lab, policy, limits)
+    assets = None if ports.lab is None else AssetCache(ports.lab)
+    store = ports.store or open_store(settings.store or str(settings.state_dir / "store"))
+    robots = Robots(RobotLibrary(directory() / "robots"), assets)
+    shelf = Shelf(store, settings.state_dir, policy, robots, signs_in=settings.signs_in)
+    link = None
+    if ports.lab is not None:
+        link = socket.link_port(ports.lab, policy, limits, shelf.why_not_load)
     checking = check_routes.Checking(
         CheckDesk(ports.checker or CheckProcess()),
         None if ports.lab is None else SceneWatch(ports.lab, time.monotonic),
@@ -107,10 +113,7 @@ def create_app(settings: Settings, ports: Ports) -> FastAPI:
     app.state.policy = policy
     app.state.link = link
     app.state.checking = checking
-    app.state.assets = None if ports.lab is None else AssetCache(ports.lab)
-    store = ports.store or open_store(settings.store or str(settings.state_dir / "store"))
-    robots = Robots(RobotLibrary(directory() / "robots"), app.state.assets)
-    shelf = Shelf(store, settings.state_dir, policy, robots, signs_in=settings.signs_in)
+    app.state.assets = assets
     app.state.shelf = shelf
     app.state.desk = upload_routes.Desk(Receiver(store, shelf.work))
     app.state.pages = settings.pages or pages.pages_folder()

@@ -1,7 +1,8 @@
-"""Ends connections of which nothing comes: a request's head, or the rest of a body.
+"""Ends connections of which nothing comes, and those that do not read their answers.
 
 uvicorn waits for ever for the first request of a connection and for the rest of a head, so a few
-thousand half requests would take every file descriptor of the gateway.
+thousand half requests would take every file descriptor of the gateway. It answers every ping of a
+WebSocket, so one that sends pings and reads nothing would take its memory.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ from collections.abc import AsyncIterator
 
 import h11
 from uvicorn.protocols.http.h11_impl import H11Protocol
+from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
 
 from mrlab_ros.gateway.diagnostics import BODY_STOPPED
 from mrlab_ros.gateway.errors import TooSlow
@@ -18,6 +20,18 @@ from mrlab_ros.gateway.errors import TooSlow
 # Until the whole head of a request is there, and between two pieces of a body, s.
 HEAD_S = 20.0
 BODY_S = 30.0
+# Bytes that may wait in a WebSocket's transport when a ping comes.
+MOST_UNREAD = 128 * 1024
+
+
+class ReadingSocket(WebSocketsSansIOProtocol):
+    """uvicorn's WebSocket; ends where the other side sends pings and does not read."""
+
+    def handle_ping(self) -> None:
+        if self.transport.get_write_buffer_size() > MOST_UNREAD:
+            self.transport.abort()
+        else:
+            super().handle_ping()
 
 
 def protocol(wait: float = HEAD_S) -> type[H11Protocol]:

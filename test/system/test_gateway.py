@@ -163,7 +163,7 @@ def test_people_sign_in_over_https_until_they_are_removed(secured: Gateway, keys
         answer = secured.send(
             browser, "POST", f"/api/invitations/{token}", json={"password": PASSWORD}
         )
-        assert answer.json()["user"] == {"name": "anna", "role": "student"}
+        assert answer.json()["user"] == {"id": "anna", "name": "anna", "role": "student"}
         cookie = answer.headers["set-cookie"]
         assert cookie.startswith("__Host-mrlab-")
         assert {"HttpOnly", "Secure", "SameSite=strict"} <= set(cookie.split("; "))

@@ -158,7 +158,7 @@ export class FakeApi implements Api {
   /** ?nobody in the address: not signed in. */
   user: Session['user'] = location.search.includes('nobody')
     ? null
-    : { name: 'ada', role: 'instructor' }
+    : { id: 'ada', name: 'ada', role: 'instructor' }
   readonly requests: ConversionRequest[] = []
   catalogue: TrajectoryInfo[] = [
     trajectory({}),
@@ -219,7 +219,7 @@ export class FakeApi implements Api {
   async signIn(name: string, password: string): Promise<Session> {
     if (password !== 'secret')
       throw new ApiError(401, 'wrong_password', own('Name and password do not belong together.'))
-    this.user = { name, role: 'student' }
+    this.user = { id: name, name, role: 'student' }
     return this.session()
   }
   async signOut(): Promise<void> {

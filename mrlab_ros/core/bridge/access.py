@@ -325,6 +325,11 @@ class Policy:
         rules = list(_fitting(self.rules.services, f"/{key}"))
         return not rules or any(rule.moves for rule in rules)
 
+    def urgent(self, key: str) -> bool:
+        """Return whether a call of a service stops something."""
+        rules = list(_fitting(self.rules.services, f"/{key}"))
+        return bool(rules) and all(rule.urgent for rule in rules)
+
 
 def _fitting(rules: Iterable[RuleT], name: str) -> Iterator[RuleT]:
     """Return the rules of which one decides about `name`, whatever its type is."""

@@ -177,6 +177,13 @@ class ServiceRule:
         True,
     )
 
+    urgent: bool = field(
+        FLAG,
+        "Whether a call stops something: in the gateway it has limits of its own, which no other "
+        "call uses up.",
+        False,
+    )
+
     def needed(self, *, own: bool) -> Role:
         """Return who may call the service; own: for what belongs to the one who calls."""
         return self.own if own and self.role.may(self.own) else self.role

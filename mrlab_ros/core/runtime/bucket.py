@@ -30,6 +30,12 @@ class Bucket:
         self._tokens -= count
         return True
 
+    def owe(self, count: float, now: float) -> float:
+        """Take tokens in any case; return the s until those that were missing have come."""
+        self._tokens = min(self.burst, self._tokens + (now - self._at) * self.rate) - count
+        self._at = now
+        return max(0.0, -self._tokens / self.rate)
+
 
 # Lines of one kind at once, and then one in so many seconds.
 BURST = 10

@@ -63,7 +63,7 @@ async def begin(
     """
     if checking.scenes is None:
         raise Unavailable(GATEWAY_WITHOUT_LAB())
-    checking.limit.check(person.name, time.monotonic())
+    checking.limit.check(person.id, time.monotonic())
     key, record, version = await _key(shelf, person, wanted.robot, wanted.trajectory)
     scene = await checking.scenes.now()
     file = await run_in_threadpool(shelf.files.path, version)

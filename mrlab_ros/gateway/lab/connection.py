@@ -27,6 +27,11 @@ def pattern(expression: str) -> re.Pattern[str]:
     return re.compile("".join(parts.get(p, "/" + re.escape(p)) for p in expression.split("/")))
 
 
+def is_key(text: str) -> bool:
+    """Return whether a text names one key: no pattern, no parameters behind a `?`."""
+    return bool(text) and not any(each in text for each in "*?#$")
+
+
 def matches(expression: str, key: str) -> bool:
     """Return whether a key belongs to an expression."""
     return pattern(expression).fullmatch(f"/{key}") is not None

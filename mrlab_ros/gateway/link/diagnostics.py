@@ -52,6 +52,11 @@ NEWER_SOCKET = Code("newer_socket", "This page has a newer connection.")
 SIGN_IN_ENDED = Code(
     "sign_in_ended", "Your sign-in has ended, or your role has changed.", "Sign in."
 )
+TEXTS_WAIT = Code(
+    "texts_wait",
+    "{size:bytes} of text wait for this page, which does not read them.",
+    "Reconnect.",
+)
 TOO_MUCH_WAITS = Code(
     "too_much_waits",
     "{count:count message|messages} with {size:bytes} wait for this page, which does not "

@@ -1,4 +1,4 @@
-"""Limits of one page, and of the number of pages.
+"""Limits of one page, of all pages of one person, and of the number of pages.
 
 How many batches a client may be sent: it says up to which number, after decoding.
 """
@@ -48,6 +48,10 @@ class Credit:
 
 
 KIB = 1024
+# Calls that stop something: of one person, calls/s and calls.
+URGENT_RATE, URGENT_BURST = 10.0, 30.0
+# s that a page waits at most after a frame: it must not count as silent meanwhile.
+LONGEST_WAIT_S = 2.0
 LARGEST_BURST = 1024 * 1024 * KIB
 
 
@@ -94,6 +98,18 @@ class LinkLimits:
         Integer(between(1, 10_000), "calls"), "Calls of a page that may wait for responses.", 32
     )
 
+    person_pages: float = field(
+        Number(between(1, 1000), "pages"),
+        "What all pages and devices of one person may send together, in what one page may; they "
+        "are slowed down beyond that.",
+        4.0,
+    )
+    person_queue: int = field(
+        Integer(between(KIB, LARGEST_BURST), "bytes"),
+        "Bytes that may wait for all pages and devices of one person together.",
+        16384 * KIB,
+    )
+
     @property
     def frames(self) -> Bucket:
         return Bucket(self.frame_rate, self.frame_burst)
@@ -105,6 +121,37 @@ class LinkLimits:
     @property
     def calls(self) -> Bucket:
         return Bucket(self.call_rate, self.call_burst)
+
+
+class Budget:
+    """What all pages and devices of one person use together. Times are s, monotonic."""
+
+    def __init__(self, limits: LinkLimits) -> None:
+        pages = limits.person_pages
+        self._frames = Bucket(pages * limits.frame_rate, pages * limits.frame_burst)
+        self._bytes = Bucket(pages * limits.byte_rate, pages * limits.byte_burst)
+        self._calls = Bucket(pages * limits.call_rate, pages * limits.call_burst)
+        self._urgent = Bucket(URGENT_RATE, URGENT_BURST)
+        self._room = limits.person_queue
+        # Bytes that wait.
+        self.queued = 0
+
+    def wait(self, size: int, now: float) -> float:
+        """Count a frame of `size` bytes; return how long the page has to wait for the next, s."""
+        longest = max(self._frames.owe(1, now), self._bytes.owe(size, now))
+        return min(longest, LONGEST_WAIT_S)
+
+    def may_call(self, now: float) -> bool:
+        """Count a call; return whether it is not one too many."""
+        return self._calls.take(1, now)
+
+    def may_stop(self, now: float) -> bool:
+        """Count a call that stops something; return whether it is not one too many."""
+        return self._urgent.take(1, now)
+
+    def has_room(self, size: int) -> bool:
+        """Return whether `size` bytes more may wait; a single message may be larger."""
+        return not self.queued or self.queued + size <= self._room
 
 
 def read_limits(path: Path | None) -> LinkLimits:

@@ -11,7 +11,7 @@ from collections.abc import Hashable
 from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.gateway.link.diagnostics import TOO_MUCH_WAITS
 from mrlab_ros.gateway.link.frames import fragment
-from mrlab_ros.gateway.link.limits import ahead
+from mrlab_ros.gateway.link.limits import Budget, LinkLimits, ahead
 
 # zenoh's priorities are 1 (first) to 7.
 PRIORITIES = 7
@@ -79,10 +79,12 @@ class Overflow(LabError):
 class ReliableSender:
     """Records for one client, cut into numbered fragments; the first has number 1.
 
-    A record larger than LARGEST passes where nothing else waits.
+    A record larger than LARGEST passes where nothing else waits. budget: the person's, which
+    counts what waits for all clients of that person.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, budget: Budget | None = None) -> None:
+        self._budget = budget or Budget(LinkLimits())
         self._waiting: deque[bytes] = deque()
         self._offset = 0
         self._unacknowledged: deque[tuple[int, bytes]] = deque()
@@ -105,10 +107,17 @@ class ReliableSender:
     def push(self, record: bytes) -> None:
         """Append a record. Raises Overflow where too much waits; nothing is appended then."""
         records = len(self._waiting) + len(self._unacknowledged)
-        if records and (records >= MOST or self._size + len(record) > LARGEST):
+        full = records and (records >= MOST or self._size + len(record) > LARGEST)
+        if full or not self._budget.has_room(len(record)):
             raise Overflow(TOO_MUCH_WAITS(count=records, size=self._size))
         self._waiting.append(record)
-        self._size += len(record)
+        self._grow(len(record))
+
+    def close(self) -> None:
+        """Drop everything."""
+        self._waiting.clear()
+        self._unacknowledged.clear()
+        self._grow(-self._size)
 
     def next(self) -> bytes | None:
         """Return the next frame to send, None where there is none or the window is full."""
@@ -131,7 +140,7 @@ class ReliableSender:
         kept = self._unacknowledged
         while kept and ahead(number, kept[0][0]) >= 0:
             _, frame = kept.popleft()
-            self._size -= len(frame)
+            self._grow(-len(frame))
             if self._sent:
                 self._sent -= 1
                 self._under_way -= len(frame)
@@ -141,6 +150,10 @@ class ReliableSender:
         self.acknowledge(number)
         self._sent = 0
         self._under_way = 0
+
+    def _grow(self, size: int) -> None:
+        self._size += size
+        self._budget.queued += size
 
     def _cut(self) -> bytes:
         record = self._waiting[0]
@@ -152,6 +165,6 @@ class ReliableSender:
             self._offset = 0
         self._number = (self._number + 1) % (1 << 32)
         frame = fragment(self._number, last, piece)
-        self._size += len(frame) - len(piece)
+        self._grow(len(frame) - len(piece))
         self._unacknowledged.append((self._number, frame))
         return frame

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import OrderedDict
+from collections import OrderedDict, deque
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -13,10 +13,15 @@ from mrlab_ros.core.base.diagnostic import Diagnostic, plain
 from mrlab_ros.core.bridge.access import Verb
 from mrlab_ros.gateway.lab.connection import Unsubscribe
 from mrlab_ros.gateway.link import frames
-from mrlab_ros.gateway.link.diagnostics import NO_TOPIC_OF_PAGES, SUBSCRIPTIONS_FULL
+from mrlab_ros.gateway.link.diagnostics import (
+    CALLS_FULL,
+    NO_TOPIC_OF_PAGES,
+    SUBSCRIPTIONS_FULL,
+    TEXTS_WAIT,
+)
 from mrlab_ros.gateway.link.frames import RecordKind
 from mrlab_ros.gateway.link.hub import Hub, Message, Topic
-from mrlab_ros.gateway.link.limits import Credit
+from mrlab_ros.gateway.link.limits import Budget, Credit
 from mrlab_ros.gateway.link.queues import Newest, Overflow, ReliableSender
 from mrlab_ros.gateway.link.visibility import Visibility
 from mrlab_ros.gateway.people.person import Person
@@ -28,6 +33,8 @@ LARGE = 8 * 1024
 # Batches under way, at most, however much credit a client gives.
 BATCHES = 8
 SUBSCRIPTIONS = 256
+# Bytes of text frames that wait for a client which does not read; it comes back and catches up.
+MOST_TEXTS = 128 * 1024
 # Requests whose numbers are remembered, to do none twice.
 REQUESTS = 4096
 
@@ -55,9 +62,11 @@ class LinkSession:
         hub: Hub,
         visibility: Visibility,
         may: May,
+        budget: Budget,
     ) -> None:
         self.token = token
         self.person = person
+        self.budget = budget
         self.wake: Callable[[], None] = _nothing
         self.failed: Diagnostic | None = None
         self._hub = hub
@@ -66,9 +75,10 @@ class LinkSession:
         self._subscriptions: dict[int, Subscription] = {}
         self._newest = Newest()
         self._large: dict[int, Message] = {}
-        self._reliable = ReliableSender()
+        self._reliable = ReliableSender(budget)
         self._credit = Credit(BATCHES)
-        self._texts: list[bytes] = []
+        self._texts: deque[bytes] = deque()
+        self._texts_size = 0
         self._announced: dict[int, Topic] = {}
         self._lab = b""
         self._requests: OrderedDict[int, None] = OrderedDict()
@@ -84,6 +94,7 @@ class LinkSession:
         for subscription in self._subscriptions.values():
             subscription.end()
         self._subscriptions.clear()
+        self._reliable.close()
 
     # ---- a new socket ----
 
@@ -95,6 +106,7 @@ class LinkSession:
         """
         self._credit = Credit(BATCHES)
         self._texts.clear()
+        self._texts_size = 0
         for topic in self._announced.values():
             self._announce(topic)
         self._reliable.rewind(received)
@@ -167,8 +179,11 @@ class LinkSession:
         self.wake()
 
     def respond(self, request: int, payload: bytes) -> None:
-        """Send a service's response."""
-        self._push_record(frames.record(RecordKind.RESPONSE, request, 0.0, payload))
+        """Send a service's response; an error where too much waits for this person's pages."""
+        if self.budget.has_room(len(payload)):
+            self._push_record(frames.record(RecordKind.RESPONSE, request, 0.0, payload))
+        else:
+            self.fail(request, "too_many", CALLS_FULL())
 
     def fail(self, request: int, code: str, why: Diagnostic) -> None:
         """Send why a request has no response; code: a coarse word for programs."""
@@ -177,7 +192,12 @@ class LinkSession:
 
     def text(self, message: Mapping[str, Any]) -> None:
         """Send a text frame; it is not repeated after a reconnect."""
-        self._texts.append(orjson.dumps(message))
+        text = orjson.dumps(message)
+        if self._texts_size + len(text) > MOST_TEXTS:
+            self.failed = TEXTS_WAIT(size=self._texts_size)
+        else:
+            self._texts.append(text)
+            self._texts_size += len(text)
         self.wake()
 
     def show_lab(self, state: bytes) -> None:
@@ -191,7 +211,9 @@ class LinkSession:
         Texts go first; batches and fragments take turns.
         """
         if self._texts:
-            return self._texts.pop(0).decode()
+            text = self._texts.popleft()
+            self._texts_size -= len(text)
+            return text.decode()
         if self._lab:
             state, self._lab = self._lab, b""
             return state.decode()

@@ -6,6 +6,7 @@ import asyncio
 import logging
 import secrets
 from dataclasses import dataclass, field
+from weakref import WeakValueDictionary
 
 import orjson
 
@@ -16,7 +17,7 @@ from mrlab_ros.gateway.lab.connection import LabConnection, Phase
 from mrlab_ros.gateway.link import presence
 from mrlab_ros.gateway.link.diagnostics import PAGES_FULL
 from mrlab_ros.gateway.link.hub import Hub
-from mrlab_ros.gateway.link.limits import LinkLimits
+from mrlab_ros.gateway.link.limits import Budget, LinkLimits
 from mrlab_ros.gateway.link.session import LinkSession, May
 from mrlab_ros.gateway.link.visibility import Visibility
 from mrlab_ros.gateway.people.person import Person
@@ -52,6 +53,8 @@ class Sessions:
         self._may = may
         self._limits = limits
         self._clients: dict[str, Client] = {}
+        # By the id of a person; each lives as long as a client of that person.
+        self._budgets: WeakValueDictionary[str, Budget] = WeakValueDictionary()
         self._stop = lab.on_change(self._on_change)
 
     def close(self) -> None:
@@ -74,14 +77,15 @@ class Sessions:
         if client is not None and client.session.person == person:
             client.socket = socket
             return client, True
-        own = sum(each.session.person.name == person.name for each in self._clients.values())
+        own = sum(each.session.person.id == person.id for each in self._clients.values())
         # Nobody can keep an instructor out by taking all places.
         full = len(self._clients) >= self._limits.pages and not person.role.may(Role.INSTRUCTOR)
         if own >= self._limits.pages_each or full:
             found = PAGES_FULL(own=own, person=person.name, all=len(self._clients))
             raise TooMany(found, RESUME_S)
+        budget = self._budgets.setdefault(person.id, Budget(self._limits))
         session = LinkSession(
-            secrets.token_urlsafe(18), person, self.hub, self.visibility, self._may
+            secrets.token_urlsafe(18), person, self.hub, self.visibility, self._may, budget
         )
         client = self._clients[session.token] = Client(session, socket)
         return client, False

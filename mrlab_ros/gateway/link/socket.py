@@ -19,7 +19,13 @@ from mrlab_ros.core.bridge.access import Policy, Verb
 from mrlab_ros.core.runtime.freezes import LOOK_PERIOD_S, Freezes
 from mrlab_ros.gateway.diagnostics import GATEWAY_WITHOUT_LAB
 from mrlab_ros.gateway.errors import SOCKET_REFUSED, NotAllowed, TooMany, close
-from mrlab_ros.gateway.lab.connection import CALL_TIMEOUT_S, LabConnection, NoAnswer, TimedOut
+from mrlab_ros.gateway.lab.connection import (
+    CALL_TIMEOUT_S,
+    LabConnection,
+    NoAnswer,
+    TimedOut,
+    is_key,
+)
 from mrlab_ros.gateway.link import diagnostics, frames, presence
 from mrlab_ros.gateway.link.clock import LabClock
 from mrlab_ros.gateway.link.diagnostics import (
@@ -40,6 +46,7 @@ from mrlab_ros.gateway.link.frames import Call, Credit
 from mrlab_ros.gateway.link.limits import LinkLimits
 from mrlab_ros.gateway.link.session import LinkSession, May, told
 from mrlab_ros.gateway.link.sessions import Client, Sessions
+from mrlab_ros.gateway.link.visibility import refusal
 from mrlab_ros.gateway.people.people import ThePeople
 from mrlab_ros.gateway.people.person import CurrentPerson, Person
 
@@ -57,34 +64,55 @@ HIDDEN_SILENCE_S = 150.0
 HEARTBEAT_S = 1.0
 # Displays are told who paused a robot. `success` follows the CDR header.
 PAUSE = "/pause"
+# A person loads only what that person sees.
+LOAD, LOAD_TYPE = "/load", "mrlab_msgs/srv/LoadTrajectory"
 SUCCESS = 4
 
 log = logging.getLogger("mrlab.gateway")
 router = APIRouter()
 
 
+WhyNotLoad = Callable[[Person, str], Diagnostic | None]
+
+
 class LinkPort:
     """State that the sockets of one gateway share."""
 
     def __init__(
-        self, sessions: Sessions, may: May, limits: LinkLimits, moves: Callable[[str], bool]
+        self,
+        sessions: Sessions,
+        may: May,
+        limits: LinkLimits,
+        moves: Callable[[str], bool],
+        urgent: Callable[[str], bool],
+        why_not_load: WhyNotLoad,
     ) -> None:
         self.sessions = sessions
         self.limits = limits
         self.may = may
         self.moves = moves
+        self.urgent = urgent
+        self.why_not_load = why_not_load
         self.clock = LabClock(sessions.lab)
         self.freezes = Freezes("web", time.process_time)
         self.calls: set[asyncio.Task[None]] = set()
 
 
-def link_port(lab: LabConnection, policy: Policy, limits: LinkLimits) -> LinkPort:
-    """Return what the sockets of a gateway share."""
+def link_port(
+    lab: LabConnection, policy: Policy, limits: LinkLimits, why_not_load: WhyNotLoad
+) -> LinkPort:
+    """Return what the sockets of a gateway share.
+
+    why_not_load: says why a person cannot load the trajectory of an id; it may block.
+    """
 
     def may(person: Person, verb: Verb, key: str) -> bool:
-        return policy.may(person.role, verb, key)
+        # A call of a pattern would leave the gateway, which has all rights, for every service.
+        named = verb is Verb.RECEIVE or is_key(key)
+        return named and policy.may(person.role, verb, key)
 
-    return LinkPort(Sessions(lab, policy.rules, may, limits), may, limits, policy.moves)
+    sessions = Sessions(lab, policy.rules, may, limits)
+    return LinkPort(sessions, may, limits, policy.moves, policy.urgent, why_not_load)
 
 
 @router.websocket("/link")
@@ -221,6 +249,8 @@ class _Socket:
             except BadInput as error:
                 self._close = BROKEN, error.diagnostic
                 return
+            if wait := self._session.budget.wait(size, now):
+                await asyncio.sleep(wait)
 
     def _binary(self, data: bytes, now: float) -> None:
         frame = frames.from_client(data)
@@ -273,7 +303,7 @@ class _Socket:
             session.fail(frame.request, "not_allowed", may_not)
         elif self._port.moves(frame.key) and (why := self._port.freezes.why_doubtful(now)):
             session.fail(frame.request, "refused", why)
-        elif self._waiting >= self._limits.calls_waiting or not self._calls.take(1, now):
+        elif not self._may_call(frame.key, now):
             session.fail(frame.request, "too_many", CALLS_FULL())
         else:
             self._waiting += 1
@@ -282,11 +312,19 @@ class _Socket:
             self._port.calls.add(task)
             task.add_done_callback(self._port.calls.discard)
 
+    def _may_call(self, key: str, now: float) -> bool:
+        if self._port.urgent(key):
+            return self._session.budget.may_stop(now)
+        full = self._waiting >= self._limits.calls_waiting
+        return not full and self._calls.take(1, now) and self._session.budget.may_call(now)
+
     async def _ask(self, frame: Call) -> None:
         session, sessions = self._session, self._port.sessions
         timeout = min(frame.timeout_s or CALL_TIMEOUT_S, CALL_TIMEOUT_S)
         try:
-            payload = await sessions.lab.query(frame.key, frame.payload or None, timeout)
+            payload = await self._refusal(frame)
+            if payload is None:
+                payload = await sessions.lab.query(frame.key, frame.payload or None, timeout)
             session.respond(
                 frame.request, sessions.visibility.response(session.person, frame.key, payload)
             )
@@ -304,6 +342,17 @@ class _Socket:
         finally:
             self._waiting -= 1
 
+    async def _refusal(self, frame: Call) -> bytes | None:
+        """Return the answer to a call that the lab is not to get; None: it gets it."""
+        if not frame.key.endswith(LOAD):
+            return None
+        definitions = self._port.sessions.lab.definitions
+        wanted = definitions.decode(f"{LOAD_TYPE}_Request", frame.payload).id
+        why_not = wanted and await asyncio.to_thread(
+            self._port.why_not_load, self._session.person, wanted
+        )
+        return definitions.encode(f"{LOAD_TYPE}_Response", refusal(why_not)) if why_not else None
+
     async def _watch(self) -> None:
         freezes = self._port.freezes
         freezes.begin()
@@ -311,6 +360,10 @@ class _Socket:
             while True:
                 now = time.monotonic()
                 freezes.look(now)
+                # A client that does not read keeps `_send` from seeing this.
+                if self._session.failed is not None:
+                    self._close = BEHIND, self._session.failed
+                    return
                 longest = HIDDEN_SILENCE_S if self._hidden else SILENCE_S
                 left = self._heard + longest - now
                 if left <= 0:
@@ -331,7 +384,7 @@ def _hello(text: str) -> tuple[str, int, dict[int, str], bool]:
     if message.get("op") != "hello":
         raise BadInput(NO_HELLO(wait=HELLO_S))
     wanted = message.get("subscriptions", {})
-    if not isinstance(wanted, dict) or not all(key.isdecimal() for key in wanted):
+    if not isinstance(wanted, dict) or not all(_is_number(key) for key in wanted):
         raise BadInput(BAD_SUBSCRIPTIONS())
     received = _number(message, "received") if "received" in message else 0
     return (
@@ -340,6 +393,10 @@ def _hello(text: str) -> tuple[str, int, dict[int, str], bool]:
         {int(number): str(key) for number, key in wanted.items()},
         bool(message.get("hidden")),
     )
+
+
+def _is_number(text: str) -> bool:
+    return text.isascii() and text.isdecimal() and len(text) <= 10
 
 
 def _mapping(text: str) -> dict[str, Any]:

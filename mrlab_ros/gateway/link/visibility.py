@@ -22,7 +22,7 @@ def sees(person: Person, info: Any) -> bool:
     return (
         info.shared
         or not info.owner
-        or info.owner == person.name
+        or info.owner == person.id
         or person.role.may(Role.INSTRUCTOR)
     )
 
@@ -73,11 +73,11 @@ class Visibility:
             return payload
         return self._definitions.encode(
             GET,
-            _fields(NOT_AMONG_YOURS(trajectory=found.trajectory.info.id)),
+            refusal(NOT_AMONG_YOURS(trajectory=found.trajectory.info.id)),
         )
 
 
-def _fields(why: Diagnostic) -> dict[str, Any]:
+def refusal(why: Diagnostic) -> dict[str, Any]:
     """Return the fields of a response that says why not."""
     values = [{"key": key, "value": text} for key, text in to_texts(why.values).items()]
     return {"message": str(why), "code": why.code, "values": values}

@@ -5,6 +5,7 @@ Passwords: argon2id, with the parameters of RFC 9106 for little memory.
 
 from __future__ import annotations
 
+import itertools
 import re
 import sqlite3
 import threading
@@ -19,6 +20,7 @@ from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.gateway.errors import NotFound
 from mrlab_ros.gateway.people.diagnostics import (
     BAD_PERSON_NAME,
+    LAST_INSTRUCTOR,
     LINK_USED,
     NO_PERSON,
     PASSWORD_LENGTH,
@@ -67,17 +69,22 @@ NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,40}")
 RESERVED = (LOCAL, "lab", "shared", "gateway", "nobody")
 INVITATION_LIFETIME_S = 7 * 24 * 3600.0
 OPENING_LIFETIME_S = 24 * 3600.0
+PEOPLE = "SELECT p.*, i.id FROM people p JOIN ids i ON i.name = p.name"
 INVITATION = "invitation"
 OPENING = "opening"
 
 
 @dataclass(frozen=True)
 class Account:
-    """A person of the lab; signs_in: `password`, `oidc`, or empty until the link was used."""
+    """A person of the lab; signs_in: `password`, `oidc`, or empty until the link was used.
+
+    id: never given to another person, although a name is free again after a removal.
+    """
 
     name: str
     role: Role
     signs_in: str
+    id: str
 
 
 class Accounts:
@@ -92,11 +99,11 @@ class Accounts:
 
     def all(self) -> list[Account]:
         """Return everybody, by name."""
-        return [_account(row) for row in self._database.rows("SELECT * FROM people ORDER BY name")]
+        return [_account(row) for row in self._database.rows(f"{PEOPLE} ORDER BY p.name")]
 
     def get(self, name: str) -> Account:
         """Return a person; raises NotFound where there is none."""
-        rows = self._database.rows("SELECT * FROM people WHERE name = ?", name)
+        rows = self._database.rows(f"{PEOPLE} WHERE p.name = ?", name)
         if not rows:
             raise NotFound(NO_PERSON(name=name[:60], fixes=(Fix(command="mrlab users list"),)))
         return _account(rows[0])
@@ -115,21 +122,35 @@ class Accounts:
                 connection.execute(
                     "INSERT INTO people VALUES (?, ?, NULL, ?)", (name, role.value, subject)
                 )
+                connection.execute(
+                    "INSERT INTO ids VALUES (?, ?)", (_unused_id(connection, name), name)
+                )
         except sqlite3.IntegrityError:
             raise _taken(name) from None
-        return Account(name, role, "oidc" if subject else "")
+        return self.get(name)
 
     def remove(self, name: str) -> None:
-        """Remove a person, the links and the sign-ins; raises NotFound where there is none."""
+        """Remove a person, the links and the sign-ins.
+
+        What the person owned stays under an id that nobody else gets: instructors see it. Raises
+        NotFound where there is no such person, Misuse for the last instructor.
+        """
         self.get(name)
         with self._database.writing() as connection:
+            _keep_an_instructor(connection, name)
+            connection.execute("UPDATE ids SET name = NULL WHERE name = ?", (name,))
             for table in ("people", "sign_ins", "links"):
                 connection.execute(f"DELETE FROM {table} WHERE name = ?", (name,))
 
     def set_role(self, name: str, role: Role) -> None:
-        """Give a person another role; raises NotFound where there is none."""
+        """Give a person another role.
+
+        Raises NotFound where there is no such person, Misuse for the last instructor.
+        """
         self.get(name)
         with self._database.writing() as connection:
+            if role is not Role.INSTRUCTOR:
+                _keep_an_instructor(connection, name)
             connection.execute("UPDATE people SET role = ? WHERE name = ?", (role.value, name))
 
     def invite(self, name: str, now: float) -> str:
@@ -174,14 +195,14 @@ class Accounts:
 
     def matching(self, name: str, password: str) -> Account | None:
         """Return the person with this name and password; None where there is none."""
-        rows = self._database.rows("SELECT * FROM people WHERE name = ?", name)
+        rows = self._database.rows(f"{PEOPLE} WHERE p.name = ?", name)
         stored = rows[0]["password"] if rows else None
         assert self._passwords is not None
         return _account(rows[0]) if self._passwords.matches(stored, password) else None
 
     def of_subject(self, subject: str) -> Account | None:
         """Return the person whom an OpenID Connect provider calls so; None: there is none."""
-        rows = self._database.rows("SELECT * FROM people WHERE subject = ?", subject)
+        rows = self._database.rows(f"{PEOPLE} WHERE p.subject = ?", subject)
         return _account(rows[0]) if rows else None
 
     def _link(self, kind: str, name: str, expires: float) -> str:
@@ -219,7 +240,22 @@ def _taken(name: str) -> Misuse:
 
 def _account(row: sqlite3.Row) -> Account:
     way = "oidc" if row["subject"] else "password" if row["password"] else ""
-    return Account(row["name"], Role(row["role"]), way)
+    return Account(row["name"], Role(row["role"]), way, row["id"])
+
+
+def _unused_id(connection: sqlite3.Connection, name: str) -> str:
+    """Return the name where nobody ever had it as an id, else the name with a number."""
+    used = {row["id"].lower() for row in connection.execute("SELECT id FROM ids")}
+    others = (f"{name}-{number}" for number in itertools.count(2))
+    return next(each for each in itertools.chain([name], others) if each.lower() not in used)
+
+
+def _keep_an_instructor(connection: sqlite3.Connection, name: str) -> None:
+    """Raise Misuse where `name` is the only instructor."""
+    query = "SELECT name FROM people WHERE role = ?"
+    found = [row["name"].lower() for row in connection.execute(query, (Role.INSTRUCTOR.value,))]
+    if found == [name.lower()]:
+        raise Misuse(LAST_INSTRUCTOR(name=name))
 
 
 def _no_link() -> NotFound:

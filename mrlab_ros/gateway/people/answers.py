@@ -23,8 +23,9 @@ class Lab(BaseModel):
 
 
 class User(BaseModel):
-    """The signed-in user."""
+    """The signed-in user. id: owner of the user's things; name: what people read."""
 
+    id: str
     name: str
     role: Role
 

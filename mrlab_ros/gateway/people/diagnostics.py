@@ -17,6 +17,16 @@ PERSON_EXISTS = Code(
     "There is somebody called '{name}' already.",
     "Choose another name, or remove that person first.",
 )
+LAST_INSTRUCTOR = Code(
+    "last_instructor",
+    "{name} is the only instructor of this lab.",
+    "Make somebody else an instructor first.",
+)
+DEVICE_LETS_IN = Code(
+    "device_lets_in",
+    "A paired device cannot let another device in.",
+    "Confirm the code in a browser in which you signed in with your password.",
+)
 LINK_USED = Code(
     "link_used",
     "This link was used already, or is too old.",
@@ -26,6 +36,11 @@ USERS_UNUSABLE = Code(
     "users_unusable",
     "{path} cannot be used for people and sign-ins: {why:problem}.",
     "Expected a file that this user can write, or none.",
+)
+USERS_OTHER_VERSION = Code(
+    "users_other_version",
+    "{path} was written by another version of this program.",
+    "Move it away and add the people again.",
 )
 PASSWORD_LENGTH = Code(
     "password_length",

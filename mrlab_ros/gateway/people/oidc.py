@@ -197,7 +197,7 @@ class Oidc:
         email = str(claims.get("email", "")).lower()
         if not patterns:
             return
-        if not claims.get("email_verified") or not any(
+        if claims.get("email_verified") not in (True, "true") or not any(
             fnmatch.fnmatchcase(email, pattern) for pattern in patterns
         ):
             raise NotAllowed(MAIL_NOT_ADMITTED(email=email))

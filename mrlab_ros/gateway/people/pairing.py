@@ -11,9 +11,10 @@ from dataclasses import dataclass
 
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.rules import Role
-from mrlab_ros.gateway.errors import NotFound, TooMany
+from mrlab_ros.gateway.errors import NotAllowed, NotFound, TooMany
 from mrlab_ros.gateway.people.diagnostics import (
     CODES_WRONG,
+    DEVICE_LETS_IN,
     DEVICES_FULL,
     NO_DEVICE_SHOWS,
     PAIRED_ROLE_TOO_HIGH,
@@ -68,14 +69,14 @@ class Pairings:
         Raises NotFound where none does, TooMany where `person` was wrong TRIES times.
         """
         self._forget(now)
-        wrong = self._wrong.get(person.name, [])
+        wrong = self._wrong.get(person.id, [])
         if len(wrong) >= TRIES:
             raise TooMany(CODES_WRONG(count=TRIES), wrong[0] + LIFETIME_S - now)
         plain = normal(code)
         for pairing in self._waiting.values():
             if secrets.compare_digest(pairing.code, plain) and pairing.granted is None:
                 return pairing
-        self._wrong[person.name] = [*wrong, now]
+        self._wrong[person.id] = [*wrong, now]
         raise NotFound(
             NO_DEVICE_SHOWS(shown=shown(plain[:LENGTH]), minutes=round(LIFETIME_S / 60))
         )
@@ -83,8 +84,10 @@ class Pairings:
     def approve(self, code: str, person: Person, role: Role, now: float) -> Pairing:
         """Let the device that shows `code` in, for `person` and as `role`.
 
-        Raises BadInput where that is more than the person may do.
+        Raises BadInput where that is more than the person may do, NotAllowed where a device asks.
         """
+        if person.paired:
+            raise NotAllowed(DEVICE_LETS_IN())
         pairing = self.waiting(code, person, now)
         if not person.role.may(role):
             own = person.role.value

@@ -50,8 +50,16 @@ async def collect(
     if pairing is None or pairing.granted is None:
         return answers.PairingState(state="waiting", user=None)
     person, role = pairing.granted
-    people.sign_in(response, person.name, role, device=pairing.device, lifetime=DEVICE_LIFETIME_S)
-    return answers.PairingState(state="approved", user=answers.User(name=person.name, role=role))
+    people.sign_in(
+        response,
+        person.name,
+        role,
+        device=pairing.device,
+        let_in_by=person.sign_in,
+        lifetime=DEVICE_LIFETIME_S,
+    )
+    user = answers.User(id=person.id, name=person.name, role=role)
+    return answers.PairingState(state="approved", user=user)
 
 
 @router.post("/approve")
@@ -62,6 +70,5 @@ async def approve(
     if person.name == LOCAL:
         check_signs_in(people)
     pairing = people.pairings.approve(body.code, person, body.role, people.steady())
-    return answers.PairingState(
-        state="approved", user=answers.User(name=pairing.device, role=body.role)
-    )
+    user = answers.User(id=person.id, name=pairing.device, role=body.role)
+    return answers.PairingState(state="approved", user=user)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import ipaddress
 import time
 from collections.abc import Callable
 from http.cookies import CookieError, SimpleCookie
@@ -81,10 +82,13 @@ class People:
         role: Role,
         *,
         device: str = "",
+        let_in_by: str = "",
         lifetime: float = LIFETIME_S,
     ) -> str:
         """Sign somebody in with a cookie of `response`; return the new CSRF token."""
-        secret = self.sign_ins.begin(name, role, self.clock(), device=device, lifetime=lifetime)
+        secret = self.sign_ins.begin(
+            name, role, self.clock(), device=device, let_in_by=let_in_by, lifetime=lifetime
+        )
         response.set_cookie(
             self.cookie,
             secret,
@@ -118,8 +122,20 @@ def people_of(connection: HTTPConnection) -> People:
 
 
 def address_of(connection: HTTPConnection) -> str:
-    """Return the address of a client, for rate limits."""
-    return connection.client.host if connection.client else ""
+    """Return whom rate limits count as one client: an IPv4 address, or an IPv6 network of /64.
+
+    One person's machine has as many addresses of such a network as it likes.
+    """
+    host = connection.client.host if connection.client else ""
+    try:
+        address = ipaddress.ip_address(host)
+    except ValueError:
+        return host
+    if isinstance(address, ipaddress.IPv4Address):
+        return host
+    if address.ipv4_mapped is not None:
+        return str(address.ipv4_mapped)
+    return str(ipaddress.ip_network((address.packed, 64), strict=False))
 
 
 ThePeople = Annotated[People, Depends(people_of)]

@@ -22,11 +22,20 @@ LOCAL = "local"
 
 @dataclass(frozen=True)
 class Person:
-    """The person that a request comes from. name: scopes things; sign_in: id of the sign-in."""
+    """The person that a request comes from.
+
+    name: what people read. sign_in: id of the sign-in; paired: it is a paired device's. id: owns
+    things and bounds what one person does; no other person ever gets it, whatever their name.
+    """
 
     name: str
     role: Role
     sign_in: str = ""
+    paired: bool = False
+    id: str = ""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "id", self.id or self.name)
 
 
 class Knows(Protocol):

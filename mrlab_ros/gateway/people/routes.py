@@ -51,7 +51,8 @@ def sign_in(
     if account is None:
         raise NotSignedIn(WRONG_PASSWORD())
     csrf = people.sign_in(response, account.name, account.role)
-    return session_answer(request, people, Person(account.name, account.role), csrf)
+    person = Person(account.name, account.role, id=account.id)
+    return session_answer(request, people, person, csrf)
 
 
 @router.delete("/session", status_code=204)
@@ -80,7 +81,8 @@ def accept_invitation(
     people.links_by_address.check(address_of(request), people.steady())
     account = people.accounts.accept(token, body.password, people.clock())
     csrf = people.sign_in(response, account.name, account.role)
-    return session_answer(request, people, Person(account.name, account.role), csrf)
+    person = Person(account.name, account.role, id=account.id)
+    return session_answer(request, people, person, csrf)
 
 
 @router.get("/people")
@@ -147,12 +149,12 @@ def list_devices(people: ThePeople, person: CurrentPerson) -> answers.Devices:
 
 @router.delete("/devices/{sign_in}", status_code=204)
 def end_device(people: ThePeople, person: CurrentPerson, sign_in: str) -> None:
-    """End a sign-in; its sockets close."""
+    """End a sign-in, and those of the devices that it let in; their sockets close."""
     found = [each for each in people.sign_ins.all(people.clock()) if each.id == sign_in]
     # To others' people a foreign sign-in does not exist.
     if not found or not (person.role.may(Role.INSTRUCTOR) or found[0].name == person.name):
         raise NotFound(NO_DEVICE())
-    people.sign_ins.end(sign_in)
+    people.sign_ins.end_with_devices(sign_in)
 
 
 def session_answer(
@@ -164,7 +166,9 @@ def session_answer(
         lab=answers.Lab(
             id=people.database.lab_id, name=settings.lab_name, version=request.app.version
         ),
-        user=None if person is None else answers.User(name=person.name, role=person.role),
+        user=None
+        if person is None
+        else answers.User(id=person.id, name=person.name, role=person.role),
         may=rights(request.app.state.policy, person, settings.classroom is not None),
         csrf=csrf,
         ways=answers.Ways(

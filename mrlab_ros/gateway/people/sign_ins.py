@@ -23,10 +23,12 @@ from typing import Any
 
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.rules import Role
-from mrlab_ros.gateway.people.diagnostics import USERS_UNUSABLE
+from mrlab_ros.gateway.people.diagnostics import USERS_OTHER_VERSION, USERS_UNUSABLE
 from mrlab_ros.gateway.people.person import LOCAL, Person
 
 FILE = "users.sqlite"
+# Of the tables below; a file with other tables is not touched.
+SCHEMA_VERSION = 2
 # How long a writer waits for another one, s.
 BUSY_TIMEOUT_S = 5.0
 SCHEMA = """
@@ -34,10 +36,13 @@ CREATE TABLE IF NOT EXISTS lab (id TEXT NOT NULL, secret BLOB NOT NULL);
 CREATE TABLE IF NOT EXISTS people (
     name TEXT PRIMARY KEY COLLATE NOCASE, role TEXT NOT NULL, password TEXT, subject TEXT UNIQUE
 );
+CREATE TABLE IF NOT EXISTS ids (
+    id TEXT PRIMARY KEY COLLATE NOCASE, name TEXT UNIQUE COLLATE NOCASE
+);
 CREATE TABLE IF NOT EXISTS sign_ins (
     id TEXT PRIMARY KEY, digest BLOB NOT NULL UNIQUE, name TEXT NOT NULL COLLATE NOCASE,
     role TEXT NOT NULL, device TEXT NOT NULL, created REAL NOT NULL, seen REAL NOT NULL,
-    expires REAL NOT NULL
+    expires REAL NOT NULL, let_in_by TEXT NOT NULL
 );
 CREATE TABLE IF NOT EXISTS links (
     digest BLOB PRIMARY KEY, kind TEXT NOT NULL, name TEXT NOT NULL COLLATE NOCASE,
@@ -73,7 +78,7 @@ class Database:
             self._connection.row_factory = sqlite3.Row
             self._connection.execute("PRAGMA synchronous = NORMAL")
             self._connection.execute("PRAGMA journal_mode = WAL")
-            self._connection.executescript(SCHEMA)
+            self._make_tables()
             with self.writing() as connection:
                 if connection.execute("SELECT 1 FROM lab").fetchone() is None:
                     row = (secrets.token_hex(4), secrets.token_bytes(32))
@@ -83,6 +88,15 @@ class Database:
             raise BadInput(USERS_UNUSABLE(path=str(path), why=str(error))) from error
         self.lab_id: str = found["id"]
         self.secret: bytes = found["secret"]
+
+    def _make_tables(self) -> None:
+        """Make the tables; raise BadInput where the file has those of another version."""
+        (version,) = self._connection.execute("PRAGMA user_version").fetchone()
+        (tables,) = self._connection.execute("SELECT count(*) FROM sqlite_master").fetchone()
+        if tables and version != SCHEMA_VERSION:
+            raise BadInput(USERS_OTHER_VERSION(path=str(self.path)))
+        self._connection.executescript(SCHEMA)
+        self._connection.execute(f"PRAGMA user_version = {SCHEMA_VERSION}")
 
     def rows(self, query: str, *values: Any) -> list[sqlite3.Row]:
         """Return what a query finds."""
@@ -131,7 +145,8 @@ class SignIn:
 # A person's role now; a device has at most the role that it was paired as. The local user has no
 # row in people.
 VALID = (
-    "SELECT s.*, p.role AS now_role FROM sign_ins s LEFT JOIN people p ON p.name = s.name "
+    "SELECT s.*, p.role AS now_role, i.id AS person FROM sign_ins s "
+    "LEFT JOIN people p ON p.name = s.name LEFT JOIN ids i ON i.name = s.name "
     f"WHERE s.expires > ? AND (p.name IS NOT NULL OR s.name = '{LOCAL}')"
 )
 
@@ -145,17 +160,27 @@ class SignIns:
         self._waiting: dict[str, list[tuple[Role, asyncio.Event]]] = {}
 
     def begin(
-        self, name: str, role: Role, now: float, *, device: str = "", lifetime: float = LIFETIME_S
+        self,
+        name: str,
+        role: Role,
+        now: float,
+        *,
+        device: str = "",
+        let_in_by: str = "",
+        lifetime: float = LIFETIME_S,
     ) -> str:
-        """Sign somebody in; return the secret for the cookie."""
+        """Sign somebody in; return the secret for the cookie.
+
+        device: name of a paired device. let_in_by: id of the sign-in that let it in.
+        """
         secret = new_secret()
         row = (
             secrets.token_hex(8), digest(secret), name, role.value, device, now, now,
-            now + lifetime,
+            now + lifetime, let_in_by,
         )  # fmt: skip
         with self._database.writing() as connection:
             connection.execute("DELETE FROM sign_ins WHERE expires <= ?", (now,))
-            connection.execute("INSERT INTO sign_ins VALUES (?, ?, ?, ?, ?, ?, ?, ?)", row)
+            connection.execute("INSERT INTO sign_ins VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)", row)
         return secret
 
     def person(self, secret: str, now: float) -> Person | None:
@@ -168,7 +193,8 @@ class SignIns:
             # Another process may be writing; the next request tries again.
             with suppress(sqlite3.OperationalError), self._database.writing() as connection:
                 connection.execute("UPDATE sign_ins SET seen = ? WHERE id = ?", (now, found.id))
-        return Person(found.name, found.role, found.id)
+        person = rows[0]["person"] or found.name
+        return Person(found.name, found.role, found.id, bool(found.device), person)
 
     def all(self, now: float, name: str | None = None) -> list[SignIn]:
         """Return the sign-ins of a person, or of everybody, newest first."""
@@ -184,6 +210,13 @@ class SignIns:
         """End a sign-in; its sockets close. Nothing happens where there is none."""
         with self._database.writing() as connection:
             connection.execute("DELETE FROM sign_ins WHERE id = ?", (sign_in,))
+
+    def end_with_devices(self, sign_in: str) -> None:
+        """End a sign-in, and those of the devices that it let in."""
+        with self._database.writing() as connection:
+            connection.execute(
+                "DELETE FROM sign_ins WHERE id = ? OR let_in_by = ?", (sign_in, sign_in)
+            )
 
     def csrf(self, secret: str) -> str:
         """Return the CSRF token that belongs to a cookie's secret; empty: nobody is signed in."""

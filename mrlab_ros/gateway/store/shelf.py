@@ -14,10 +14,11 @@ from fastapi.requests import HTTPConnection
 
 from mrlab_ros.adapters import private_folder
 from mrlab_ros.adapters.store.port import ObjectStore
-from mrlab_ros.adapters.trajectories.catalogue import Catalogue
+from mrlab_ros.adapters.trajectories.catalogue import Catalogue, NoTrajectory
 from mrlab_ros.adapters.trajectories.files import TrajectoryFiles
 from mrlab_ros.app.show.document import findings
 from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.access import Policy, Verb
 from mrlab_ros.core.trajectory.catalogue import Record, Version
 from mrlab_ros.core.trajectory.document import warnings_of
@@ -55,7 +56,7 @@ class Shelf:
 
     def user(self, person: Person) -> str:
         """Return whose things a person makes; empty: the lab's, where nobody signs in."""
-        return "" if person.name == LOCAL and not self._signs_in else person.name
+        return "" if person.name == LOCAL and not self._signs_in else person.id
 
     def find(self, person: Person, text: str, *, deleted: bool = False) -> tuple[Record, Version]:
         """Return what an id names; raise NoTrajectory where the person may not see it."""
@@ -63,6 +64,19 @@ class Shelf:
         return self.catalogue.find(
             text, lambda record: self.may_see(person, record), deleted=deleted
         )
+
+    def why_not_load(self, person: Person, text: str) -> Diagnostic | None:
+        """Return why a person cannot load what an id names; None: it is there and may be seen.
+
+        One that exists and may not be seen answers as one that does not exist.
+        """
+        if self._sees_all(person):
+            return None
+        try:
+            self.find(person, text)
+        except (NoTrajectory, BadInput) as error:
+            return error.diagnostic
+        return None
 
     def may_see(self, person: Person, record: Record) -> bool:
         return record.visible_to(self.user(person)) or self._sees_all(person)

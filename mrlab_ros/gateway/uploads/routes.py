@@ -117,7 +117,7 @@ class Desk:
 
     def count(self, person: Person, limit: Limit) -> None:
         """Raise TooMany where a person asks too often."""
-        self._limits[limit.what].check(person.name, self._steady())
+        self._limits[limit.what].check(person.id, self._steady())
 
 
 def desk_of(request: Request) -> Desk:

@@ -116,5 +116,5 @@ def test_what_is_no_address_is_refused(text: str) -> None:
 def test_with_insecure_whoever_comes_may_do_everything(tmp_path: Path) -> None:
     with Gateway(tmp_path, host="0.0.0.0", insecure=True) as lab:
         stranger = lab.browser()
-        assert stranger.user == {"name": "local", "role": "instructor"}
+        assert stranger.user == {"id": "local", "name": "local", "role": "instructor"}
         assert stranger.get("/", headers={"host": "evil.example"}).status_code == 403

@@ -17,7 +17,7 @@ export interface Rights {
 
 export interface Session {
   readonly lab: { readonly id: string; readonly name: string; readonly version: string }
-  readonly user: { readonly name: string; readonly role: Role } | null
+  readonly user: { readonly id: string; readonly name: string; readonly role: Role } | null
   readonly may: Rights
   /** To be sent with every request that changes something. */
   readonly csrf: string

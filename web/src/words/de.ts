@@ -2798,6 +2798,22 @@ export const diagnostics: Templates = {
     'Mit {other} trägt der Roboter {value:mass}; neben seinem Endeffektor darf er {limit:mass} tragen.',
     'Nimm einen leichteren Gegenstand, oder einen Roboter mit mehr Traglast.',
   ],
+  last_instructor: [
+    '{name} ist die einzige Lehrperson dieses Labors.',
+    'Mach zuerst jemand anderen zur Lehrperson.',
+  ],
+  device_lets_in: [
+    'Ein gekoppeltes Gerät kann kein anderes Gerät einlassen.',
+    'Bestätige den Code in einem Browser, in dem du dich mit deinem Passwort angemeldet hast.',
+  ],
+  users_other_version: [
+    '{path} wurde von einer anderen Version dieses Programms geschrieben.',
+    'Lege die Datei beiseite, und füge die Personen neu hinzu.',
+  ],
+  texts_wait: [
+    '{size:bytes} Text warten auf diese Seite; sie liest sie nicht.',
+    'Verbinde dich neu.',
+  ],
   person_exists: [
     "Jemand heißt schon '{name}'.",
     'Wähle einen anderen Namen, oder entferne erst diese Person.',

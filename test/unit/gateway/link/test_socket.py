@@ -8,7 +8,9 @@ from typing import Any
 
 import pytest
 from gateway_side import Gateway
+from kept import Kept
 from link_side import Closed, LinkSide, error_of
+from small_lab import make
 
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.gateway.lab.connection import NoAnswer, Phase, Refused
@@ -257,6 +259,88 @@ async def test_what_waited_while_the_gateway_was_frozen_is_refused_but_a_pause(
 
 
 @scene
+async def test_a_pause_passes_where_all_other_calls_are_one_too_many(stage: Stage) -> None:
+    for name in ("play", "pause"):
+        stage.lab.serve(f"ur5e_1/{name}", TRIGGER, lambda request: {"success": True})
+    stage.lab.hold("ur5e_1/play")
+    limits = LinkLimits(calls_waiting=1, call_rate=0.1, call_burst=1.0)
+    stage.gateway.app.state.link.limits = limits
+    side = stage.side()
+    side.hello()
+    side.call("ur5e_1/play", 1)
+    side.call("ur5e_1/play", 2)
+    side.call("ur5e_1/pause", 3)
+    await side.until(lambda: len(side.records) == 2)
+    by_request = {about: kind for kind, about, _ in side.records}
+    assert by_request == {2: RecordKind.ERROR, 3: RecordKind.RESPONSE}
+
+
+@scene
+async def test_a_pattern_is_no_service(stage: Stage) -> None:
+    stage.lab.serve("ur5e_1/play", TRIGGER, lambda request: {"success": True})
+    side = stage.side()
+    side.hello()
+    keys = ["**?/play", "*/play", "ur5e_1/play?x=1", "**/play", "ur5e_$*/play", "ur5e_1/play#"]
+    for request, key in enumerate(keys, 1):
+        side.call(key, request)
+    await side.until(lambda: len(side.records) == len(keys))
+    codes = {error_of(each)["diagnostic"]["code"] for each in side.records}
+    assert codes == {"may_not_call"}
+    assert not stage.lab.calls
+
+
+@scene
+async def test_all_pages_of_a_person_share_what_may_wait(stage: Stage) -> None:
+    size = 4 * 1024
+    stage.gateway.app.state.link.sessions._limits = LinkLimits(person_queue=3 * size)
+    stage.lab.offer("tf_static", "tf2_msgs/msg/TFMessage", latched=True)
+    cookie = stage.cookie("anna")
+    pages, other = [stage.side(cookie) for _ in range(5)], stage.side(stage.cookie("ben"))
+    for side in (*pages, other):
+        side.hello(_1="tf_static")
+        await side.welcome()
+    stage.lab.publish("tf_static", {"transforms": [{"child_frame_id": "x" * size}]})
+    await other.until(lambda: other.records)
+    ends = await asyncio.gather(
+        *(side.until(lambda side=side: side.records) for side in pages), return_exceptions=True
+    )
+    closed = [each.args[0] for each in ends if isinstance(each, Closed)]
+    assert 0 < len(closed) < len(pages)
+    assert set(closed) == {socket.BEHIND}
+
+
+@scene
+async def test_a_page_that_asks_and_does_not_read_is_closed(stage: Stage) -> None:
+    side = stage.side()
+    side.hello()
+    await side.welcome()
+    side.frozen = True
+    for number in range(3000):
+        side.text(op="ping", asked=number)
+    await became(lambda: not side._in.qsize() or side._task.done())
+    side.thaw.set()
+    with pytest.raises(Closed, match=str(socket.BEHIND)):
+        await side.until(lambda: False)
+
+
+@scene
+async def test_a_person_who_sends_too_much_is_slowed_down(stage: Stage) -> None:
+    limits = LinkLimits(person_pages=1, frame_rate=1000, frame_burst=10)
+    stage.gateway.app.state.link.sessions._limits = limits
+    cookie = stage.cookie("anna")
+    pages = [stage.side(cookie) for _ in range(3)]
+    began = time.monotonic()
+    for side in pages:
+        side.hello()
+        for number in range(40):
+            side.text(op="ping", asked=number)
+    for side in pages:
+        await side.until(lambda side=side: len(side.of("pong")) == 40)
+    # 120 frames of which 10 came at once: the rest comes at the rate of one page.
+    assert time.monotonic() - began > 0.08
+
+
+@scene
 async def test_an_answer_waits_for_the_next_socket(stage: Stage) -> None:
     stage.lab.serve("ur5e_1/play", TRIGGER, lambda request: {"success": True})
     release = stage.lab.hold("ur5e_1/play")
@@ -424,6 +508,29 @@ async def test_trajectories_of_others_are_not_seen(stage: Stage) -> None:
         "anna": ["quintic", "anna/own", "ben/class"],
         "eva": ["quintic", "anna/own", "ben/own", "ben/class"],
     }
+
+
+@scene
+async def test_an_operator_loads_what_the_operator_sees(stage: Stage) -> None:
+    kept = Kept.opened(stage.gateway.settings.state_dir)
+    for owner in ("anna", "olga"):
+        kept.save(make("ur5e", f"{owner}/secret"))
+    load = "mrlab_msgs/srv/LoadTrajectory"
+    stage.lab.serve("ur5e_1/load", load, lambda request: {"success": True, "message": request.id})
+    side = stage.side(stage.cookie("olga", Role.OPERATOR))
+    side.hello()
+    definitions = stage.lab.definitions
+    wanted = ["anna/secret", "anna/nothing", "olga/secret", ""]
+    for request, name in enumerate(wanted, 1):
+        payload = definitions.encode(f"{load}_Request", {"id": name})
+        side.call("ur5e_1/load", request, payload)
+    await side.until(lambda: len(side.records) == len(wanted))
+    answers = {
+        request: definitions.decode(f"{load}_Response", data) for _, request, data in side.records
+    }
+    assert [answers[n].code for n in (1, 2)] == ["no_trajectory_of_name"] * 2
+    assert [answers[n].message for n in (3, 4)] == ["olga/secret", ""]
+    assert "anna" not in answers[1].message.replace("anna/secret", "")
 
 
 @scene

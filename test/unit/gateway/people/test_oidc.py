@@ -114,7 +114,7 @@ def test_a_new_person_is_a_student_and_comes_back_as_the_same(lab, provider) -> 
         browser = lab.browser()
         back = browser.get(begin(browser, provider), follow_redirects=False)
         assert (back.status_code, back.headers["location"]) == (303, "/"), back.text
-        assert browser.user == {"name": "anna", "role": "student"}
+        assert browser.user == {"id": "anna", "name": "anna", "role": "student"}
         provider.claims = {"preferred_username": "renamed"}
         lab.people.accounts.set_role("anna", Role.STUDENT)
     assert [account.signs_in for account in lab.people.accounts.all()] == ["oidc"]
@@ -124,7 +124,7 @@ def test_who_has_the_name_already_keeps_it(lab, provider) -> None:
     lab.browser("anna", Role.INSTRUCTOR)
     browser = lab.browser()
     browser.get(begin(browser, provider))
-    assert browser.user == {"name": "anna-2", "role": "student"}
+    assert browser.user == {"id": "anna-2", "name": "anna-2", "role": "student"}
 
 
 @pytest.mark.parametrize(

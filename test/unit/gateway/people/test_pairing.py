@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from gateway_side import Gateway, code_of
+from gateway_side import Browser, Gateway, code_of
 from refusals import refused
 
 from mrlab_ros.core.base.errors import BadInput
@@ -94,10 +94,10 @@ def test_a_headset_is_paired_by_a_phone(class_lab: Gateway) -> None:
     body = {"code": shown_there["code"], "role": "student"}
     approved = phone.send("POST", "/api/pairings/approve", json=body)
     assert approved.json() == {
-        "state": "approved", "user": {"name": "Quest 3", "role": "student"},
+        "state": "approved", "user": {"id": "anna", "name": "Quest 3", "role": "student"},
     }  # fmt: skip
     assert headset.get(asked).json()["state"] == "approved"
-    assert headset.user == {"name": "anna", "role": "student"}
+    assert headset.user == {"id": "anna", "name": "anna", "role": "student"}
     devices = phone.get("/api/devices").json()["devices"]
     (device,) = [each for each in devices if each["name"] == "Quest 3"]
     phone.send("DELETE", f"/api/devices/{device['id']}")
@@ -105,16 +105,42 @@ def test_a_headset_is_paired_by_a_phone(class_lab: Gateway) -> None:
     assert headset.get(asked).json()["state"] == "expired"
 
 
+def paired(class_lab: Gateway, by: Browser) -> Browser:
+    device = class_lab.browser()
+    begun = device.send("POST", "/api/pairings").json()
+    body = {"code": begun["code"], "role": "student"}
+    assert by.send("POST", "/api/pairings/approve", json=body).status_code == 200
+    device.get(f"/api/pairings/{begun['secret']}")
+    assert device.user is not None
+    return device
+
+
+def test_a_device_lets_no_device_in_and_ends_with_who_let_it_in(class_lab: Gateway) -> None:
+    phone = class_lab.browser("anna")
+    headset, waiting = paired(class_lab, by=phone), class_lab.browser()
+    code = waiting.send("POST", "/api/pairings").json()["code"]
+    body = {"code": code, "role": "student"}
+    answer = headset.send("POST", "/api/pairings/approve", json=body)
+    assert code_of(answer) == (403, "device_lets_in")
+    browser = class_lab.browser()
+    browser.sign_in("anna")
+    (first,) = [each["id"] for each in phone.get("/api/devices").json()["devices"] if each["this"]]
+    assert browser.send("DELETE", f"/api/devices/{first}").status_code == 204
+    assert (phone.user, headset.user) == (None, None)
+    assert browser.user is not None
+
+
 def test_a_device_loses_what_its_person_loses(class_lab: Gateway) -> None:
+    class_lab.browser("teacher", Role.INSTRUCTOR)
     headset, phone = class_lab.browser(), class_lab.browser("anna", Role.OPERATOR)
     begun = headset.send("POST", "/api/pairings").json()
     phone.send("POST", "/api/pairings/approve", json={"code": begun["code"], "role": "operator"})
     headset.get(f"/api/pairings/{begun['secret']}")
-    assert headset.user == {"name": "anna", "role": "operator"}
+    assert headset.user == {"id": "anna", "name": "anna", "role": "operator"}
     class_lab.people.accounts.set_role("anna", Role.STUDENT)
-    assert headset.user == {"name": "anna", "role": "student"}
+    assert headset.user == {"id": "anna", "name": "anna", "role": "student"}
     class_lab.people.accounts.set_role("anna", Role.INSTRUCTOR)
-    assert headset.user == {"name": "anna", "role": "operator"}
+    assert headset.user == {"id": "anna", "name": "anna", "role": "operator"}
     class_lab.people.accounts.remove("anna")
     assert headset.user is None
 

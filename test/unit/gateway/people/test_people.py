@@ -5,9 +5,11 @@ from __future__ import annotations
 import asyncio
 
 import pytest
+from fastapi.requests import HTTPConnection
 from gateway_side import Gateway, code_of
 
 from mrlab_ros.core.bridge.rules import Role
+from mrlab_ros.gateway.people.people import address_of
 from mrlab_ros.gateway.people.person import Person
 
 
@@ -36,7 +38,7 @@ def test_an_instructor_lists_changes_and_removes(class_lab: Gateway) -> None:
     }
     changed = teacher.send("PATCH", "/api/people/anna", json={"role": "operator"})
     assert changed.json()["role"] == "operator"
-    assert anna.user == {"name": "anna", "role": "operator"}
+    assert anna.user == {"id": "anna", "name": "anna", "role": "operator"}
     assert teacher.send("DELETE", "/api/people/anna").status_code == 204
     assert anna.user is None
     assert code_of(teacher.send("DELETE", "/api/people/anna")) == (404, "no_person")
@@ -105,3 +107,38 @@ def test_the_end_of_a_sign_in_and_a_new_role_are_events(class_lab: Gateway) -> N
             return [one.is_set(), two.is_set(), three.is_set()]
 
     assert asyncio.run(check()) == [True, True, False]
+
+
+def test_who_gets_a_removed_name_is_another_person(class_lab: Gateway) -> None:
+    accounts = class_lab.people.accounts
+    ids = []
+    for _ in range(3):
+        anna = class_lab.browser("anna")
+        ids.append(anna.user["id"])
+        accounts.remove("anna")
+    accounts.add("anna-2", Role.STUDENT)
+    assert [*ids, accounts.get("anna-2").id] == ["anna", "anna-2", "anna-3", "anna-2-2"]
+
+
+def test_the_last_instructor_stays_one(class_lab: Gateway) -> None:
+    teacher = class_lab.browser("teacher", Role.INSTRUCTOR)
+    demotion = {"json": {"role": "student"}}
+    for ending in ({"method": "PATCH", **demotion}, {"method": "DELETE"}):
+        answer = teacher.send(path="/api/people/Teacher", **ending)
+        assert code_of(answer) == (409, "last_instructor")
+    class_lab.browser("other", Role.INSTRUCTOR)
+    assert teacher.send("PATCH", "/api/people/teacher", **demotion).status_code == 200
+
+
+@pytest.mark.parametrize(
+    ("host", "counted"),
+    [
+        ("192.0.2.7", "192.0.2.7"),
+        ("::ffff:192.0.2.7", "192.0.2.7"),
+        ("2001:db8:1:2:3:4:5:6", "2001:db8:1:2::/64"),
+        ("2001:db8:1:2::1", "2001:db8:1:2::/64"),
+        ("testclient", "testclient"),
+    ],
+)
+def test_limits_count_an_ipv6_network_as_one_client(host: str, counted: str) -> None:
+    assert address_of(HTTPConnection({"type": "http", "client": (host, 1)})) == counted

@@ -26,7 +26,7 @@ def test_nobody_is_signed_in_at_first_and_no_names_are_told(class_lab: Gateway) 
 
 def test_a_person_signs_in_and_out(class_lab: Gateway) -> None:
     anna = class_lab.browser("anna", Role.OPERATOR)
-    assert anna.user == {"name": "anna", "role": "operator"}
+    assert anna.user == {"id": "anna", "name": "anna", "role": "operator"}
     assert anna.send("DELETE", "/api/session").status_code == 204
     assert anna.user is None
 
@@ -76,8 +76,8 @@ def test_an_invitation_is_good_once(class_lab: Gateway) -> None:
     assert anna.get(path).json() == {"name": "anna", "role": "student"}
     assert code_of(anna.send("POST", path, json={"password": "short"})) == (400, "password_length")
     accepted = anna.send("POST", path, json={"password": PASSWORD})
-    assert accepted.json()["user"] == {"name": "anna", "role": "student"}
-    assert anna.user == {"name": "anna", "role": "student"}
+    assert accepted.json()["user"] == {"id": "anna", "name": "anna", "role": "student"}
+    assert anna.user == {"id": "anna", "name": "anna", "role": "student"}
     again = class_lab.browser().send("POST", path, json={"password": PASSWORD})
     assert code_of(again) == (404, "link_used")
     assert class_lab.browser().sign_in("anna").status_code == 200
@@ -112,7 +112,7 @@ def test_the_local_user_enters_by_the_link_once(local_lab: Gateway) -> None:
     response = mine.get(f"/lab?token={token}", follow_redirects=False)
     assert response.status_code == 303
     assert response.headers["location"] == "/lab"
-    assert mine.user == {"name": "local", "role": "instructor"}
+    assert mine.user == {"id": "local", "name": "local", "role": "instructor"}
     theirs.get(f"/?token={token}")
     assert theirs.user is None
     assert code_of(theirs.get("/api/devices")) == (401, "not_signed_in")

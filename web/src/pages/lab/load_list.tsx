@@ -42,7 +42,7 @@ export function LoadList({ robot, catalogue, loaded, onLoaded }: LoadListProps) 
   const [error, setError] = useState('')
   const w = words.value.lab
   const all = catalogue.all.value
-  const user = session.value?.user?.name ?? ''
+  const user = session.value?.user?.id ?? ''
 
   const load = async (id: string) => {
     setBusy(id)

@@ -81,7 +81,7 @@ export function TrajectoryDetail({ catalogue, id }: DetailProps) {
         </Notice>
       </section>
     )
-  const user = session.value?.user?.name ?? ''
+  const user = session.value?.user?.id ?? ''
   return (
     <article class="verdict">
       <header class="verdict-head">

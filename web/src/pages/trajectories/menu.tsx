@@ -17,7 +17,7 @@ const FORMATS = [
 export function mayChange(info: TrajectoryInfo): boolean {
   const user = session.value?.user
   if (!user || user.role === 'display') return false
-  return info.owner === user.name || user.role === 'instructor'
+  return info.owner === user.id || user.role === 'instructor'
 }
 
 export function Downloads({ id }: { id: string }) {

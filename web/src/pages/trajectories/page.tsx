@@ -9,7 +9,7 @@ import './trajectories.css'
 /** One's own trajectories and the shared ones: the list, or one of them. */
 export function TrajectoriesPage() {
   const api = useApi()
-  const user = session.value?.user?.name ?? ''
+  const user = session.value?.user?.id ?? ''
   const catalogue = useMemo(() => new Catalogue(api, user), [api, user])
   useEffect(() => catalogue.follow(), [catalogue])
   const id = idOfPath(path.value)
