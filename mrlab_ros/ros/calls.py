@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from mrlab_ros.core.base.errors import Unreached
@@ -38,18 +38,23 @@ def call_all(calls: Sequence[tuple[Client, Any]], timeout: float = 5.0) -> list[
     return answers
 
 
-def call_each(calls: Sequence[tuple[Client, Any]], timeout: float = 5.0) -> list[Any]:
+def call_each(
+    calls: Sequence[tuple[Client, Any]],
+    timeout: float = 5.0,
+    gone: Callable[[Client], bool] = lambda client: False,
+) -> list[Any]:
     """Send every request at once; return the answers in order, a NoAnswer where there is none.
 
     All of it takes `timeout` s at most. A service that is not there yet gets its request when it
     comes, one that leaves the graph before it answers is noticed at once; neither delays others.
+    gone: whether the process behind a client is known not to answer any more.
     """
     deadline = time.monotonic() + timeout
     changed = threading.Event()
     pending = [_Call(client, request, changed) for client, request in calls]
     while True:
         changed.clear()
-        waiting = [one for one in pending if one.waits()]
+        waiting = [one for one in pending if one.waits(gone)]
         left = deadline - time.monotonic()
         if not waiting or left <= 0:
             return [one.answer(timeout) for one in pending]
@@ -64,7 +69,7 @@ class _Call:
         self._future: Any = None
         self._gone = False
 
-    def waits(self) -> bool:
+    def waits(self, gone: Callable[[Client], bool]) -> bool:
         """Send the request where its service is there; return whether an answer may come."""
         ready = self._client.service_is_ready()
         if self._future is None:
@@ -72,6 +77,8 @@ class _Call:
                 self._future = self._client.call_async(self._request)
                 self._future.add_done_callback(lambda _: self._changed.set())
         elif not ready and not self._future.done():
+            self._gone = True
+        if gone(self._client):
             self._gone = True
         return not self._gone and (self._future is None or not self._future.done())
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Protocol
 
 from mrlab_msgs import msg, srv
@@ -23,6 +23,7 @@ from mrlab_ros.core.playback.diagnostics import (
     OF_ROBOT,
 )
 from mrlab_ros.core.playback.states import State
+from mrlab_ros.core.runtime.processes import ProcessState
 from mrlab_ros.core.systems.diagnostics import (
     NO_STATE_OF_ROBOT,
     NO_TRAJECTORY_LOADED,
@@ -172,7 +173,8 @@ class RosFleet:
             for host, order in zip(hosts, orders, strict=True)
             if host
         ]
-        answers = iter(call_each(calls, ORDER_TIMEOUT_S if timeout is None else timeout))
+        limit = ORDER_TIMEOUT_S if timeout is None else timeout
+        answers = iter(call_each(calls, limit, self._hosts.gone_from_now_on()))
         return [self._reply(next(answers)) if host else None for host in hosts]
 
     def _request(self, orders: Sequence[Order]) -> srv.CommandMembers.Request:
@@ -192,6 +194,7 @@ class RosFleet:
         answers = call_each(
             [(self._hosts.client(host), self._request(part)) for host, part in by_host.items()],
             ORDER_TIMEOUT_S,
+            self._hosts.gone_from_now_on(),
         )
         replies = {}
         for part, answer in zip(by_host.values(), answers, strict=True):
@@ -221,6 +224,19 @@ class Hosts:
     def __init__(self, node: Node) -> None:
         self._node = node
         self._clients: dict[str, Client] = {}
+        # By service when the process behind it ended or froze last, ns of the monotonic clock.
+        self._down_ns: dict[str, int] = {}
+
+    def go_down(self, process: ProcessState) -> None:
+        """Note that the hosts of a process ended or froze; from any thread."""
+        for host in list(self._clients):
+            if process.holds(host):
+                self._down_ns[self._clients[host].srv_name] = process.down_steady_ns
+
+    def gone_from_now_on(self) -> Callable[[Client], bool]:
+        """Return what finds the clients whose host ends or freezes after this call."""
+        began_ns = time.monotonic_ns()
+        return lambda client: self._down_ns.get(client.srv_name, 0) > began_ns
 
     def client(self, host: str) -> Client:
         if host not in self._clients:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import secrets
 import threading
+import time
 from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -19,6 +20,7 @@ from mrlab_ros.core.base.errors import BadInput, LabError
 from mrlab_ros.core.playback import diagnostics as playback
 from mrlab_ros.core.playback.states import State
 from mrlab_ros.core.runtime.identity import Identity
+from mrlab_ros.core.runtime.processes import Deaths, ProcessState
 from mrlab_ros.core.systems import diagnostics as say
 from mrlab_ros.core.systems import registry
 from mrlab_ros.core.systems.members import Command, Order
@@ -27,6 +29,7 @@ from mrlab_ros.core.systems.robot_system import Policy, RobotSystem
 from mrlab_ros.core.systems.states import SystemState
 from mrlab_ros.core.systems.timeline import Mode
 from mrlab_ros.messages import qos
+from mrlab_ros.messages.status import processes_from_message
 from mrlab_ros.messages.systems import (
     member_from_message,
     system_to_message,
@@ -87,6 +90,11 @@ class CoordinatorNode(
         self._turns = Turns(self, self.worker)
         self._topic = self.create_publisher(msg.RobotSystems, "/systems", qos.LATCHED)
         self.create_subscription(msg.Robots, "/robots", self._on_robots, qos.LATCHED)
+        self._deaths = Deaths(time.monotonic_ns())
+        # Not in this node's thread either: what waits for a process that died must end.
+        self.caller.node.create_subscription(
+            msg.LabProcesses, "/processes", self._on_processes, qos.LATCHED
+        )
         self._turns.offer(srv.CreateSystem, "~/create_system", self._create)
         self._turns.offer(srv.Remove, "~/dissolve_system", self._dissolve)
         self._journal = Journal.of(self.parameters.state_dir, self.get_name(), log.error)
@@ -234,6 +242,26 @@ class CoordinatorNode(
     def on_grasp(self, robot: str, held: str | None) -> None:
         """Pass on what `robot` holds to every system: a wait may name another system's robot."""
         self.worker.later(lambda: self._grasped(robot, held))
+
+    def _on_processes(self, message: msg.LabProcesses) -> None:
+        """Take which processes ended or froze; calls that wait for one end at once."""
+        if not self._identity.accepts(message.lab):
+            return
+        for process in self._deaths.new(processes_from_message(message)):
+            self._hosts.go_down(process)
+            self.worker.later(partial(self._go_down, process))
+
+    def _go_down(self, process: ProcessState) -> None:
+        robots = [r for r, client in self._members.items() if process.holds(client.known_host)]
+        how = "" if process.frozen else process.last_exit
+        for system in self._systems:
+            members = [robot for robot in robots if robot in system.members]
+            if members:
+                now_ns, steady_ns = self._lab_clock.reading()
+                at_ns = now_ns - (steady_ns - process.down_steady_ns)
+                self._logged(
+                    partial(system.members_down, now_ns, at_ns, members, process.name, how)
+                )
 
     def _member_changed(self, client: MemberClient, message: msg.PlaybackState) -> None:
         system = self._systems.of(client.robot)

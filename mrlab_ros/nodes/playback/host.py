@@ -20,10 +20,12 @@ from mrlab_ros.core.playback import saved_state as entries
 from mrlab_ros.core.playback.diagnostics import NOT_PLAYED, OF_ROBOT
 from mrlab_ros.core.playback.saved_state import Kept
 from mrlab_ros.core.runtime.identity import Identity
+from mrlab_ros.core.runtime.processes import Deaths
 from mrlab_ros.core.systems.claims import Leases
 from mrlab_ros.core.systems.members import HALTING
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.messages import qos
+from mrlab_ros.messages.status import processes_from_message
 from mrlab_ros.messages.systems import order_from_message, reply_to_message
 from mrlab_ros.messages.time import time_to_message
 from mrlab_ros.nodes import parameters
@@ -132,6 +134,8 @@ class PlaybackHostNode(
         every(self, JOURNAL_PERIOD_S, self._write_journal)
         every(self, LEASE_CHECK_S, self._check_leases)
         self.create_subscription(msg.RobotSystems, "/systems", self._on_systems, qos.LATCHED)
+        self._deaths = Deaths(time.monotonic_ns())
+        self.create_subscription(msg.LabProcesses, "/processes", self._on_processes, qos.LATCHED)
         self.scheduler.start()
         self.get_logger().info(f"the deadline thread runs with {self.scheduler.precedence}")
         self._safety = SpunNode(orders, lambda: take_precedence(REALTIME - 1))
@@ -216,6 +220,19 @@ class PlaybackHostNode(
         if not self._identity.accepts(message.lab):
             return
         self._leases.renew([system.name for system in message.systems], time.monotonic())
+
+    def _on_processes(self, message: msg.LabProcesses) -> None:
+        """Let the members of systems stand at once where their coordinator died."""
+        if not self._identity.accepts(message.lab):
+            return
+        for process in self._deaths.new(processes_from_message(message)):
+            if process.frozen or not process.holds("/coordinator"):
+                continue
+            with self.scheduler.command() as now_ns:
+                for node in self.nodes.values():
+                    playback = node.playback
+                    if playback.system and playback.moving:
+                        playback.pause(now_ns, by=playback.system)
 
     def _check_leases(self) -> None:
         """Let robots go whose system nobody keeps any more."""
