@@ -7,7 +7,7 @@ until its absence is noticed.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from enum import Enum
 
@@ -72,4 +72,17 @@ class Deaths:
             if state.down_steady_ns > self._known.get(state.name, self._since_ns):
                 self._known[state.name] = state.down_steady_ns
                 found.append(state)
+        return found
+
+
+class Thaws:
+    """Finds in reports on all processes those that run again after a freeze."""
+
+    def __init__(self) -> None:
+        self._frozen: set[str] = set()
+
+    def new(self, states: Sequence[ProcessState]) -> list[ProcessState]:
+        """Return the processes that were frozen in the last report and run in this one."""
+        found = [s for s in states if s.name in self._frozen and s.phase == Phase.RUNNING.value]
+        self._frozen = {state.name for state in states if state.frozen}
         return found

@@ -26,43 +26,42 @@ class Line:
     def __init__(self, timeline: Timeline) -> None:
         self._timeline = timeline
         self._members: list[Member] = []
+        # After a restart of the coordinator: who of them was playing is known by where they are.
+        self._restored = False
 
     def leave(self) -> None:
         """Forget the members: the timeline goes on, or was put somewhere."""
-        self._members = []
+        self._members, self._restored = [], False
 
     def stand(self, position: float, rate: float, playing: Iterable[Member]) -> None:
         """Note that `playing` stood when the timeline was at `position` (s) and went at `rate`.
 
         Each is at its last joint state before that, until it says where it is.
         """
-        self._members = list(playing)
+        self._members, self._restored = list(playing), False
         for member in self._members:
             reached = _last_joint_state(member, position, rate)
             furthest = min if member.backwards else max
             member.position = furthest(member.position, reached)
 
     def come_back(self, position: float) -> None:
-        """Note that the timeline stood at `position` (s) when its coordinator ended.
+        """Note that the timeline was at `position` (s) when its coordinator ended, or later.
 
-        Members inside their shares were playing, unless they waited.
+        Members that are found inside their shares were playing, unless they wait.
         """
         self._timeline.place(position)
-        self._members = [
-            m
-            for m in self._timeline
-            if not m.done and m.waiting_for is None and 0.0 < m.position < m.duration
-        ]
+        self._members, self._restored = [m for m in self._timeline if not m.done], True
 
     def position(self, otherwise: float) -> float:
         """Return where the timeline is, s: at the member furthest behind; `otherwise`: at none.
 
         Members that have ended further ahead play on from there, too.
         """
-        if not self._members:
+        played = [m for m in self._members if not self._restored or _is_inside(m)]
+        if not played:
             return otherwise
         furthest_behind = max if self._timeline.backwards else min
-        position = furthest_behind(m.start + m.position for m in self._members)
+        position = furthest_behind(m.start + m.position for m in played)
         for member in self._timeline:
             if member.done and abs(member.position - self._own(member, position)) > TOGETHER_S:
                 member.done = False
@@ -79,6 +78,10 @@ class Line:
     def _own(self, member: Member, position: float) -> float:
         own = min(max(position - member.start, 0.0), member.duration)
         return own if member.until is None else min(own, member.until)
+
+
+def _is_inside(member: Member) -> bool:
+    return 0.0 < member.position < member.duration and member.waiting_for is None
 
 
 def _last_joint_state(member: Member, position: float, rate: float) -> float:

@@ -91,6 +91,10 @@ class Fleet(Protocol):
         """Send all orders; return one reply for each, in their order."""
         ...
 
+    def leave(self, orders: Sequence[Order]) -> None:
+        """Send all orders and wait for no reply: a host that does not run finds them later."""
+        ...
+
     def reach(self, orders: Sequence[Order], timeout: float | None = None) -> list[Reply | None]:
         """Send each order by itself; return the replies, None where a robot did not answer.
 

@@ -74,7 +74,7 @@ class Orders:
 
     def leave(self, members: Sequence[Member]) -> None:
         """Leave each frozen member the order to pause; it is carried out when it runs again."""
-        self._fleet.reach([Order(m.robot, Command.PAUSE) for m in members], 0.0)
+        self._fleet.leave([Order(m.robot, Command.PAUSE) for m in members])
 
     def retry(self, now_ns: int) -> bool:
         """Ask the stranded again where that is due; return whether none is left."""

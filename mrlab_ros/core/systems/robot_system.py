@@ -305,21 +305,25 @@ class RobotSystem:
                 self._orders.forget(lost)
             self._down = [m.robot for m in lost]
             complete = self.state is SystemState.COMPLETE
-            if self._machine.ignores(SystemEvent.LOSE):
-                for member in lost:
-                    member.ordered = False
-                self._poll(now_ns)
-                return
-            self._machine.fire(SystemEvent.LOSE)
-            if complete:
-                self._rewind(now_ns)
-            else:
-                self._stand(now_ns, at_ns)
+            if not self._machine.ignores(SystemEvent.LOSE):
+                self._machine.fire(SystemEvent.LOSE)
+                if complete:
+                    self._rewind(now_ns)
+                else:
+                    self._stand(now_ns, at_ns)
             if not how:
                 self._orders.leave(lost)
             said = say.PROCESS_DIED if how else say.PROCESS_FROZE
             at = self.clock.position
             self.message = said(process=process, how=how or None, robots=self._down, position=at)
+            self._poll(now_ns)
+
+    def members_run(self, now_ns: int, robots: Collection[str]) -> None:
+        """Claim members again whose process was frozen: they may have nothing to report."""
+        with self._announcing():
+            for member in self._timeline:
+                if member.robot in robots and member.playback_state is State.IDLE:
+                    self._take_back(now_ns, member)
 
     def grasped(self, now_ns: int, robot: str, held: str | None) -> None:
         """Take what a robot holds now: an object's name, or None."""

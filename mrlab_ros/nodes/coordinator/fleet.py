@@ -104,6 +104,11 @@ class MemberClient:
         """The node that played the robot last; empty: none has published its state."""
         return "" if self.state is None else str(self.state.host)
 
+    def forget(self) -> None:
+        """Forget the state of a playback whose process ended: its next one publishes its own."""
+        with self._changed:
+            self.state = None
+
     def _on_state(self, message: msg.PlaybackState) -> None:
         if not self._reports.accepts(message.lab):
             return
@@ -164,6 +169,13 @@ class RosFleet:
 
     def drive(self, orders: Sequence[Order]) -> list[Reply]:
         return [reply_from_message(reply, stamp_ns) for reply, stamp_ns in self._send(orders)]
+
+    def leave(self, orders: Sequence[Order]) -> None:
+        by_host: dict[str, list[Order]] = {}
+        for order in orders:
+            by_host.setdefault(self._members[order.robot].known_host, []).append(order)
+        calls = [(self._hosts.client(host), self._request(part)) for host, part in by_host.items()]
+        call_each(calls, 0.0)
 
     def reach(self, orders: Sequence[Order], timeout: float | None = None) -> list[Reply | None]:
         """Send each order in a request of its own, all at once."""

@@ -20,7 +20,7 @@ from mrlab_ros.core.base.errors import BadInput, LabError
 from mrlab_ros.core.playback import diagnostics as playback
 from mrlab_ros.core.playback.states import State
 from mrlab_ros.core.runtime.identity import Identity
-from mrlab_ros.core.runtime.processes import Deaths, ProcessState
+from mrlab_ros.core.runtime.processes import Deaths, ProcessState, Thaws
 from mrlab_ros.core.systems import diagnostics as say
 from mrlab_ros.core.systems import registry
 from mrlab_ros.core.systems.members import Command, Order
@@ -90,7 +90,7 @@ class CoordinatorNode(
         self._turns = Turns(self, self.worker)
         self._topic = self.create_publisher(msg.RobotSystems, "/systems", qos.LATCHED)
         self.create_subscription(msg.Robots, "/robots", self._on_robots, qos.LATCHED)
-        self._deaths = Deaths(time.monotonic_ns())
+        self._deaths, self._thaws = Deaths(time.monotonic_ns()), Thaws()
         # Not in this node's thread either: what waits for a process that died must end.
         self.caller.node.create_subscription(
             msg.LabProcesses, "/processes", self._on_processes, qos.LATCHED
@@ -247,21 +247,36 @@ class CoordinatorNode(
         """Take which processes ended or froze; calls that wait for one end at once."""
         if not self._identity.accepts(message.lab):
             return
-        for process in self._deaths.new(processes_from_message(message)):
+        states = processes_from_message(message)
+        for process in self._deaths.new(states):
             self._hosts.go_down(process)
-            self.worker.later(partial(self._go_down, process))
+            clients = self._played_by(process)
+            if not process.frozen:
+                for client in clients:
+                    client.forget()
+            self.worker.later(partial(self._go_down, process, clients))
+        for process in self._thaws.new(states):
+            self.worker.later(partial(self._run_again, self._played_by(process)))
 
-    def _go_down(self, process: ProcessState) -> None:
-        robots = [r for r, client in self._members.items() if process.holds(client.known_host)]
+    def _played_by(self, process: ProcessState) -> list[MemberClient]:
+        clients = list(self._members.values())
+        return [client for client in clients if process.holds(client.known_host)]
+
+    def _go_down(self, process: ProcessState, clients: list[MemberClient]) -> None:
+        now_ns, steady_ns = self._lab_clock.reading()
+        at_ns = now_ns - (steady_ns - process.down_steady_ns)
         how = "" if process.frozen else process.last_exit
-        for system in self._systems:
-            members = [robot for robot in robots if robot in system.members]
-            if members:
-                now_ns, steady_ns = self._lab_clock.reading()
-                at_ns = now_ns - (steady_ns - process.down_steady_ns)
-                self._logged(
-                    partial(system.members_down, now_ns, at_ns, members, process.name, how)
-                )
+        for system, robots in self._members_of(clients):
+            self._logged(partial(system.members_down, now_ns, at_ns, robots, process.name, how))
+
+    def _run_again(self, clients: list[MemberClient]) -> None:
+        for system, robots in self._members_of(clients):
+            self._logged(partial(system.members_run, self._now_ns(), robots))
+
+    def _members_of(self, clients: list[MemberClient]) -> list[tuple[RobotSystem, list[str]]]:
+        """Return the systems with those of their members that are meant."""
+        found = [(s, [c.robot for c in clients if c.robot in s.members]) for s in self._systems]
+        return [(system, robots) for system, robots in found if robots]
 
     def _member_changed(self, client: MemberClient, message: msg.PlaybackState) -> None:
         system = self._systems.of(client.robot)

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from mrlab_ros.core.runtime.processes import Deaths, Phase, ProcessState
+from mrlab_ros.core.runtime.processes import Deaths, Phase, ProcessState, Thaws
 
 PLAYBACK = ProcessState("playback", Phase.RUNNING.value, 7, 0, 0.0, "", nodes=("playback_host",))
 DEAD = replace(PLAYBACK, phase=Phase.WAITING.value, pid=None, down_steady_ns=500)
@@ -43,3 +43,10 @@ def test_a_death_before_the_start_concerns_nobody():
 )
 def test_a_process_holds_its_nodes_and_the_names_below_them(node, held):
     assert PLAYBACK.holds(node) is held
+
+
+def test_the_end_of_a_freeze_is_found_once():
+    thaws = Thaws()
+    frozen = replace(PLAYBACK, phase=Phase.FROZEN.value)
+    found = [thaws.new([each]) for each in (PLAYBACK, frozen, PLAYBACK, PLAYBACK, frozen, DEAD)]
+    assert found == [[], [], [PLAYBACK], [], [], []]

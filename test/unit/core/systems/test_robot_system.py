@@ -53,6 +53,8 @@ class World:
         self.refusing: set[str] = set()
         # Robots whose process does not answer.
         self.frozen: set[str] = set()
+        # Orders that wait for them.
+        self.left: list[Order] = []
         self.catalogue: dict[str, Trajectory] = {}
         self.announced: list[tuple[SystemState, str]] = []
         self.system: RobotSystem
@@ -101,6 +103,9 @@ class World:
             except LabError:
                 replies.append(Reply(State.IDLE, 0.0, stamp_ns=self.now))
         return replies
+
+    def leave(self, orders: Sequence[Order]) -> None:
+        self.left += orders
 
     def _answer(self, robot: str) -> None:
         if robot in self.frozen:
@@ -1141,12 +1146,9 @@ def test_a_member_that_is_far_ahead_of_the_line_moves_to_it_before_the_system_pl
 
 def test_a_frozen_process_is_left_the_order_to_pause_and_its_members_are_lined_up():
     world = playing(make(TWO), 0.3)
-    left: list[Order] = []
-    reach = world.reach
-    world.reach = lambda orders, timeout=None: left.extend(orders) or reach(orders, timeout)
     go_down(world, "ab", frozen=True)
     assert world.system.message.code == "process_froze"
-    assert [(order.robot, order.command) for order in left] == [
+    assert [(order.robot, order.command) for order in world.left] == [
         ("a", Command.PAUSE), ("b", Command.PAUSE),
     ]  # fmt: skip
     place = world.system.clock.position
@@ -1198,3 +1200,16 @@ def test_a_death_in_every_state_leaves_the_system_standing_and_playable(state):
     world.play_to_the_end()
     assert world.frames("a")[-1] == 100
     assert world.frames("b")[-1] == 50
+
+
+def test_members_that_were_frozen_in_ready_are_claimed_when_their_process_runs_again():
+    world = make(TWO)
+    go_down(world, "ab", frozen=True)
+    assert (world.system.state, said(world)[0]) == (SystemState.READY, "process_froze")
+    assert {m.playback_state for m in world.system.members.values()} == {State.IDLE}
+    world.frozen = set()
+    world.system.members_run(world.now, ["a", "b"])
+    assert said(world) == ("members_back", {"robots": ["a", "b"], "position": 0.0})
+    assert {m.playback_state for m in world.system.members.values()} == {State.READY}
+    world.play_to_the_end()
+    assert world.frames("a") == list(range(101))
