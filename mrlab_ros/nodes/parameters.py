@@ -194,8 +194,15 @@ class FramesParameters:
 
 @dataclass(frozen=True)
 class RecorderParameters:
+    lab_id: str = field(
+        TEXT,
+        "Id of this lab, which mrlab up chooses: a recording ends with its lab, not with its "
+        "process.",
+        "",
+    )
     state_dir: str = _state_dir(
-        "Folder for the journal of the recording; empty: a recorder that is killed does not go on."
+        "Folder for the journal of the recording; empty: a recorder that is restarted does not "
+        "continue it."
     )
     bag_dir: str = field(
         TEXT,

@@ -44,6 +44,8 @@ from mrlab_ros.adapters.bags.writer import BagWriter
 from mrlab_ros.adapters.journal_file import Journal
 from mrlab_ros.adapters.share import directory
 from mrlab_ros.adapters.trajectories.formats import chunks, parse
+from mrlab_ros.app.diagnostics import RECORDED, RECORDING_WITH_GAP
+from mrlab_ros.app.recorder import recorder as use_case
 from mrlab_ros.core.base.diagnostics import BAD_POSITION
 from mrlab_ros.core.recording import recorder as entries
 from mrlab_ros.core.recording.diagnostics import (
@@ -63,14 +65,11 @@ from mrlab_ros.core.recording.diagnostics import (
 from mrlab_ros.core.recording.metadata import QosProfile, Topic
 from mrlab_ros.messages import qos, trajectories
 from mrlab_ros.messages.definitions import definition
-from mrlab_ros.nodes.recorder import node as recorder_node
 from mrlab_ros.nodes.recorder import recording, replaying
 from mrlab_ros.nodes.recorder.diagnostics import (
     OTHERS_PUBLISH,
-    RECORDED,
     RECORDER_FAULT,
     RECORDING_FAILED,
-    RECORDING_WITH_GAP,
 )
 from mrlab_ros.nodes.recorder.node import RecorderNode
 from mrlab_ros.ros.raw_streams import Received
@@ -318,14 +317,20 @@ def test_a_killed_recorder_loses_less_than_a_second(graph, counter, launch, stat
     assert Bag(folder).troubles == []
 
 
-def test_a_killed_recorder_goes_on_in_the_same_bag_and_states_the_gap(
-    graph, counter, tmp_path, states
+@pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGTERM])
+def test_a_recorder_that_ends_continues_in_the_same_bag_and_states_the_gap(
+    graph, counter, tmp_path, states, how
 ):
     folder = tmp_path / "bags"
     journal = tmp_path / "state"
 
     def launch() -> subprocess.Popen[bytes]:
-        parameters = {"bag_dir": folder, "state_dir": journal, "topics": "['/counted']"}
+        parameters = {
+            "bag_dir": folder,
+            "state_dir": journal,
+            "topics": "['/counted']",
+            "lab_id": "lab",
+        }
         given = [a for name, value in parameters.items() for a in ("-p", f"{name}:={value}")]
         return start_child(*HOST, "recorder", "--ros-args", *given)
 
@@ -333,7 +338,7 @@ def test_a_killed_recorder_goes_on_in_the_same_bag_and_states_the_gap(
     try:
         bag = start(graph, "class")
         wait_for(lambda: states and states.last().messages > 500, "messages in the bag")
-        process.send_signal(signal.SIGKILL)
+        process.send_signal(how)
         process.wait()
         states.clear()
         process = launch()
@@ -385,7 +390,7 @@ def test_every_value_of_a_latched_topic_is_recorded_where_the_clock_is_set(
     wait_for(lambda: states.last() and states.last().messages == 1, "the present value")
     # What follows was published before the topic was followed, by the clock.
     hour_ns = 3600 * 10**9
-    (followed,) = recorder._recording._followed.values()
+    (followed,) = recorder.recorder._recording._followed.values()
     followed.since_ns += hour_ns
     for number in range(3):
         said(f"new {number}")
@@ -457,7 +462,7 @@ def test_an_error_of_the_recorder_itself_ends_the_recording_and_is_named(
     def fail(*_: Any) -> None:
         raise ZeroDivisionError("injected")
 
-    owner = recorder._recording._poll if broken == "take" else BagWriter
+    owner = recorder.recorder._recording._poll if broken == "take" else BagWriter
     monkeypatch.setattr(owner, f"_{broken}" if broken == "take" else broken, fail)
     say("after")
     wait_for(lambda: states.last().state == State.STOPPED, "the end")
@@ -743,7 +748,7 @@ def test_a_recording_that_goes_on_counts_the_bag_and_a_failure_is_told(
         writer.write("/counted", START_NS + number, data, START_NS)
     writer.close()
     journal = Journal.of(str(tmp_path), "recorder", pytest.fail)
-    journal.save(entries.plain(tmp_path / "class", ["/counted"], 0.0))
+    journal.save(entries.plain(entries.Entry(tmp_path / "class", ("/counted",), 0.0)))
     journal.close()
     node = graph.add(
         RecorderNode, bag_dir=str(tmp_path), state_dir=str(tmp_path), topics=["/counted"]
@@ -755,7 +760,7 @@ def test_a_recording_that_goes_on_counts_the_bag_and_a_failure_is_told(
     folder.rename(tmp_path / "moved")
     wait_for(lambda: node.failed, "the failure")
     assert node.failed[0].code == BAG_MOVED.code
-    monkeypatch.setattr(recorder_node, "RESTART_SHOWN_S", 0.0)
+    monkeypatch.setattr(use_case, "RESTART_SHOWN_S", 0.0)
     start(graph, "last")
     assert node.failed == node.lost == []
     order(graph, "stop")

@@ -171,7 +171,7 @@ class BagWriter:
             self._keep_reserve()
             self._begin_part()
         except (OSError, DiskTrouble) as error:
-            trouble = self._trouble(error) if isinstance(error, OSError) else error
+            trouble = _trouble(self.folder, error) if isinstance(error, OSError) else error
             self._give_up_reserve()
             if after is None:
                 self._remove()
@@ -228,18 +228,13 @@ class BagWriter:
         try:
             self._writer.flush()
         except OSError as error:
-            raise self._trouble(error) from None
+            raise _trouble(self.folder, error) from None
         if not self._file.is_in_place():
             raise DiskTrouble(BAG_MOVED(folder=str(self.folder)))
 
     def write_metadata(self) -> None:
         """Write metadata.yaml as things are; a reader sees all of it or the one before."""
-        new = self.folder / f"{METADATA}.new"
-        try:
-            new.write_text(metadata_text(self.facts))
-            new.replace(self.folder / METADATA)
-        except OSError as error:
-            raise self._trouble(error) from None
+        write_metadata(self.folder, self.facts)
 
     # files ----------------------------------------------------------------------------------
 
@@ -249,7 +244,7 @@ class BagWriter:
         try:
             self._begin_part()
         except OSError as error:
-            raise self._trouble(error) from None
+            raise _trouble(self.folder, error) from None
         self.write_metadata()
 
     def close(self) -> None:
@@ -303,7 +298,7 @@ class BagWriter:
         try:
             self._file.complete()
         except OSError as error:
-            raise self._trouble(error) from None
+            raise _trouble(self.folder, error) from None
         self._file.close()
 
     def _open_channel(self, topic: Topic) -> int:
@@ -328,23 +323,6 @@ class BagWriter:
                 file.unlink()
             self.folder.rmdir()
 
-    def _trouble(self, error: OSError) -> DiskTrouble:
-        if error.errno not in FULL:
-            return DiskTrouble(BAG_NOT_WRITTEN(folder=str(self.folder), problem=error.strerror))
-        free = size = None
-        with contextlib.suppress(OSError):
-            disk = os.statvfs(self.folder)
-            free, size = disk.f_bavail * disk.f_frsize, disk.f_blocks * disk.f_frsize
-        return DiskTrouble(
-            BAG_DISK_FULL(
-                folder=str(self.folder),
-                cause="quota" if error.errno == errno.EDQUOT else "disk",
-                free=free,
-                size=size,
-                needed=RESERVE_SIZE + CHUNK_SIZE,
-            )
-        )
-
 
 _DUMPER: Any = getattr(yaml, "CSafeDumper", yaml.SafeDumper)
 
@@ -352,3 +330,31 @@ _DUMPER: Any = getattr(yaml, "CSafeDumper", yaml.SafeDumper)
 def metadata_text(facts: BagFacts) -> str:
     """Return metadata.yaml."""
     return str(yaml.dump(facts.document(), Dumper=_DUMPER, sort_keys=False))
+
+
+def write_metadata(folder: Path, facts: BagFacts) -> None:
+    """Write the metadata.yaml of a bag; a reader sees all of it or the one before."""
+    new = folder / f"{METADATA}.new"
+    try:
+        new.write_text(metadata_text(facts))
+        new.replace(folder / METADATA)
+    except OSError as error:
+        raise _trouble(folder, error) from None
+
+
+def _trouble(folder: Path, error: OSError) -> DiskTrouble:
+    if error.errno not in FULL:
+        return DiskTrouble(BAG_NOT_WRITTEN(folder=str(folder), problem=error.strerror))
+    free = size = None
+    with contextlib.suppress(OSError):
+        disk = os.statvfs(folder)
+        free, size = disk.f_bavail * disk.f_frsize, disk.f_blocks * disk.f_frsize
+    return DiskTrouble(
+        BAG_DISK_FULL(
+            folder=str(folder),
+            cause="quota" if error.errno == errno.EDQUOT else "disk",
+            free=free,
+            size=size,
+            needed=RESERVE_SIZE + CHUNK_SIZE,
+        )
+    )

@@ -6,8 +6,8 @@ that loops starts over within its state, by its timeline, so a new round is no e
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
 from enum import Enum
 from pathlib import Path
 from typing import Any
@@ -122,16 +122,43 @@ def reason(state: RecorderState, event: RecorderEvent, bag: str) -> Diagnostic:
 
 @dataclass(frozen=True)
 class Entry:
-    """A recording under way. split_duration: s after which a new file begins; 0: never."""
+    """A recording under way. split_duration: s after which a new file begins; 0: never.
+
+    lab: the id of the lab that records. closed: its recorder ended in good order, unasked.
+    """
 
     folder: Path
     topics: tuple[str, ...]
     split_duration: float
+    lab: str = ""
+    closed: bool = False
+
+    def continues_in(self, lab: str) -> bool:
+        """Return whether a recorder that starts in `lab` continues the recording.
+
+        It ends with its lab, unless the recorder was killed.
+        """
+        return not self.closed or (lab != "" and lab == self.lab)
 
 
-def plain(folder: Path, topics: Sequence[str], split_duration: float) -> dict[str, Any]:
+@dataclass(frozen=True)
+class StopOrder:
+    """An order to end the recording into `bag`, left while no recorder answered.
+
+    bag: empty: the recording that runs when the order is carried out.
+    """
+
+    id: str
+    bag: str = ""
+
+    def concerns(self, folder: Path) -> bool:
+        """Return whether the order is to end the recording into `folder`."""
+        return self.bag in ("", str(folder))
+
+
+def plain(entry: Entry) -> dict[str, Any]:
     """Return the content of the journal."""
-    return {"folder": str(folder), "topics": list(topics), "split_duration": split_duration}
+    return {**asdict(entry), "folder": str(entry.folder), "topics": list(entry.topics)}
 
 
 def read(content: Mapping[str, Any]) -> Entry | None:
@@ -141,6 +168,8 @@ def read(content: Mapping[str, Any]) -> Entry | None:
             Path(content["folder"]),
             tuple(map(str, content["topics"])),
             float(content["split_duration"]),
+            str(content.get("lab", "")),
+            bool(content.get("closed", False)),
         )
     except (KeyError, TypeError, ValueError):
         return None

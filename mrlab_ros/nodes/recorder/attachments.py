@@ -95,6 +95,8 @@ class SessionContent:
 
     def close(self) -> None:
         """Fetch what is queued, then end."""
+        if self._closed:
+            return
         self._closed = True
         self._worker.do(lambda: self._guarded(SCENE, self._attach_scene))
         self._worker.close()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable
+from pathlib import Path
 
 from rclpy.node import Node
 from rclpy.subscription import Subscription
@@ -16,6 +17,7 @@ from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.recording.metadata import Topic
 from mrlab_ros.core.recording.topics import Split, Topics
 from mrlab_ros.messages.qos import message_class, profile, topic_of
+from mrlab_ros.nodes.recorder.attachments import SessionContent
 from mrlab_ros.nodes.recorder.diagnostics import (
     NOT_RECORDED,
     RECORDER_FAULT,
@@ -23,6 +25,7 @@ from mrlab_ros.nodes.recorder.diagnostics import (
     SEVERAL_TYPES,
 )
 from mrlab_ros.ros.raw_streams import Received, TopicPoll
+from mrlab_ros.ros.spinning import Caller
 
 # Period at which subscriptions are polled, s.
 POLL_PERIOD_S = 0.04
@@ -78,28 +81,27 @@ class Followed:
 class Recording:
     """Writes the topics of the graph that `topics` names into `writer`.
 
-    `streams` is a node that no executor spins. `observe` gets every message that was written,
-    and must be quick. `on_trouble` gets, in another thread, the error that ended the recording,
+    `streams` is a node that no executor spins; `caller` calls what is attached to the bag.
+    `on_trouble` gets, in another thread, the error that ended the recording,
     of the disk or of the recorder itself; the bag is closed by then.
     """
 
     def __init__(
         self,
         streams: Node,
+        caller: Caller,
         writer: BagWriter,
         topics: Topics,
         split: Split,
-        observe: Callable[[Received, str], None],
         on_trouble: Callable[[LabError], None],
-        warn_once: Callable[[Diagnostic], None],
+        warn: Callable[[Diagnostic], None],
     ) -> None:
         self._streams = streams
         self._writer = writer
         self._topics = topics
         self._split = split
-        self._observe = observe
         self._on_trouble = on_trouble
-        self._complain = warn_once
+        self._complain = warn
         self._followed: dict[str, Followed] = {}
         # type of each topic that was ever followed
         self._kinds: dict[str, str] = {}
@@ -118,6 +120,7 @@ class Recording:
         # Why the recording ended by itself.
         self._trouble: LabError | None = None
         self._poll = TopicPoll("recorder", POLL_PERIOD_S, self._take, self._fail)
+        self._content = SessionContent(caller, self._attach, warn)
 
     def start(self) -> None:
         """Follow the topics that there are; raise DiskTrouble where the disk refuses."""
@@ -128,8 +131,8 @@ class Recording:
             self._poll.start()
 
     @property
-    def folder(self) -> str:
-        return str(self._writer.folder)
+    def bag(self) -> Path:
+        return self._writer.folder
 
     @property
     def position(self) -> float:
@@ -177,14 +180,9 @@ class Recording:
         self._guarded(self._split_now)
         self._check_trouble()
 
-    def attach(self, name: str, media_type: str, data: bytes) -> None:
-        """Put a file into the bag, unless it is closed."""
-        with self._lock:
-            if not self._closed:
-                self._writer.attach(name, media_type, data, time.time_ns())
-
     def close(self) -> None:
         """Write what was received, then index and metadata; raise LabError where that fails."""
+        self._content.close()
         self._poll.stop()
         with self._lock:
             self._check_trouble()
@@ -220,6 +218,12 @@ class Recording:
         self._poll.add(subscription, name)
         return True
 
+    def _attach(self, name: str, media_type: str, data: bytes) -> None:
+        """Put a file into the bag, unless it is closed."""
+        with self._lock:
+            if not self._closed:
+                self._writer.attach(name, media_type, data, time.time_ns())
+
     def _refuse(self, name: str, why: Diagnostic) -> None:
         self._refused.add(name)
         self._complain(NOT_RECORDED(why=why))
@@ -232,7 +236,7 @@ class Recording:
             for message in messages:
                 self._write(message)
         for message in messages:
-            self._observe(message, self._kinds[message.topic])
+            self._content.observe(message, self._kinds[message.topic])
         return self._guarded(self._do_due)
 
     def _write(self, message: Received) -> None:
@@ -301,6 +305,7 @@ class Recording:
             self._trouble = type(why)(RECORDING_FAILED(why=why, messages=self.messages))
         self._leave()
         self._on_trouble(self._trouble)
+        self._content.close()
 
     def _check_trouble(self) -> None:
         if self._trouble is not None:

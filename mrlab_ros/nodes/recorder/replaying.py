@@ -76,19 +76,22 @@ class Feed:
 class Replaying:
     """Publishes `bag` through `streams`, a node that no executor spins, in a thread of its own.
 
-    It begins with start(). `on_end` is called in that thread at the end, with what
-    ended the replay, or None.
+    `node` offers the trajectories of the bag meanwhile. `on_end` is called in that thread at the
+    end, with what ended the replay, or None.
     """
 
     def __init__(
         self,
+        node: Node,
         streams: Node,
         bag: Bag,
         timeline: ReplayTimeline,
         on_end: Callable[[Diagnostic | None], None],
         now_ns: Callable[[], int] = time.monotonic_ns,
     ) -> None:
+        self._node = node
         self._streams = streams
+        self._trajectories: ReplayedTrajectories | None = None
         self._bag = bag
         self._timeline = timeline
         self._on_end = on_end
@@ -142,14 +145,18 @@ class Replaying:
         with self._changed:
             return self._timeline.position(self._now_ns())
 
-    def wait_until_alone(self) -> None:
-        """Wait until nobody else publishes the bag's topics; raise Misuse that names who does."""
+    def prepare(self) -> None:
+        """Wait until nobody else publishes the bag's topics; raise Misuse that names who does.
+
+        From then on the bag's trajectories can be fetched.
+        """
         deadline = time.monotonic() + LEAVE_TIMEOUT_S
         while others := self._others():
             if time.monotonic() > deadline:
                 topics = list(dict.fromkeys(others.values()))
                 raise Misuse(OTHERS_PUBLISH(nodes=list(others), topics=topics))
             time.sleep(POLL_PERIOD_S)
+        self._trajectories = ReplayedTrajectories(self._node, self._bag)
 
     def start(self) -> None:
         """Offer the topics, then begin; subscribers that are there miss nothing."""
@@ -197,6 +204,9 @@ class Replaying:
 
     def close(self) -> None:
         """End, and take the topics out of the graph."""
+        trajectories, self._trajectories = self._trajectories, None
+        if trajectories is not None:
+            trajectories.close()
         with self._changed:
             self._stopped = True
             self._changed.notify()

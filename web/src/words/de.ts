@@ -2998,6 +2998,9 @@ export const diagnostics: Templates = {
   recording_failed: [
     '{why:problem}; das Bag ist vollständig, mit {messages:count Nachricht|Nachrichten}.',
   ],
+  recording_ended_late: [
+    'die Aufnahme {folder} wurde beendet, während ihr Prozess nicht lief: Sie enthält {messages:count Nachricht|Nachrichten}',
+  ],
   recording_gap: ['{missing:time} fehlen ab {time:time}: Die Aufnahme wurde neu gestartet'],
   recording_gap_unknown: ['Ab {time:time} fehlt etwas: Die Aufnahme wurde neu gestartet'],
   recording_lost: ['Die Aufnahme {folder} endete mit ihrem Prozess: {why:problem}.'],

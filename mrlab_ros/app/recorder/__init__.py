@@ -1,0 +1,1 @@
+"""Recording and replaying sessions of the lab."""
