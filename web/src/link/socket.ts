@@ -33,6 +33,9 @@ const TIMEOUT_S = 10
  * broken. */
 const SILENCE_S = 4
 const PING_S = 1
+/** s: a message whose stamp is farther from the lab's time was stamped by another clock, or the
+ * lab's clock was set. */
+const OTHER_CLOCK_S = 0.5
 /** s between two pings from which on the page itself stood still, as while it builds a scene. */
 const STALL_S = 2.5
 /** s until the first and between later attempts to connect; each is drawn from its upper half. */
@@ -76,6 +79,8 @@ class SocketLink implements Link {
   private readonly smallView = new DataView(this.small.buffer)
   private token = ''
   private welcomed = false
+  /** A ping is not answered yet. */
+  private asking = false
   /** Why the gateway closes this socket. */
   private closing: Told | null = null
   private attempts = 0
@@ -92,6 +97,7 @@ class SocketLink implements Link {
   ) {
     this.reader = {
       value: (topic, stamp, bytes, start, end) => {
+        if (Math.abs(stamp - this.labTime()) > OTHER_CLOCK_S && !this.asking) this.ping()
         this.topics.deliver(topic, stamp, bytes, start, end)
       },
       batch: (number) => {
@@ -171,7 +177,7 @@ class SocketLink implements Link {
     const socket = open(this.url, PROTOCOL)
     socket.binaryType = 'arraybuffer'
     this.socket = socket
-    this.welcomed = false
+    this.welcomed = this.asking = false
     this.closing = null
     this.batchNumber = 0
     this.heardAt = this.beatAt = ownTime()
@@ -226,6 +232,7 @@ class SocketLink implements Link {
         this.onLab(text)
         break
       case 'pong':
+        this.asking = false
         this.offset.add(exchange(text.asked, text.came, text.answered, ownTime()))
         this.setStatus(this.current.phase, this.current.reason)
         break
@@ -292,6 +299,7 @@ class SocketLink implements Link {
   }
 
   private ping(): void {
+    this.asking = true
     this.sendText({ op: 'ping', asked: ownTime() })
   }
 

@@ -110,8 +110,8 @@ export class ClockedArm {
     this.compare(own, begin)
   }
 
-  /** Write the pose at a lab time, s, into `positions`; return whether there is one. Times must not
-   * decrease. Allocates nothing. */
+  /** Write the pose at a lab time, s, into `positions`; return whether there is one. Times decrease
+   * only where the lab's clock is set back. Allocates nothing. */
   sample(time: number): boolean {
     const source = this.choose()
     if (source === 'none') return false
@@ -178,7 +178,8 @@ export class ClockedArm {
 
   /** Spread the step that another clock, course or source makes. */
   private ease(time: number, source: PoseSource): void {
-    if (this.changed || source !== this.source) {
+    const setBack = time < this.shownAt - OTHER_CLOCK
+    if (this.changed || setBack || source !== this.source) {
       this.changed = false
       this.source = source
       let most = 0
@@ -189,8 +190,9 @@ export class ClockedArm {
       }
       // Without a pose there is nothing to ease from.
       const steps = most > STEP && !Number.isNaN(this.shownAt)
-      // Ease from the previous picture, if it is recent.
-      this.steppedAt = steps ? Math.max(this.shownAt, time - PICTURE) : Number.NEGATIVE_INFINITY
+      // Ease from the previous picture, if it is recent and of the same clock.
+      const begin = Math.min(Math.max(this.shownAt, time - PICTURE), time)
+      this.steppedAt = steps ? begin : Number.NEGATIVE_INFINITY
     }
     const left = 1 - (time - this.steppedAt) / EASE
     if (left > 0) {

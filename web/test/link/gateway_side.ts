@@ -75,7 +75,10 @@ export class GatewaySide {
     this.text({ op: 'topic', id, key, type: '', latched, each })
   }
 
-  batch(number: number, entries: readonly { topic: number; payload: Uint8Array }[]): void {
+  batch(
+    number: number,
+    entries: readonly { topic: number; payload: Uint8Array; stamp?: number }[],
+  ): void {
     const size = entries.reduce((sum, { payload }) => sum + padded(20 + payload.length), 8)
     const frame = new Uint8Array(size)
     const view = new DataView(frame.buffer)
@@ -83,8 +86,8 @@ export class GatewaySide {
     view.setUint16(2, entries.length, true)
     view.setUint32(4, number, true)
     let at = 8
-    for (const { topic, payload } of entries) {
-      head(view, at, topic, payload.length, 1.5, 1)
+    for (const { topic, payload, stamp = 1.5 } of entries) {
+      head(view, at, topic, payload.length, stamp, 1)
       frame.set(payload, at + 20)
       at += padded(20 + payload.length)
     }

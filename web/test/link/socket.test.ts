@@ -260,6 +260,32 @@ describe('the connection', () => {
     expect(link.status.roundTrip).toBeCloseTo(0, 3)
   })
 
+  test.each([-600, 600])('it asks for the time at once after a step of %i s', (step) => {
+    link.subscribe('*/joint_states', jointStateReader, () => {})
+    const side = GatewaySide.last.open()
+    side.topic(7, 'a/joint_states')
+    let ahead = 0
+    const own = () => (performance.timeOrigin + performance.now()) / 1000
+    const message = () => side.batch(1, [{ topic: 7, payload: joints(1), stamp: own() + ahead }])
+    const pings = () => side.texts.filter(({ op }) => op === 'ping').length
+    const answer = () => {
+      const asked = side.sent('ping')?.asked as number
+      side.text({ op: 'pong', asked, came: asked + ahead, answered: asked + ahead })
+    }
+    answer()
+    const before = pings()
+    message()
+    expect(pings()).toBe(before)
+    ahead = step
+    message()
+    message()
+    expect(pings(), 'one question until it is answered').toBe(before + 1)
+    answer()
+    expect(link.labTime() - own()).toBeCloseTo(step, 3)
+    message()
+    expect(pings()).toBe(before + 1)
+  })
+
   test('attempts grow apart, and a success begins anew', () => {
     for (const wait of [250, 500, 1000, 2000, 4000, 8000, 8000]) {
       GatewaySide.last.end()

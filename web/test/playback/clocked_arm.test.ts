@@ -208,6 +208,35 @@ it('goes on after the clock of its source was set back', () => {
   expect(arm.positions[0]).toBe(1)
 })
 
+it.each([-600, 600])('is where the lab has it after its clock was set by %i s', (step) => {
+  const course = motion()
+  const arm = new ClockedArm(NAMES)
+  const there = new Float64Array(2)
+  const start = 1000
+  const setAt = start + 3
+  arm.setCourse(course)
+  arm.setClock({ stamp: start, position: 0, rate: 1 }, true)
+  let frame = 0
+  let announced = false
+  for (let steady = start; steady < start + 6; steady += DISPLAY) {
+    const ahead = steady < setAt ? 0 : step
+    // The page has the new time one exchange after the first message of the new clock.
+    const time = steady + (steady < setAt + 0.03 ? 0 : step)
+    if (ahead !== 0 && !announced) {
+      announced = true
+      arm.setClock({ stamp: start + step, position: 0, rate: 1 }, true)
+    }
+    for (; start + frame / RATE <= steady; frame++) {
+      arm.take(NAMES, frameOf(course, frame), start + frame / RATE + ahead, time)
+    }
+    arm.sample(time)
+    if (steady > setAt && steady < setAt + 0.3) continue
+    course.sample(steady - start, there)
+    expect(number(arm.positions[0])).toBeCloseTo(number(there[0]), 3)
+    expect(number(arm.positions[1])).toBeCloseTo(number(there[1]), 3)
+  }
+})
+
 it('knows whether another picture is due', () => {
   const arm = new ClockedArm(ONE)
   arm.setCourse(new Course(10, 1, new Float64Array([0, 1, 2])))
