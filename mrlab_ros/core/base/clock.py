@@ -70,6 +70,8 @@ SLEW = 0.005
 UNDER_WAY_NS = SECOND
 # A difference that stays, ns: two clocks are never read at exactly one instant.
 AGREED_NS = SECOND // 1000
+# A step is rounded to a multiple of this, ns; the rest of it stays.
+STEP_ROUNDING_NS = 2 * AGREED_NS
 
 
 class LabTime:
@@ -101,8 +103,11 @@ class LabTime:
             self._offset_ns, self._slewed_ns = wall_ns - steady_ns, steady_ns
         error_ns = wall_ns - steady_ns - self._offset_ns
         if abs(error_ns) >= STEP_NS:
-            self._shift(wall_ns - error_ns, wall_ns)
-            self._offset_ns += error_ns
+            # Rounded: each process measures a little else, and their stamps are to agree.
+            by_ns = round(error_ns / STEP_ROUNDING_NS) * STEP_ROUNDING_NS
+            before_ns = steady_ns + self._offset_ns
+            self._shift(before_ns, before_ns + by_ns)
+            self._offset_ns += by_ns
             self._slewed_ns = steady_ns
         else:
             most_ns = int(SLEW * (steady_ns - self._slewed_ns))

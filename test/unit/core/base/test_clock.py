@@ -204,3 +204,14 @@ def test_the_wall_clock_takes_over_where_use_sim_time_is_switched_off() -> None:
 
 def test_a_clock_that_nobody_has_set_stands_at_the_start() -> None:
     assert PlaybackClock().at(5 * SECOND) == 0.0
+
+
+@given(st.integers(-600 * SECOND, 600 * SECOND), st.integers(0, 40_000))
+def test_two_processes_shift_by_the_same(step: int, noise: int) -> None:
+    """Each measures a step a little differently."""
+    step = round(step / 2_000_000) * 2_000_000
+    one, other = LabTime(0, 1000 * SECOND), LabTime(0, 1000 * SECOND)
+    one.follow_wall(SECOND, 1001 * SECOND + step)
+    other.follow_wall(SECOND, 1001 * SECOND + step + noise)
+    if abs(step) > STEP_NS:
+        assert one.shifted_ns == other.shifted_ns
