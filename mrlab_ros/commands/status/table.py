@@ -15,6 +15,7 @@ from rich.text import Text
 
 from mrlab_ros.client.follow import milliseconds
 from mrlab_ros.core.runtime.colours import OUTCOME_STYLES, SEVERITY_STYLES, STATE_STYLES
+from mrlab_ros.core.runtime.processes import Phase
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -77,13 +78,18 @@ def _ends_halt(robot: Mapping[str, Any]) -> str:
 
 
 def _died_lately(process: Mapping[str, Any]) -> str:
-    """Return what is said of a process that ended a short while ago; empty: nothing."""
-    age = time.time() - process["since"]
+    """Return what is said of a process that froze, or ended a short while ago; empty: nothing."""
+    name, age = process["name"], time.time() - process["since"]
+    at = time.strftime("%H:%M:%S", time.localtime(process["down"]))
+    if process["phase"] == Phase.FROZEN.value:
+        return f"{name} does not run since {at}: a signal stopped it"
+    how = f" ({process['last_exit']})" if process["last_exit"] else ""
+    died = f"{name} died at {at}{how}"
+    if process["phase"] == Phase.WAITING.value:
+        return f"{died}, back in {max(process['restart_in'] - age, 0.0):.1f} s"
     if not process["restarts"] or age > LATELY_S:
         return ""
-    how = f" ({process['last_exit']})" if process["last_exit"] else ""
-    now = f"{process['phase']} for {age:.0f} s" if process["phase"] else ""
-    return f"{process['name']} died{how}; {now}, restarts: {process['restarts']}"
+    return f"{died}; {process['phase']} for {age:.0f} s, restarts: {process['restarts']}"
 
 
 def recorder_line(recorder: Mapping[str, Any] | None) -> str:

@@ -1,5 +1,5 @@
 import { STATE_NAMES, type StateName } from '../design/tokens'
-import type { PlaybackClock } from '../playback/clock'
+import { type PlaybackClock, positionAt } from '../playback/clock'
 import { ClockedArm, type PoseSource } from '../playback/clocked_arm'
 import type { Course } from '../playback/course'
 import type { RemotePlayer } from '../playback/player'
@@ -24,6 +24,8 @@ export interface RobotView {
   readonly touching: string
   /** The places at which the loaded motion grasps and releases. */
   readonly targets: readonly GraspTarget[]
+  /** The process that plays it does not run. */
+  readonly down: boolean
   readonly player: RemotePlayer
 }
 
@@ -61,6 +63,7 @@ export class FollowedRobot {
   /** null: it is not in the lab, or not yet. */
   robot: Robot | null = null
   private playback: PlaybackState | null = null
+  private down = false
   private arm: ClockedArm | null = null
   /** The trajectory whose frames are loaded or requested. */
   private wanted = ''
@@ -93,7 +96,28 @@ export class FollowedRobot {
     this.arm.setCourse(this.frames)
   }
 
+  /** The node that plays it; empty: unknown. */
+  get host(): string {
+    return this.playback?.host ?? ''
+  }
+
   takePlayback(message: PlaybackState): void {
+    this.down = false
+    this.setPlayback(message)
+  }
+
+  /** Take over that its playback ended or froze at `time`, s of lab time: it stands where it was
+   * then until its playback says otherwise. */
+  stop(time: number): void {
+    const { playback } = this
+    if (playback === null) return
+    this.down = true
+    const { duration } = playback
+    const position = Math.min(Math.max(positionAt(clockOf(playback), time), 0), duration)
+    this.setPlayback({ ...playback, clock: { ...playback.clock, position, rate: 0 } })
+  }
+
+  private setPlayback(message: PlaybackState): void {
     this.playback = message
     this.player.follow(clockOf(message), message.duration, message.rate)
     this.setClock()
@@ -132,13 +156,13 @@ export class FollowedRobot {
 
   /** Return it for the panel; null: it is not in the lab. */
   get view(): RobotView | null {
-    const { robot, playback, holding, targets, player, collision } = this
+    const { robot, playback, holding, targets, down, player, collision } = this
     if (robot === null) return null
     const touching = collision?.colliding
       ? `${collision.contact.link} ↔ ${collision.contact.other}`
       : ''
     const state = STATE_NAMES[playback?.state ?? 0] ?? 'IDLE'
-    return { robot, state, playback, holding, touching, targets, player }
+    return { robot, state, playback, holding, touching, targets, down, player }
   }
 
   private setClock(): void {

@@ -12,6 +12,8 @@ import {
   Grasp,
   graspReader,
   graspTargetsReader,
+  LabProcess,
+  labProcessesReader,
   playbackStateReader,
   type RecorderState,
   type Robot,
@@ -36,6 +38,7 @@ import {
   seconds,
   setJoints,
 } from './followed_robot'
+import { backUntil, holds, type Outage, outagesOf } from './outages'
 
 /** s: contacts are published at 50 Hz, and not at all while there are none. */
 const CONTACT_S = 0.3
@@ -85,6 +88,8 @@ export class LabFollower {
   readonly robots = signal<readonly RobotView[]>([])
   readonly systems = signal<readonly SystemView[]>([])
   readonly recorder = signal<RecorderState | null>(null)
+  /** Processes of the lab that do not run, or run again since a short while. */
+  readonly outages = signal<readonly Outage[]>([])
   readonly replay: RemotePlayer
   /** True once the lab has published its robots. */
   readonly known = signal(false)
@@ -94,6 +99,9 @@ export class LabFollower {
   private readonly courses: Courses
   private readonly systemPlayers = new Map<string, RemotePlayer>()
   private surfaces: readonly Surface[] = []
+  private processes: readonly LabProcess[] = []
+  /** Ends the naming of a process that runs again. */
+  private outageTimer: ReturnType<typeof setTimeout> | undefined
   /** Names in the lab's order. */
   private order: readonly string[] = []
   /** Lab time at which the link was lost, s. */
@@ -163,6 +171,7 @@ export class LabFollower {
         this.scene?.setContacts(contacts)
       }),
       this.on('systems', robotSystemsReader, (message) => this.takeSystems(message.systems)),
+      this.on('processes', labProcessesReader, (message) => this.takeProcesses(message.processes)),
       this.on('recorder/state', recorderStateReader, (message) => this.takeRecorder(message)),
     ]
   }
@@ -217,6 +226,7 @@ export class LabFollower {
   }
 
   dispose(): void {
+    clearTimeout(this.outageTimer)
     for (const undo of this.undo) undo()
   }
 
@@ -286,6 +296,32 @@ export class LabFollower {
       player.follow(clockOf(system), system.duration, system.rate)
       return { system, player }
     })
+  }
+
+  private takeProcesses(processes: readonly LabProcess[]): void {
+    const known = new Map(this.processes.map((each) => [each.name, seconds(each.down)]))
+    this.processes = processes
+    for (const process of processes) {
+      const down = seconds(process.down)
+      if (process.state === LabProcess.RUNNING || down <= (known.get(process.name) ?? 0)) continue
+      for (const followed of this.kept.values()) {
+        if (holds(process, followed.host)) followed.stop(down)
+      }
+    }
+    this.showOutages()
+    this.options.stir()
+    this.show()
+  }
+
+  /** Show the outages of now, and again when a process that runs need not be named any more. */
+  private showOutages(): void {
+    clearTimeout(this.outageTimer)
+    const now = this.link.labTime()
+    this.outages.value = outagesOf(this.processes, now)
+    const next = Math.min(...this.processes.map(backUntil).filter((until) => until > now))
+    if (Number.isFinite(next)) {
+      this.outageTimer = setTimeout(() => this.showOutages(), (next - now) * 1000 + 100)
+    }
   }
 
   private takeRecorder(state: RecorderState): void {

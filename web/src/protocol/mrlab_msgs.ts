@@ -616,6 +616,100 @@ export const graspTargetsReader: MessageReader<GraspTargets> = /* @__PURE__ */ m
   readGraspTargets,
 )
 
+/** mrlab_msgs/msg/LabProcess: A process of the lab as its supervisor sees it. */
+export interface LabProcess {
+  /** such as playback */
+  name: string
+  /** nodes that it holds, such as playback_host; empty: it is none of ROS */
+  nodes: string[]
+  /** one of the constants above */
+  state: number
+  /** when it entered this state */
+  since: Time
+  /** how often it was started again */
+  restarts: number
+  /** of the last end; negative: the number of the signal that ended it; 0 also before the first end */
+  exit_code: number
+  /** the same in words: a signal such as SIGKILL, or the exit code; empty: it never ended */
+  last_exit: string
+  /** when it ended or froze last; 0: never */
+  down: Time
+  /** the same instant in ns of CLOCK_MONOTONIC, for processes of the same machine; 0: never */
+  down_steady_ns: bigint
+  /** s from the end to the next start, while WAITING */
+  restart_in: number
+}
+
+export const LabProcess = {
+  /** not started yet */
+  STARTING: 0,
+  RUNNING: 1,
+  /** it ended, and is started again in restart_in */
+  WAITING: 2,
+  /** it ended as its configuration is wrong, and is not started again */
+  REFUSED: 3,
+  /** it ended with the lab */
+  STOPPED: 4,
+  /** a signal stopped it (SIGSTOP): it lives but does not run */
+  FROZEN: 5,
+} as const
+
+export function createLabProcess(): LabProcess {
+  return {
+    name: '',
+    nodes: [],
+    state: 0,
+    since: createTime(),
+    restarts: 0,
+    exit_code: 0,
+    last_exit: '',
+    down: createTime(),
+    down_steady_ns: 0n,
+    restart_in: 0,
+  }
+}
+
+export function readLabProcess(from: CdrReader, into: LabProcess): void {
+  into.name = from.string(into.name)
+  into.nodes = from.strings(into.nodes)
+  into.state = from.uint8()
+  readTime(from, into.since)
+  into.restarts = from.uint32()
+  into.exit_code = from.int32()
+  into.last_exit = from.string(into.last_exit)
+  readTime(from, into.down)
+  into.down_steady_ns = from.int64()
+  into.restart_in = from.float64()
+}
+
+/** mrlab_msgs/msg/LabProcesses: The processes of the lab. Latched; sent by their supervisor at each change, at once. */
+export interface LabProcesses {
+  header: Header
+  processes: LabProcess[]
+  /** id of the lab whose processes they are */
+  lab: string
+}
+
+export function createLabProcesses(): LabProcesses {
+  return {
+    header: createHeader(),
+    processes: [],
+    lab: '',
+  }
+}
+
+export function readLabProcesses(from: CdrReader, into: LabProcesses): void {
+  readHeader(from, into.header)
+  into.processes = from.messages(into.processes, createLabProcess, readLabProcess)
+  into.lab = from.string(into.lab)
+}
+
+export const labProcessesReader: MessageReader<LabProcesses> = /* @__PURE__ */ messageReader(
+  'mrlab_msgs/msg/LabProcesses',
+  createLabProcesses,
+  readLabProcesses,
+)
+
 /** mrlab_msgs/msg/Latency: How long messages take on their way, as one observer measured it. Sent about once a second. */
 export interface Latency {
   /** end of the window */

@@ -3,6 +3,7 @@ import { THEMES } from '../design/tokens'
 import { commandsOf } from '../lab/commands'
 import type { CourseOf } from '../lab/followed_robot'
 import { type FollowedScene, LabFollower } from '../lab/follower'
+import { outageWords } from '../lab/outages'
 import type { LabScene } from '../scene/lab/lab_scene'
 import type { ShownSurface } from '../scene/lab/surfaces'
 import { themeNow } from '../scene/stage/theme'
@@ -94,6 +95,16 @@ export function listen({
   const repaint = () => board.panel.repaint()
   /** s; NaN: the link is not open. */
   let openedAt = Number.NaN
+  const outages = () => follower.outages.value.map((each) => outageWords(each, words.lab.outages))
+  let told: readonly string[] = []
+  const tell = () => {
+    const now = outages()
+    follower.outages.value.forEach(({ kind }, i) => {
+      const text = now[i] as string
+      if (!told.includes(text)) ports.say(text, kind !== 'back')
+    })
+    told = now
+  }
   const look = () => {
     const link = follower.status.value
     const now = performance.now() / 1000
@@ -104,6 +115,7 @@ export function listen({
       link,
       openFor: now - openedAt,
       known: follower.known.value,
+      outages: outages(),
       robots: follower.robots.value.length,
       troubles: troubles.value,
     }
@@ -113,6 +125,7 @@ export function listen({
   const undo = [
     () => clearInterval(timer),
     effect(look),
+    effect(tell),
     effect(() => {
       if (panels.show(follower.robots.value)) halt()
     }),

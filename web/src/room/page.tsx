@@ -6,6 +6,7 @@ import './room.css'
 import type { Rights, Session } from '../api/types'
 import { Button } from '../design/button'
 import { Notice } from '../design/notice'
+import { outageWords } from '../lab/outages'
 import type { Link } from '../link/link'
 import { courseOf } from '../playback/course'
 import { checkSignIn, session, useApi } from '../shell/session'
@@ -142,6 +143,7 @@ function RoomView({ link, extra }: { link: Link; extra: RoomExtra }) {
   }, [link])
 
   const w = words.value.room
+  const { outages } = words.value.lab
   const found = room.value
   const hops = hopsOf(
     {
@@ -149,6 +151,7 @@ function RoomView({ link, extra }: { link: Link; extra: RoomExtra }) {
       link: found?.follower.status.value ?? link.status,
       openFor: openFor.value,
       known: found?.follower.known.value ?? false,
+      outages: found?.follower.outages.value.map((each) => outageWords(each, outages)) ?? [],
       robots: found?.follower.robots.value.length ?? 0,
       troubles: found?.troubles.value ?? [],
     },

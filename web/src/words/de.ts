@@ -489,6 +489,17 @@ export const words: Words = {
     },
     lastKnown:
       'Die Verbindung ist verloren: Das ist der letzte bekannte Stand. Alles hier wartet, bis sie wieder da ist.',
+    outages: {
+      died: (process, at, how, seconds) =>
+        `${process} ist um ${at} gestorben${how && ` (${how})`}, in ${seconds} s wieder da`,
+      froze: (process, at) => `${process} läuft seit ${at} nicht: von einem Signal angehalten`,
+      refused: (process, at) =>
+        `${process} endete um ${at}: Die Konfiguration ist falsch, deshalb kein neuer Start`,
+      back: (process, since, at, how) =>
+        `${process} läuft seit ${since} wieder, nach einem Ausfall ab ${at}${how && ` (${how})`}`,
+      exitCode: (code) => `Exit-Code ${code}`,
+      robot: 'Der Prozess, der diesen Roboter abspielt, läuft nicht.',
+    },
     empty: 'Noch steht kein Roboter in der Szene.',
     emptyForOthers: 'Noch steht kein Roboter in der Szene. Eine Lehrkraft stellt einen auf.',
     addRobot: 'Roboter aufstellen',

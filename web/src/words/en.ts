@@ -440,6 +440,18 @@ export const en = {
     phases: { connecting: 'connecting', lost: 'connection lost', refused: 'not allowed' },
     lastKnown:
       'The connection is lost: this is what was last known. Everything here waits until it is back.',
+    outages: {
+      died: (process: string, at: string, how: string, seconds: number) =>
+        `${process} died at ${at}${how && ` (${how})`}, back in ${seconds} s`,
+      froze: (process: string, at: string) =>
+        `${process} does not run since ${at}: a signal stopped it`,
+      refused: (process: string, at: string) =>
+        `${process} ended at ${at}: its configuration is wrong, so it is not started again`,
+      back: (process: string, since: string, at: string, how: string) =>
+        `${process} runs again since ${since}; it was down from ${at}${how && ` (${how})`}`,
+      exitCode: (code: number) => `exit code ${code}`,
+      robot: 'The process that plays this robot does not run.',
+    },
     empty: 'There is no robot in the scene yet.',
     emptyForOthers: 'There is no robot in the scene yet. An instructor puts one there.',
     addRobot: 'Add a robot',

@@ -114,6 +114,11 @@ export function dateTime(seconds: number): string {
   })
 }
 
+/** Return a time of day to the second, s since the epoch, in the language's own way. */
+export function timeOfDay(seconds: number): string {
+  return new Date(seconds * 1000).toLocaleTimeString(locale.value, { timeStyle: 'medium' })
+}
+
 /** Return a size in kB or MB. */
 export function fileSize(bytes: number): string {
   return bytes < 1e6 ? `${number(bytes / 1e3, 0)} kB` : `${number(bytes / 1e6, 1)} MB`

@@ -6,10 +6,13 @@ import {
   collisionReader,
   contactsReader,
   createContact,
+  createLabProcess,
   createRobot,
   createRobotSystem,
   Grasp,
   graspReader,
+  LabProcess,
+  labProcessesReader,
   PlaybackState,
   playbackStateReader,
   recorderStateReader,
@@ -266,4 +269,37 @@ test('the frames of a trajectory are fetched once for all robots that play it', 
   await vi.waitFor(() => expect(follower.course('b')).not.toBeNull())
   expect(follower.course('b')).toBe(follower.course('a'))
   expect(courseOf).toHaveBeenCalledTimes(1)
+})
+
+test('the robots of a process that dies stand at that instant, until their playback is back', () => {
+  const { link, follower, robot } = lab()
+  const playing = {
+    state: PlaybackState.PLAYING,
+    clock: { stamp: { sec: 998, nanosec: 0 }, position: 1, rate: 2 },
+    duration: 10,
+    rate: 2,
+    host: '/playback_host/lab_7',
+  }
+  const process = { ...createLabProcess(), name: 'playback', nodes: ['playback_host'] }
+  const deliver = (change: Partial<LabProcess>) =>
+    link.deliver('processes', labProcessesReader, { processes: [{ ...process, ...change }] })
+  link.deliver('robots', robotsReader, { robots: [robot] })
+  link.deliver('ur5e_1/playback_state', playbackStateReader, playing)
+  deliver({ state: LabProcess.RUNNING })
+  expect(follower.outages.value).toEqual([])
+  const down = { sec: 999, nanosec: 500_000_000 }
+  deliver({ state: LabProcess.WAITING, down, last_exit: 'SIGKILL', exit_code: -9 })
+  expect(follower.outages.value.map(({ kind }) => kind)).toEqual(['died'])
+  expect(follower.robots.value[0]).toMatchObject({ down: true })
+  expect(follower.robots.value[0]?.player.position()).toBeCloseTo(4)
+  deliver({ state: LabProcess.RUNNING, down, since: { sec: 999, nanosec: 900_000_000 } })
+  expect(follower.outages.value.map(({ kind }) => kind)).toEqual(['back'])
+  link.deliver('ur5e_1/playback_state', playbackStateReader, {
+    ...playing,
+    state: PlaybackState.PAUSED,
+    clock: { stamp: { sec: 1000, nanosec: 0 }, position: 3.9, rate: 0 },
+  })
+  expect(follower.robots.value[0]).toMatchObject({ down: false })
+  expect(follower.robots.value[0]?.player.position()).toBeCloseTo(3.9)
+  follower.dispose()
 })

@@ -18,6 +18,8 @@ FROZEN = Sign("playback", freeze=Freeze(17.0, 5.0)).trouble(900.0)
 SILENT = PROCESS_SILENT(silent=4)
 FULL_DISK = of_text("the recording class ended: no space left on the disk")
 BOTH = joined([FULL_DISK, RESTARTED])
+DOWN = 1_700_000_000.0
+AT = time.strftime("%H:%M:%S", time.localtime(DOWN))
 
 
 def shown(trouble: Diagnostic | None, phase: str) -> str:
@@ -29,6 +31,8 @@ def shown(trouble: Diagnostic | None, phase: str) -> str:
         "since": time.time() - 3.0,
         "restarts": 1,
         "last_exit": "SIGKILL",
+        "down": DOWN,
+        "restart_in": 5.0,
     }
     facts = {
         "domain": 3,
@@ -57,7 +61,7 @@ def printed(facts: dict[str, Any]) -> str:
     [
         (RESTARTED, "running", "nothing was lost"),
         (BOTH, "running", str(FULL_DISK)),
-        (SILENT, "waiting", "waiting for 3 s, restarts: 1"),
+        (SILENT, "waiting to restart", f"playback died at {AT} (SIGKILL), back in 2.0 s"),
         (None, "running", "running for 3 s, restarts: 1"),
     ],
 )
@@ -70,8 +74,12 @@ def test_a_death_is_said_once(trouble, phase, says):
 @pytest.mark.parametrize("trouble", [SILENT, FROZEN])
 def test_what_else_is_amiss_with_a_process_that_died_before_is_said_too(trouble):
     text = shown(trouble, "running")
-    assert "playback died (SIGKILL); running for 3 s" in text
+    assert f"playback died at {AT} (SIGKILL); running for 3 s" in text
     assert str(trouble) in text
+
+
+def test_a_process_that_a_signal_stopped_is_named():
+    assert f"playback does not run since {AT}" in shown(None, "stopped by a signal")
 
 
 @pytest.mark.parametrize(

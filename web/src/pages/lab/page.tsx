@@ -12,6 +12,7 @@ import type { StateName } from '../../design/tokens'
 import { LabCatalogue } from '../../lab/catalogue'
 import { commandsOf, trigger } from '../../lab/commands'
 import { LabFollower } from '../../lab/follower'
+import { outageWords } from '../../lab/outages'
 import type { Link } from '../../link/link'
 import { courseOf } from '../../playback/course'
 import { trajectoryCatalogueReader } from '../../protocol/mrlab_msgs'
@@ -193,6 +194,11 @@ export function Lab({ link }: { link: Link }) {
                 {w.lastKnown}
               </p>
             )}
+            {follower.outages.value.map((each) => (
+              <p key={each.process.name} class="lab-outage small" role="status">
+                {outageWords(each, w.outages)}
+              </p>
+            ))}
             {/* what is disabled here disables all controls in it */}
             <fieldset class="lab-cards" disabled={lost}>
               {follower.systems.value.map((each) => (

@@ -114,6 +114,7 @@ export function RobotCard({ view, catalogue, idle }: RobotCardProps) {
         {playback?.message && (
           <p class={halted ? 'lab-halt small' : 'small'}>{spoken(playback)}</p>
         )}
+        {view.down && <p class="lab-halt small">{w.outages.robot}</p>}
         {touching && !halted && <p class="lab-halt small">{touching}</p>}
         {holding && <p class="small">{w.holds(holding)}</p>}
         {halted && may.commands && (

@@ -15,13 +15,15 @@ export interface Way {
   /** True once the lab has published its robots; and their number. */
   readonly known: boolean
   readonly robots: number
+  /** The processes of the lab that do not run, or run again since a short while, in words. */
+  readonly outages: readonly string[]
   /** The files of meshes that could not be read. */
   readonly troubles: readonly string[]
 }
 
 /** A hop that failed or is not ready: its problem, and the remedy. */
 export interface Hop {
-  readonly id: 'headset' | 'gateway' | 'lab' | 'robots' | 'meshes'
+  readonly id: 'headset' | 'gateway' | 'lab' | 'process' | 'robots' | 'meshes'
   readonly severity: 'info' | 'warning' | 'error'
   readonly words: string
 }
@@ -48,6 +50,7 @@ export function hopsOf(way: Way, words: Words['room']): Hop[] {
     }
     return found
   }
+  for (const words of way.outages) found.push({ id: 'process', severity: 'warning', words })
   if (way.robots === 0) found.push({ id: 'robots', severity: 'info', words: words.empty })
   if (way.troubles.length > 0) {
     found.push({

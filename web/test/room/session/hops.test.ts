@@ -8,6 +8,7 @@ const GOOD: Way = {
   link: { phase: 'open', reason: '', roundTrip: 0.01 },
   openFor: 20,
   known: true,
+  outages: [],
   robots: 1,
   troubles: [],
 }
@@ -27,6 +28,7 @@ describe.each([en, de])('what stands between lab and eyes', ({ room }) => {
     ['a lab that is silent', { known: false }, ['lab']],
     ['a lab that just answers', { known: false, openFor: 1 }, []],
     ['no robots', { robots: 0 }, ['robots']],
+    ['a dead process', { outages: ['playback died at 12:03:04'] }, ['process']],
     ['a mesh', { troubles: ['base.glb'] }, ['meshes']],
   ] as const)('%s', (_, change, expected) => {
     const hops = hopsOf({ ...GOOD, ...change } as Way, room)
