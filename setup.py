@@ -36,8 +36,8 @@ setup(
     version=re.search("<version>(.+)</version>", (ROOT / "package.xml").read_text())[1],
     python_requires=">=3.10",
     packages=find_packages(include=[package_name, f"{package_name}.*"]),
-    # By which type checkers know that the package has types.
-    package_data={package_name: ["py.typed"]},
+    # Type checkers read py.typed; page.html is the template of report pages.
+    package_data={package_name: ["py.typed"], f"{package_name}.app.show": ["page.html"]},
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{package_name}"]),
         (f"share/{package_name}", ["package.xml"]),

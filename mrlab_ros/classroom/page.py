@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from mrlab_ros.app.show import ingredients, static
+from mrlab_ros.app.show import ingredients, still_text
 from mrlab_ros.app.show.page import page
 from mrlab_ros.classroom.marks.graded import REFERENCE, SCHEMA, GradedClass, Student
 from mrlab_ros.classroom.marks.result import MARKED, Result
@@ -97,30 +97,29 @@ def _mark(mark: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def static_text(document: Mapping[str, Any]) -> str:
-    """Return a ClassDocument as HTML, which is read without a script."""
+def text_of(document: Mapping[str, Any]) -> str:
+    """Return a ClassDocument as text, which is read without a script."""
     tests, figures = document["tests"], document["statistics"]
-    heads = ("Student", "Points", *(test["name"] for test in tests), "")
+    heads = ("student", "points", *(test["name"] for test in tests))
     rows = [
         (
             one["name"], f"{one['points']:g}", *(f"{mark['points']:g}" for mark in one["marks"]),
-            "" if one["marked"] else static.sentence(one["said"]),
+            "" if one["marked"] else still_text.sentence(one["said"]),
         )
         for one in document["students"]
     ]  # fmt: skip
-    return static.report(
-        document["title"],
-        (
-            document["robot"],
-            document["scene"],
-            f"mean {figures['mean']:.3g}, median {figures['median']:.3g} of "
-            f"{document['points']:g} points",
-        ),
-        tables=[static.Table("Students", heads, rows)],
+    facts = (
+        document["robot"],
+        document["scene"],
+        f"mean {figures['mean']:.3g}, median {figures['median']:.3g} of "
+        f"{document['points']:g} points",
     )
+    table = still_text.Table("Students", heads, rows)
+    return still_text.report([still_text.dotted(facts)], (), [table])
 
 
 def class_page(graded: GradedClass, share: Path) -> str:
     """Return one HTML file about a class. share: folder with the built pages."""
     document = class_document(graded)
-    return page(graded.rubric.name, static_text(document), document, {}, ingredients.code(share))
+    code = ingredients.code(share)
+    return page(graded.rubric.name, text_of(document), document, {}, code)

@@ -2,37 +2,15 @@ import './design/styles'
 import './design/plot/plot.css'
 import './scene/stage/scene.css'
 import './report/report.css'
-import { render, type VNode } from 'preact'
-import type { ClassDocument } from './classroom/class_document'
-import { ClassReport } from './classroom/report'
-import type { MotionDocument } from './playback/motion'
-import type { SessionDocument, SessionFacts } from './playback/session'
-import { type CheckFacts, CheckReport } from './report/check'
-import type { Picture } from './report/findings'
-import { MotionReport } from './report/motion'
+import { render } from 'preact'
 import { type ShownData, unpackData } from './report/packed_data'
 import { followPrinting } from './report/page'
-import { SessionReport } from './report/session'
+import { REPORTS } from './reports'
 import { languages, setLanguage } from './words/words'
 
 declare global {
   /** Data that the page's first script unpacked. */
   var mrlabData: ArrayBuffer | undefined
-}
-
-function reportOf({ document: data, meshes }: ShownData, pictures: Picture[]): VNode {
-  const shown = data as
-    | MotionDocument
-    | (SessionDocument & { readonly check?: CheckFacts })
-    | ClassDocument
-  if (shown.schema === 'mrlab.motion.1') {
-    return <MotionReport motion={shown} meshes={meshes} pictures={pictures} />
-  }
-  if (shown.schema === 'mrlab.class.1') return <ClassReport graded={shown} />
-  if (shown.check) {
-    return <CheckReport session={shown} check={shown.check} meshes={meshes} pictures={pictures} />
-  }
-  return <SessionReport session={shown} report={shown.report as SessionFacts} meshes={meshes} />
 }
 
 /** Return the first of the reader's languages that there is; a file keeps no choice. */
@@ -43,10 +21,12 @@ function preferred(): string {
   )
 }
 
-/** Replace the static text, which is read without a script, by the report. */
-async function start(data: ShownData): Promise<void> {
+/** Replace the still text, which is read without a script, by the report. It stays where there is
+ * no report of the data's schema. */
+export async function showReport(data: ShownData, reports = REPORTS): Promise<void> {
   const root = document.getElementById('report')
-  if (root === null) return
+  const report = reports[data.document.schema]
+  if (root === null || report === undefined) return
   await setLanguage(preferred(), false)
   const pictures = [...root.querySelectorAll<HTMLImageElement>('.poster img')].map((picture) => ({
     source: picture.src,
@@ -55,7 +35,7 @@ async function start(data: ShownData): Promise<void> {
   root.replaceChildren()
   document.documentElement.dataset.shown = 'true'
   followPrinting()
-  render(reportOf(data, pictures), root)
+  render(report(data, pictures), root)
 }
 
-if (globalThis.mrlabData !== undefined) void start(unpackData(globalThis.mrlabData))
+if (globalThis.mrlabData !== undefined) void showReport(unpackData(globalThis.mrlabData))

@@ -16,7 +16,8 @@ const PARTS: Readonly<Record<string, Layers>> = {
   src: {
     main: 'api app design shell words',
     app: 'api classroom design pages room shell words',
-    show: 'classroom design playback report scene words',
+    show: 'design report reports scene words',
+    reports: 'classroom playback report',
     classroom: 'api design lab link pages playback protocol report room shell words',
     pages: 'api design lab link playback protocol scene shell words',
     room: 'api design lab link playback protocol scene shell words',

@@ -13,11 +13,11 @@ from mrlab_ros.adapters.robots.library import RobotLibrary, from_library
 from mrlab_ros.app.check.diagnostics import PAGE_NOT_WRITTEN
 from mrlab_ros.app.check.file import CheckedFile
 from mrlab_ros.app.check.stage import Stage
-from mrlab_ros.app.show import ingredients, static
+from mrlab_ros.app.show import ingredients, still_text
 from mrlab_ros.app.show.packed import packed
-from mrlab_ros.app.show.page import page
+from mrlab_ros.app.show.page import Picture, page
 from mrlab_ros.app.show.poster import poster
-from mrlab_ros.app.show.session import SCHEMA, drawn, track_document
+from mrlab_ros.app.show.session import drawn, track_document
 from mrlab_ros.core.base.diagnostic import plain
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.geometry import Array
@@ -31,6 +31,7 @@ from mrlab_ros.core.recording.recorded_motion import Track
 from mrlab_ros.core.scene.surfaces import Surface
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 
+SCHEMA = "mrlab.check.1"
 # The numbers of shape_msgs/SolidPrimitive.
 PRIMITIVES = {Shape.BOX: 1, Shape.SPHERE: 2, Shape.CYLINDER: 3}
 HALTED = "COLLISION_HALT"
@@ -257,8 +258,8 @@ def check_page(
     things = {thing["mesh"] for thing in document["objects"] if thing["mesh"]}
     meshes |= ingredients.small(things, resolve)
     film = _film(recorded, robots, library) if with_film else []
-    body = static.check(document, film)
-    return page(report.title, body, document, meshes, ingredients.code(share))
+    text = still_text.check(document)
+    return page(report.title, text, document, meshes, ingredients.code(share), film)
 
 
 def write_page(
@@ -305,7 +306,7 @@ def write_page(
 
 def _film(
     recorded: Rehearsed, robots: Sequence[PlayedRobot], library: RobotLibrary
-) -> list[tuple[float, str]]:
+) -> list[Picture]:
     """Return pictures of a robot along the motion, for where nothing draws in 3D."""
     moving = [robot for robot in robots if robot.trajectory is not None]
     if len(moving) != 1:
@@ -317,5 +318,6 @@ def _film(
     for k in range(FRAMES):
         at = round(k * (len(course.times) - 1) / (FRAMES - 1))
         positions = dict(zip(robot.joints, course.values[at], strict=True))
-        film.append((course.times[at], poster(library, shown, positions)))
+        url = poster(library, shown, positions)
+        film.append(Picture(url, f"The robot at {course.times[at]:.2f} s"))
     return film

@@ -8,9 +8,9 @@ import numpy as np
 
 from mrlab_ros.adapters.diagnostics import NOTHING_TO_SHOW
 from mrlab_ros.adapters.robots.library import RobotLibrary, from_library
-from mrlab_ros.app.show import document, ingredients, static
+from mrlab_ros.app.show import document, ingredients, still_text
 from mrlab_ros.app.show.packed import unpacked
-from mrlab_ros.app.show.page import page
+from mrlab_ros.app.show.page import Picture, page
 from mrlab_ros.app.show.poster import poster
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.conversion.convert import ConversionResult
@@ -34,12 +34,13 @@ def motion_page(
         raise BadInput(NOTHING_TO_SHOW(why=result.said))
     first = np.nan_to_num(unpacked(shown["positions"])[0].astype(float))
     names = [joint.name for joint in robot.joints]
-    picture = poster(library, robot, dict(zip(names, first.tolist(), strict=True)))
+    url = poster(library, robot, dict(zip(names, first.tolist(), strict=True)))
     meshes = ingredients.meshes_of([robot.urdf], library.mesh_path)
     return page(
         f"{shown['title']} on {robot_model}",
-        static.motion(shown, picture),
+        still_text.motion(shown),
         shown,
         meshes,
         ingredients.code(share),
+        [Picture(url, f"The robot {robot_model} at the first row")],
     )

@@ -1,7 +1,7 @@
 """One HTML file that shows something in 3D: code, data and meshes in it, and nothing from outside.
 
-What must be readable without a script (verdict, findings, tables, a picture) is plain HTML, which
-the report takes the place of.
+`page.html` is its template. The text of the report and its pictures, which are read without a
+script, stand there until the report is drawn.
 """
 
 from __future__ import annotations
@@ -11,9 +11,11 @@ import hashlib
 import json
 import struct
 import zlib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from pathlib import Path
+from string import Template
 from typing import Any
 
 from mrlab_ros.core.base.foreign_text import for_html as escape
@@ -22,29 +24,7 @@ from mrlab_ros.core.base.foreign_text import visible_lines
 LEVEL = 9  # of compression
 # Texts of a document that nobody reads: arrays, descriptions of robots.
 UNSHOWN = ("data", "urdf")
-# Unpacks code and data, and starts the code: the only script that the page trusts by itself.
-LOADER = """
-(async () => {
-  const old = document.getElementById('old-browser')
-  try {
-    const unpack = async (id) => {
-      const text = atob(document.getElementById(id).textContent)
-      const bytes = Uint8Array.from(text, (c) => c.charCodeAt(0))
-      const inflated = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate'))
-      return new Response(inflated).arrayBuffer()
-    }
-    globalThis.mrlabData = await unpack('data')
-    const code = new Blob([await unpack('code')], { type: 'text/javascript' })
-    const script = document.createElement('script')
-    script.src = URL.createObjectURL(code)
-    script.onerror = () => { old.hidden = false }
-    document.body.append(script)
-  } catch (error) {
-    old.hidden = false
-    console.error(error)
-  }
-})()
-"""
+TEMPLATE = Path(__file__).with_name("page.html")
 
 
 @dataclass(frozen=True)
@@ -55,24 +35,35 @@ class Code:
     style: str
 
 
+@dataclass(frozen=True)
+class Picture:
+    """A picture that stands in the page. url: a data: URL."""
+
+    url: str
+    text: str
+
+
 def page(
     title: str,
-    body: str,
+    text: str,
     document: Mapping[str, Any],
     meshes: Mapping[str, bytes],
     code: Code,
-    language: str = "en",
+    pictures: Sequence[Picture] = (),
 ) -> str:
-    """Return the page. body: HTML that is there until the report is drawn.
+    """Return the page.
 
-    document: what the code reads, JSON. meshes: GLB files by their URIs; equal ones are stored
-    once.
+    text, pictures: the report for where no script runs. document: JSON that the report of its
+    "schema" draws, a row of web/src/reports.tsx. meshes: GLB files by their URIs; equal ones are
+    stored once.
     """
+    template = _with_pictures(TEMPLATE.read_text(encoding="utf-8"), pictures)
+    loader = template.rpartition("<script>")[2].partition("</script>")[0]
     style = code.style.replace("</style", "<\\/style")
     policy = "; ".join(
         (
             "default-src 'none'",
-            f"script-src '{_hash(LOADER)}' 'strict-dynamic'",
+            f"script-src '{_hash(loader)}' 'strict-dynamic'",
             f"style-src '{_hash(style)}'",
             "img-src data: blob:",
             "connect-src blob:",
@@ -80,30 +71,27 @@ def page(
             "form-action 'none'",
         )
     )
-    return "\n".join(
-        (
-            "<!doctype html>",
-            f'<html lang="{language}">',
-            "<head>",
-            '<meta charset="utf-8">',
-            f'<meta http-equiv="Content-Security-Policy" content="{policy}">',
-            '<meta name="viewport" content="width=device-width, initial-scale=1">',
-            '<meta name="referrer" content="no-referrer">',
-            f"<title>{escape(title)}</title>",
-            f"<style>{style}</style>",
-            "</head>",
-            "<body>",
-            f'<div id="report">{body}</div>',
-            '<p id="old-browser" hidden>This browser is too old to draw this report; its findings '
-            "and tables are complete.</p>",
-            f'<script type="text/plain" id="data">{packed(_data(document, meshes))}</script>',
-            f'<script type="text/plain" id="code">{packed(code.script)}</script>',
-            f"<script>{LOADER}</script>",
-            "</body>",
-            "</html>",
-            "",
-        )
+    return Template(template).substitute(
+        policy=policy,
+        title=escape(title),
+        style=style,
+        text=escape(text),
+        data=packed(_data(document, meshes)),
+        code=packed(code.script),
     )
+
+
+def _with_pictures(template: str, pictures: Sequence[Picture]) -> str:
+    """Return the template with its line of a picture once for each of them."""
+    lines = []
+    for line in template.splitlines(keepends=True):
+        if "$picture" not in line:
+            lines.append(line)
+            continue
+        for each in pictures:
+            values = {"picture": each.url, "picture_text": escape(each.text)}
+            lines.append(Template(line).substitute(values).replace("$", "$$"))
+    return "".join(lines)
 
 
 def _data(document: Mapping[str, Any], meshes: Mapping[str, bytes]) -> bytes:

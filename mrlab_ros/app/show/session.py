@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from mrlab_ros.adapters.bags.motion import mesh_files, read_motion
 from mrlab_ros.adapters.bags.reader import Bag
 from mrlab_ros.adapters.bags.session import read_session
-from mrlab_ros.app.show import ingredients, static
+from mrlab_ros.app.show import ingredients, still_text
 from mrlab_ros.app.show.packed import packed
 from mrlab_ros.app.show.page import page
 from mrlab_ros.core.base.geometry import Array
@@ -187,4 +187,5 @@ def session_page(bag: Bag, share: Path, report: SessionReport | None = None) -> 
         meshes = ingredients.meshes_of((robot["urdf"] for robot in document["robots"]), resolve)
         objects = {thing["mesh"] for thing in document["objects"] if thing["mesh"]}
         meshes |= ingredients.small(objects, resolve)
-    return page(title, static.session(document), document, meshes, ingredients.code(share))
+    text = still_text.session(document)
+    return page(title, text, document, meshes, ingredients.code(share))

@@ -6,11 +6,12 @@ from dataclasses import replace
 
 import orjson
 
+from mrlab_ros.app.show.page import Code, page
 from mrlab_ros.classroom.marks.diagnostics import NO_FILE_HANDED_IN, NO_MOTION_FILE
 from mrlab_ros.classroom.marks.exports import Entry, recognise
 from mrlab_ros.classroom.marks.graded import GradedClass, Student
 from mrlab_ros.classroom.marks.result import MARKED, NO_FILE, Result, without_marks
-from mrlab_ros.classroom.page import class_document, static_text
+from mrlab_ros.classroom.page import class_document, text_of
 from mrlab_ros.classroom.rubrics.diagnostics import NOTHING_TOUCHED
 from mrlab_ros.classroom.rubrics.marking import Mark, Marks
 from mrlab_ros.classroom.rubrics.rubric import Outcome, Rubric, Test
@@ -55,10 +56,13 @@ def test_a_row_leads_to_its_page_and_has_its_way_in_millimetres():
     assert found["left_out_count"] == 1
 
 
-def test_without_a_script_there_is_a_row_a_student_and_no_name_runs():
+def test_the_text_has_a_row_a_student_and_no_name_runs():
     document = class_document(graded())
     document["students"][0]["name"] = "<script>\u202e"
-    page = static_text(document)
-    assert page.count("<tr>") == 3
-    assert "Task &lt;1&gt;" in page
-    assert "<td>&lt;script&gt;\\u202e</td>" in page
+    text = text_of(document)
+    heading, *rows = text.split("\n\n")[-1].splitlines()
+    assert heading == "Students (student, points, no collision)"
+    assert [row.split(" · ")[0] for row in rows] == ["<script>\u202e", "Jörg"]
+    shown = page(document["title"], text, document, {}, Code(b"", ""))
+    assert "<h1>Task &lt;1&gt;</h1>" in shown
+    assert "&lt;script&gt;\\u202e · 0" in shown

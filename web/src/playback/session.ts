@@ -1,10 +1,10 @@
 import type { Diagnostic } from '../words/diagnostic'
 import type { PackedArray } from './motion'
 
-/** A recorded session; `mrlab_ros/app/show/session.py` writes it. Times are s from the first
+/** Robots and objects that moved: a recording, or what a check rehearsed. Times are s from the first
  * message of the bag, poses x, y, z, qx, qy, qz, qw in the frame world, m. */
 export interface SessionDocument {
-  readonly schema: 'mrlab.session.1'
+  readonly schema: string
   readonly title: string
   readonly duration: number
   readonly robots: readonly SessionRobot[]
@@ -12,8 +12,6 @@ export interface SessionDocument {
   /** Of the room; a recording has none. */
   readonly surfaces: readonly SessionSurface[]
   readonly events: readonly SessionEvent[]
-  /** The report of a recording; absent for another document, such as a check. */
-  readonly report?: SessionFacts
 }
 
 /** The fields of mrlab_msgs/msg/Surface. */

@@ -16,7 +16,13 @@ import { type Plotted, StripPlot } from './plot/strip_plot'
 import { Go } from './run'
 import { Film, useSession } from './session'
 
-/** The result of a check; `mrlab_ros/app/show/check.py` writes it. */
+/** What a check rehearsed and its result; `mrlab_ros/app/show/check.py` writes it. */
+export interface CheckDocument extends SessionDocument {
+  readonly schema: 'mrlab.check.1'
+  readonly check: CheckFacts
+}
+
+/** The result of a check. */
 export interface CheckFacts {
   readonly verdict: 'ready' | 'not_ready'
   readonly summary: Diagnostic
@@ -198,16 +204,15 @@ function jointsOf(motion: CheckedMotion, findings: readonly CheckFinding[]): Plo
 /** The report of a check. */
 export function CheckReport({
   session,
-  check,
   meshes,
   pictures,
 }: {
-  session: SessionDocument
-  check: CheckFacts
+  session: CheckDocument
   meshes: MeshBytes
   pictures: readonly Picture[]
 }) {
   const w = words.value.report
+  const { check } = session
   const { findings, robots, motions, marks } = check
   const several = robots.length > 1
   const instants = findings.flatMap((one) =>

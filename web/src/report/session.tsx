@@ -26,6 +26,12 @@ const RESULTS = {
   open: ['play', 'part'],
 } as const
 
+/** A recording and its report; `mrlab_ros/app/show/session.py` writes it. */
+export interface RecordedSession extends SessionDocument {
+  readonly schema: 'mrlab.session.1'
+  readonly report: SessionFacts
+}
+
 interface SceneMark {
   readonly time: number
   readonly severity: 'info' | 'warning' | 'error'
@@ -116,15 +122,13 @@ export function Film({
 /** The report of a recorded session. */
 export function SessionReport({
   session,
-  report,
   meshes,
 }: {
-  session: SessionDocument
-  report: SessionFacts
+  session: RecordedSession
   meshes: MeshBytes
 }) {
   const w = words.value.report
-  const { events } = session
+  const { events, report } = session
   const { runs, robots } = report
   const marks = events
     .filter(({ said }) => said.severity !== 'info')

@@ -9,9 +9,9 @@ import zlib
 
 import numpy as np
 
-from mrlab_ros.app.show import static
+from mrlab_ros.app.show import still_text
 from mrlab_ros.app.show.packed import packed
-from mrlab_ros.app.show.page import Code, page
+from mrlab_ros.app.show.page import Code, Picture, page
 
 CODE = Code(b"const text = '</script>'", "body { color: red }</style>")
 
@@ -23,7 +23,7 @@ def block(text, name):
 
 def test_the_data_comes_back_and_equal_meshes_are_stored_once():
     meshes = {"package://a.glb": b"one" * 99, "package://b.glb": b"two", "c": b"one" * 99}
-    text = page("t", '<div id="view"></div>', {"schema": "x"}, meshes, CODE)
+    text = page("t", "", {"schema": "x"}, meshes, CODE)
     data = block(text, "data")
     (length,) = struct.unpack_from("<I", data)
     head = json.loads(data[4 : 4 + length])
@@ -72,7 +72,7 @@ def test_what_a_file_says_cannot_become_markup():
         ],
         "source": {"file": evil, "variable": evil, "sha256": ""},
     }  # fmt: skip
-    text = page(evil, static.motion(document, "data:,"), document, {}, CODE)
+    text = page(evil, still_text.motion(document), document, {}, CODE, [Picture("data:,", evil)])
     assert "<script>alert" not in text
     assert text.count("<script") == 3
 
