@@ -20,6 +20,7 @@ from graph import wait_for
 from launched_lab import done, launched_lab
 from mrlab_msgs import msg, srv
 from mrlab_msgs.srv import Trigger
+from sensor_msgs.msg import JointState
 
 from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.base.errors import LabError
@@ -48,6 +49,15 @@ class Watched:
             robot: graph.watch(msg.PlaybackState, f"/{robot}/playback_state", qos.LATCHED_EVENTS)
             for robot in ("ur5e_1", "ur5e_2")
         }
+        # By robot the newest joint positions.
+        self.joints: dict[str, list[float]] = {}
+        for robot in self.states:
+            graph.subscribe(
+                JointState,
+                f"/{robot}/joint_states",
+                lambda state, robot=robot: self.joints.__setitem__(robot, list(state.position)),
+                qos.STREAM,
+            )
         for kind, topic in ((msg.LabProcesses, "/processes"), (msg.RobotSystems, "/systems")):
             graph.subscribe(kind, topic, self._take, qos.LATCHED_EVENTS)
 
@@ -168,6 +178,8 @@ def test_a_fault_is_an_event_and_the_system_plays_on_from_where_its_members_stoo
     since = len(watched.events)
     strike(fault, "playback")
     _, down = watched.first(since, "playback")
+    time.sleep(0.05)  # what was sent before has arrived
+    stood = {robot: list(joints) for robot, joints in watched.joints.items()}
     frozen = fault == "SIGSTOP"
     # rclpy ends at a SIGTERM as asked: its exit code is 0.
     said = {"SIGKILL": (-9, "SIGKILL"), "SIGTERM": (0, "exit code 0")}
@@ -185,6 +197,9 @@ def test_a_fault_is_an_event_and_the_system_plays_on_from_where_its_members_stoo
     assert code in codes
     assert watched.system.code == "members_back"
     assert watched.system.label == "PAUSED"
+    if not frozen:
+        # Both stand at the joint state that they had sent last.
+        wait_for(lambda: watched.joints == stood, "the pose of before")
     # What follows from the event comes after it.
     kinds = [
         type(m).__name__ if isinstance(m, msg.LabProcesses) else m.systems[0].code

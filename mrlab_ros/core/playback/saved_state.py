@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,6 +15,9 @@ from mrlab_ros.core.playback.states import Event, State
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 
 ROBOTS = "robots"
+# A journal lies less than this behind the last pose, s on the trajectory; otherwise the pose is
+# not of the run that the journal names.
+MOST_BEHIND_S = 1.0
 
 
 class Kept(NamedTuple):
@@ -32,6 +35,13 @@ class Kept(NamedTuple):
     halted: bool
     begun: bool
     arm: Array
+
+
+def with_pose(kept: Kept, position: float, joints: Sequence[float]) -> Kept:
+    """Return what a journal says with the newer last pose: s on the trajectory, and (J,) rad."""
+    if abs(position - kept.position) > MOST_BEHIND_S or len(joints) != len(kept.arm):
+        return kept
+    return kept._replace(position=position, arm=np.array(joints))
 
 
 def come_back(execution: Execution, now_ns: int, trajectory: Trajectory, kept: Kept) -> None:

@@ -6,12 +6,14 @@ import threading
 import time
 import weakref
 from collections.abc import Callable
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from mrlab_msgs import msg, srv
 
 from mrlab_ros.adapters import share
 from mrlab_ros.adapters.journal_file import Journal
+from mrlab_ros.adapters.pose_file import PoseFile
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.robots.ruckig_planner import RuckigPlanner, StagingLimits
 from mrlab_ros.core.base.diagnostic import Diagnostic
@@ -19,6 +21,7 @@ from mrlab_ros.core.base.errors import LabError, Misuse
 from mrlab_ros.core.playback import saved_state as entries
 from mrlab_ros.core.playback.diagnostics import NOT_PLAYED, OF_ROBOT
 from mrlab_ros.core.playback.saved_state import Kept
+from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.runtime.identity import Identity
 from mrlab_ros.core.runtime.processes import Deaths
 from mrlab_ros.core.systems.claims import Leases
@@ -256,17 +259,37 @@ class PlaybackHostNode(
         fits = kept is not None and len(kept.arm) == len(self._library.model(model).joints)
         return kept if fits and had == model else None
 
+    def _pose_file(self, robot: str, model: RobotModel) -> PoseFile | None:
+        """Return the file of a robot's last pose; None: nothing is kept."""
+        if not self.parameters.state_dir:
+            return None
+        path = Path(self.parameters.state_dir) / f"{robot}.pose"
+        try:
+            return PoseFile(path, len(model.joints))
+        except OSError as error:
+            self.get_logger().error(
+                f"{path} cannot be written, a restart will know the pose of {robot} less exactly: "
+                f"{error.strerror}"
+            )
+            return None
+
     def _add(self, robot: msg.Robot) -> None:
+        model = self._library.model(robot.model)
+        pose_file = self._pose_file(robot.name, model)
+        kept = self._kept_of(robot.name, robot.model)
+        if kept is not None and pose_file is not None and (last := pose_file.get()) is not None:
+            kept = entries.with_pose(kept, *last)
         node = PlaybackNode(
             robot.name,
-            self._library.model(robot.model),
+            model,
             self._planner,
             self.scheduler,
             self._fetch,
             self.parameters.standing_rate,
             host=self._host,
             lab=self._identity.lab,
-            kept=self._kept_of(robot.name, robot.model),
+            kept=kept,
+            pose_file=pose_file,
             warn=self.get_logger().warning,
             context=self.context,
         )

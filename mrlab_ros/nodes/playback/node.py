@@ -14,6 +14,7 @@ from rclpy.context import Context
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
 
+from mrlab_ros.adapters.pose_file import PoseFile
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.errors import LabError, Misuse
 from mrlab_ros.core.playback import diagnostics as say
@@ -64,6 +65,7 @@ class PlaybackNode(Node):
         host: str,
         lab: str = "",
         kept: Kept | None = None,
+        pose_file: PoseFile | None = None,
         warn: Callable[[str], None] = lambda said: None,
         context: Context | None = None,
     ) -> None:
@@ -71,7 +73,8 @@ class PlaybackNode(Node):
 
         host, lab: the node that plays the robot, and the id of its lab. warn: takes a sentence of
         what was refused where nobody can be answered. kept: what the robot had
-        before the process was restarted; come_back() loads it.
+        before the process was restarted; come_back() loads it. pose_file: gets each pose that is
+        sent.
         """
         # A lab of fifty robots has fifty of these nodes: each does without rosout and the
         # services for parameters, of which it has none. It is hidden: `ros2 param list` waits 5 s
@@ -95,6 +98,7 @@ class PlaybackNode(Node):
         self.player = Player(self.playback, self._send, self._announce)
         self._grasp: msg.Grasp | None = None
         self._back = kept
+        self._pose_file = pose_file
         self._announced = True
         self._commanders: Commanders | None = None
         try:
@@ -215,6 +219,8 @@ class PlaybackNode(Node):
         if self._commanders is not None:
             self._commanders.close()
         self._scheduler.remove(self.player)
+        if self._pose_file is not None:
+            self._pose_file.close()
         self.destroy_node()
 
     def publish_telemetry(self, now_ns: int) -> None:
@@ -256,6 +262,8 @@ class PlaybackNode(Node):
                 self._scheduler.clock.stamp(sample.due_ns), sample.positions, sample.velocities
             )
         )
+        if self._pose_file is not None:
+            self._pose_file.put(self.playback.stream.position, sample.positions.tolist())
 
     def _announce(self, now_ns: int, status: PlaybackStatus) -> None:
         self._announced = True

@@ -94,3 +94,19 @@ def test_an_entry_of_another_form_is_left_out(broken):
     assert (
         saved_state.read({saved_state.ROBOTS: {"a": saved_state.plain("m", kept) | broken}}) == {}
     )
+
+
+@pytest.mark.parametrize(
+    ("position", "joints", "taken"),
+    [
+        (0.31, [0.062, 0.063], True),
+        # Another run, or another robot, has left it.
+        (0.3 + saved_state.MOST_BEHIND_S + 0.01, [0.062, 0.063], False),
+        (0.31, [0.062], False),
+    ],
+)
+def test_the_last_pose_is_newer_than_the_journal_where_it_is_of_its_run(position, joints, taken):
+    kept = Kept("wave", 1, 0.3, 1.0, loop=False, halted=False, begun=True, arm=np.zeros(2))
+    found = saved_state.with_pose(kept, position, joints)
+    expected = (position, joints) if taken else (0.3, [0.0, 0.0])
+    assert (found.position, found.arm.tolist()) == expected
