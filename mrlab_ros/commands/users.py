@@ -20,11 +20,13 @@ from mrlab_ros.commands.up.web import qr_lines
 from mrlab_ros.core.base.diagnostic import Fix
 from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.bridge.rules import Role
-from mrlab_ros.gateway.people.diagnostics import ONE_LOCAL_USER, WITH_KEYS
+from mrlab_ros.gateway.people.diagnostics import ONE_LOCAL_USER, PAIRED_ROLE_TOO_HIGH, WITH_KEYS
 
 if TYPE_CHECKING:
     from mrlab_ros.gateway.people.accounts import Accounts
+    from mrlab_ros.gateway.people.sign_ins import Database
 
+DAY_S = 24 * 3600.0
 app = typer.Typer(no_args_is_help=True, help="Who signs in to the pages of a lab with keys.")
 
 Folder = Annotated[
@@ -106,6 +108,45 @@ def role(
 
 
 @app.command()
+def token(
+    name: Annotated[
+        str, typer.Argument(help="For whom the program acts; not given: this machine's user.")
+    ] = "",
+    program: Annotated[str, typer.Option(help="Its name in the list of devices.")] = "program",
+    role: Annotated[
+        Role | None, typer.Option(help="What it may do; not given: what the person may.")
+    ] = None,
+    days: Annotated[float, typer.Option(min=0.01, max=366, help="How long it is good.")] = 90.0,
+    folder: Folder = None,
+    as_json: AsJson = False,
+) -> None:
+    """Print a token, with which a program acts for somebody over HTTP and /link.
+
+    The program sends the header `Authorization: Bearer TOKEN`. The page of devices ends it.
+    """
+    from mrlab_ros.gateway.people.person import LOCAL
+    from mrlab_ros.gateway.people.sign_ins import SignIns, new_token
+
+    with opened(folder, "", local=not name) as users:
+        own = users.accounts.get(name).role if name else Role.INSTRUCTOR
+        if role is not None and not own.may(role):
+            person = name or LOCAL
+            raise BadInput(PAIRED_ROLE_TOO_HIGH(person=person, role=own.value, wanted=role.value))
+        made = SignIns(users.database).begin(
+            name or LOCAL,
+            role or own,
+            time.time(),
+            device=program,
+            lifetime=days * DAY_S,
+            secret=new_token(),
+        )
+    if as_json:
+        show({"token": made, "url": users.address})
+    else:
+        print(made)
+
+
+@app.command()
 def remove(
     names: Annotated[list[str], typer.Argument(help="Who may no longer sign in.")],
     folder: Folder = None,
@@ -133,11 +174,15 @@ class Users:
 
     accounts: Accounts
     address: str
+    database: Database
 
 
 @contextmanager
-def opened(folder: Path | None, url: str) -> Iterator[Users]:
-    """Open the users of a keys folder, or of the lab that runs here."""
+def opened(folder: Path | None, url: str, *, local: bool = False) -> Iterator[Users]:
+    """Open the users of a keys folder, or of the lab that runs here.
+
+    local: the lab may be one whose only user is that of this machine.
+    """
     from mrlab_ros.adapters.keys.folder import Keys
     from mrlab_ros.commands.open import running_web
     from mrlab_ros.gateway.people.accounts import Accounts
@@ -156,7 +201,7 @@ def opened(folder: Path | None, url: str) -> Iterator[Users]:
         address = f"https://{f'[{host}]' if ':' in host else host}:8080"
         if running is not None and Path(running["users"]) == file:
             address = running["address"]
-    elif running is not None and running["signs_in"]:
+    elif running is not None and (local or running["signs_in"]):
         file, address = Path(running["users"]), running["address"]
     elif running is not None:
         raise Misuse(ONE_LOCAL_USER(fixes=WITH_KEYS))
@@ -164,7 +209,7 @@ def opened(folder: Path | None, url: str) -> Iterator[Users]:
         raise BadInput(NO_USERS_HERE(fixes=(Fix(command="mrlab keys init"),)))
     database = Database(file)
     try:
-        yield Users(Accounts(database), (url or address).rstrip("/"))
+        yield Users(Accounts(database), (url or address).rstrip("/"), database)
     finally:
         database.close()
 

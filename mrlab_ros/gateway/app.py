@@ -27,7 +27,7 @@ from mrlab_ros.gateway.link.limits import read_limits
 from mrlab_ros.gateway.people import oidc_routes, pairing_routes
 from mrlab_ros.gateway.people import routes as people_routes
 from mrlab_ros.gateway.people.oidc import Oidc, read_provider
-from mrlab_ros.gateway.people.people import People
+from mrlab_ros.gateway.people.people import People, token_of
 from mrlab_ros.gateway.policy import authorise, read_policy
 from mrlab_ros.gateway.ports import Ports
 from mrlab_ros.gateway.settings import Settings
@@ -127,6 +127,7 @@ def create_app(settings: Settings, ports: Ports) -> FastAPI:
         host_allowed=hosts.allows,
         public_origin=hosts.public_origin,
         csrf_matches=people.csrf_matches,
+        token_of=token_of,
     )
     return app
 

@@ -75,6 +75,8 @@ class Hosts:
 HOST = re.compile(r"(?:\[(?P<address>[0-9A-Fa-f:.%]+)\]|(?P<name>[^\s:@/\[\]]+))(?::\d+)?")
 SAFE = ("GET", "HEAD", "OPTIONS")
 CSRF_HEADER = "x-csrf-token"
+# A program begins here to be let in. It has nothing yet that a page of another site could use.
+BEGINS = "/api/pairings"
 # wasm-unsafe-eval: meshes are unpacked by WebAssembly. blob: textures of glTF files.
 POLICY = "; ".join(
     (
@@ -108,7 +110,8 @@ class Guard:
 
     host_allowed: whether a Host, without its port, is a name of this gateway. public_origin: that
     of a reverse proxy before it, or empty. csrf_matches: whether a token is the right one for the
-    Cookie header of its request.
+    Cookie header of its request. token_of: finds a program's token in a header Authorization,
+    which no page of another site can send.
     """
 
     def __init__(
@@ -117,11 +120,13 @@ class Guard:
         host_allowed: Callable[[str], bool],
         public_origin: str,
         csrf_matches: Callable[[str, str], bool],
+        token_of: Callable[[str], str],
     ) -> None:
         self._app = app
         self._host_allowed = host_allowed
         self._public_origin = public_origin
         self._csrf_matches = csrf_matches
+        self._token_of = token_of
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Pass a request on, or refuse it."""
@@ -157,7 +162,7 @@ class Guard:
         if not self._host_allowed(without_port(host)):
             return "host", WRONG_HOST(host=host[:100])
         unsafe = scope["type"] == "websocket" or scope["method"] not in SAFE
-        if not unsafe:
+        if not unsafe or self._is_program(scope, headers):
             return None
         origin = headers.get("origin", "")
         secure = scope.get("scheme") in ("https", "wss")
@@ -170,6 +175,10 @@ class Guard:
         ):
             return "csrf", WRONG_CSRF()
         return None
+
+    def _is_program(self, scope: Scope, headers: Headers) -> bool:
+        begins = scope["path"] == BEGINS and not (headers.get("origin") or headers.get("cookie"))
+        return begins or bool(self._token_of(headers.get("authorization", "")))
 
 
 def without_port(host: str) -> str:

@@ -79,6 +79,7 @@ ROUTES: Mapping[tuple[str, str], Everybody | Role | Need] = {
     ("POST", "/api/people/{name}/invitation"): Role.INSTRUCTOR,
     ("PATCH", "/api/people/{name}"): Role.INSTRUCTOR,
     ("DELETE", "/api/people/{name}"): Role.INSTRUCTOR,
+    ("POST", "/api/tokens"): Role.DISPLAY,
     ("GET", "/api/devices"): Role.STUDENT,
     ("DELETE", "/api/devices/{sign_in}"): Role.STUDENT,
     ("PUT", "/api/uploads/{file_name}"): CONVERTS_OWN,

@@ -75,9 +75,10 @@ class NewPassword(BaseModel):
 
 
 class PairingBegin(BaseModel):
-    """The name of a device for the list of devices."""
+    """The name of a device for the list of devices. program: it gets a token, no cookie."""
 
     device: Annotated[str, Field(max_length=80)] = "headset"
+    program: bool = False
 
 
 class PairingShown(BaseModel):
@@ -91,10 +92,14 @@ class PairingShown(BaseModel):
 
 
 class PairingState(BaseModel):
-    """The state of a pairing; the cookie of an admitted device comes with this answer, once."""
+    """The state of a pairing; the cookie of an admitted device comes with this answer, once.
+
+    token: an admitted program's, for the header Authorization.
+    """
 
     state: Literal["waiting", "approved", "expired"]
     user: User | None
+    token: str = ""
 
 
 class PairingApproval(BaseModel):
@@ -102,6 +107,20 @@ class PairingApproval(BaseModel):
 
     code: Annotated[str, Field(max_length=40)]
     role: Role
+
+
+class NewToken(BaseModel):
+    """A program that shall act for a person, as what, and for how many days."""
+
+    program: Annotated[str, Field(min_length=1, max_length=80)]
+    role: Role
+    days: Annotated[float, Field(gt=0, le=366)] = 90
+
+
+class Token(BaseModel):
+    """A program's token, for the header Authorization: Bearer; it is told once."""
+
+    token: str
 
 
 class PersonEntry(BaseModel):

@@ -35,12 +35,13 @@ WAITING = 200
 
 @dataclass
 class Pairing:
-    """A device that waits; granted: who approved it, and as what."""
+    """A device that waits; granted: who approved it, and as what. program: it keeps no cookie."""
 
     code: str
     secret: str
     device: str
     expires: float
+    program: bool
     granted: tuple[Person, Role] | None = None
 
 
@@ -51,15 +52,15 @@ class Pairings:
         self._waiting: dict[str, Pairing] = {}
         self._wrong: dict[str, list[float]] = {}
 
-    def begin(self, device: str, now: float) -> Pairing:
-        """Have a device wait; raises TooMany where WAITING do already."""
+    def begin(self, device: str, now: float, *, program: bool = False) -> Pairing:
+        """Have a device or a program wait; raises TooMany where WAITING do already."""
         self._forget(now)
         if len(self._waiting) >= WAITING:
             raise TooMany(DEVICES_FULL(), LIFETIME_S)
         code = ""
         while not code or code in (pairing.code for pairing in self._waiting.values()):
             code = "".join(secrets.choice(LETTERS) for _ in range(LENGTH))
-        pairing = Pairing(code, new_secret(), device, now + LIFETIME_S)
+        pairing = Pairing(code, new_secret(), device, now + LIFETIME_S, program)
         self._waiting[pairing.secret] = pairing
         return pairing
 

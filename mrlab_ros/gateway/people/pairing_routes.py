@@ -20,11 +20,13 @@ router = APIRouter(prefix="/api/pairings", tags=["people"])
 async def begin(
     request: Request, people: ThePeople, body: answers.PairingBegin | None = None
 ) -> answers.PairingShown:
-    """Begin to pair a device: it shows the code, and asks with the secret every two seconds."""
-    check_signs_in(people)
+    """Begin to pair a device or a program: it shows the code, and asks every two seconds."""
+    program = body is not None and body.program
+    if not program:
+        check_signs_in(people)
     people.pairings_by_address.check(address_of(request), people.steady())
     device = (body or answers.PairingBegin()).device or "headset"
-    pairing = people.pairings.begin(device, people.steady())
+    pairing = people.pairings.begin(device, people.steady(), program=program)
     url = f"{base_url(request, people)}/pair/{pairing.code}"
     return answers.PairingShown(
         code=shown(pairing.code),
@@ -50,6 +52,10 @@ async def collect(
     if pairing is None or pairing.granted is None:
         return answers.PairingState(state="waiting", user=None)
     person, role = pairing.granted
+    user = answers.User(id=person.id, name=person.name, role=role)
+    if pairing.program:
+        token = people.program(person.name, role, pairing.device, let_in_by=person.sign_in)
+        return answers.PairingState(state="approved", user=user, token=token)
     people.sign_in(
         response,
         person.name,
@@ -58,7 +64,6 @@ async def collect(
         let_in_by=person.sign_in,
         lifetime=DEVICE_LIFETIME_S,
     )
-    user = answers.User(id=person.id, name=person.name, role=role)
     return answers.PairingState(state="approved", user=user)
 
 
@@ -67,8 +72,9 @@ async def approve(
     people: ThePeople, person: CurrentPerson, body: answers.PairingApproval
 ) -> answers.PairingState:
     """Let the device that shows a code in, as a role that one has oneself."""
-    if person.name == LOCAL:
+    now = people.steady()
+    if person.name == LOCAL and not people.pairings.waiting(body.code, person, now).program:
         check_signs_in(people)
-    pairing = people.pairings.approve(body.code, person, body.role, people.steady())
+    pairing = people.pairings.approve(body.code, person, body.role, now)
     user = answers.User(id=person.id, name=pairing.device, role=body.role)
     return answers.PairingState(state="approved", user=user)

@@ -16,7 +16,16 @@ from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.gateway.people.accounts import Accounts, Passwords
 from mrlab_ros.gateway.people.pairing import Pairings
 from mrlab_ros.gateway.people.person import LOCAL, Limit, Person, RateLimit
-from mrlab_ros.gateway.people.sign_ins import FILE, FOLLOW_PERIOD_S, LIFETIME_S, Database, SignIns
+from mrlab_ros.gateway.people.sign_ins import (
+    DEVICE_LIFETIME_S,
+    FILE,
+    FOLLOW_PERIOD_S,
+    LIFETIME_S,
+    TOKEN_PREFIX,
+    Database,
+    SignIns,
+    new_token,
+)
 from mrlab_ros.gateway.settings import Settings, is_loopback
 
 SIGN_INS_BY_ADDRESS = Limit("sign_ins_by_address", 60, 2.0)
@@ -60,7 +69,8 @@ class People:
         """Return who is signed in, None where nobody is."""
         if self._open:
             return Person(LOCAL, Role.INSTRUCTOR)
-        secret = self.secret(connection.headers.get("cookie", ""))
+        token = token_of(connection.headers.get("authorization", ""))
+        secret = token or self.secret(connection.headers.get("cookie", ""))
         return self.sign_ins.person(secret, self.clock()) if secret else None
 
     def secret(self, cookies: str) -> str:
@@ -69,7 +79,8 @@ class People:
             found = SimpleCookie(cookies).get(self.cookie)
         except CookieError:
             return ""
-        return found.value if found is not None else ""
+        # A token is a program's: its requests bring no CSRF token.
+        return "" if found is None or found.value.startswith(TOKEN_PREFIX) else found.value
 
     def csrf_matches(self, token: str, cookies: str) -> bool:
         """Return whether a CSRF token is the one for a Cookie header."""
@@ -100,6 +111,26 @@ class People:
         )
         return self.sign_ins.csrf(secret)
 
+    def program(
+        self,
+        name: str,
+        role: Role,
+        program: str,
+        *,
+        let_in_by: str = "",
+        lifetime: float = DEVICE_LIFETIME_S,
+    ) -> str:
+        """Sign a program in; return its token, which is told once."""
+        return self.sign_ins.begin(
+            name,
+            role,
+            self.clock(),
+            device=program,
+            let_in_by=let_in_by,
+            lifetime=lifetime,
+            secret=new_token(),
+        )
+
     def sign_out(self, response: Response, person: Person | None) -> None:
         """End the sign-in of a request, and its cookie."""
         if person is not None:
@@ -113,6 +144,14 @@ class People:
         while True:
             await asyncio.sleep(FOLLOW_PERIOD_S)
             self.sign_ins.check(self.clock())
+
+
+def token_of(authorization: str) -> str:
+    """Return the token in a header Authorization; empty: there is none of a program."""
+    scheme, _, token = authorization.partition(" ")
+    token = token.strip()
+    known = scheme.lower() == "bearer" and token.startswith(TOKEN_PREFIX)
+    return token if known else ""
 
 
 def people_of(connection: HTTPConnection) -> People:

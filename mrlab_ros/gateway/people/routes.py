@@ -10,14 +10,17 @@ import io
 import segno
 from fastapi import APIRouter, Request, Response
 
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.access import Policy, Verb
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.gateway.errors import NotAllowed, NotFound, NotSignedIn
 from mrlab_ros.gateway.people import answers
 from mrlab_ros.gateway.people.accounts import INVITATION_LIFETIME_S
 from mrlab_ros.gateway.people.diagnostics import (
+    DEVICE_LETS_IN,
     NO_DEVICE,
     ONE_LOCAL_USER,
+    PAIRED_ROLE_TOO_HIGH,
     WITH_KEYS,
     WRONG_PASSWORD,
 )
@@ -25,6 +28,7 @@ from mrlab_ros.gateway.people.people import People, ThePeople, address_of
 from mrlab_ros.gateway.people.person import CurrentPerson, KnownPerson, Person
 
 router = APIRouter(prefix="/api", tags=["people"])
+DAY_S = 24 * 3600.0
 
 
 @router.get("/session")
@@ -145,6 +149,20 @@ def list_devices(people: ThePeople, person: CurrentPerson) -> answers.Devices:
             for each in found
         ]
     )
+
+
+@router.post("/tokens", status_code=201)
+def make_token(people: ThePeople, person: CurrentPerson, body: answers.NewToken) -> answers.Token:
+    """Let a program act for the person who asks, in a role that the person has."""
+    if person.paired:
+        raise NotAllowed(DEVICE_LETS_IN())
+    if not person.role.may(body.role):
+        own = person.role.value
+        raise BadInput(PAIRED_ROLE_TOO_HIGH(person=person.name, role=own, wanted=body.role.value))
+    token = people.program(
+        person.name, body.role, body.program, let_in_by=person.sign_in, lifetime=body.days * DAY_S
+    )
+    return answers.Token(token=token)
 
 
 @router.delete("/devices/{sign_in}", status_code=204)

@@ -56,6 +56,15 @@ def new_secret() -> str:
     return secrets.token_urlsafe(32)
 
 
+# What the token of a program begins with, so that scanners for secrets know it; no cookie does.
+TOKEN_PREFIX = "mrlab_"
+
+
+def new_token() -> str:
+    """Return a random text for a program, which sends it in the header Authorization."""
+    return TOKEN_PREFIX + new_secret()
+
+
 def digest(secret: str) -> bytes:
     """Return what is stored of a secret. It is random, so a fast hash is enough."""
     return hashlib.sha256(secret.encode(errors="replace")).digest()
@@ -168,12 +177,14 @@ class SignIns:
         device: str = "",
         let_in_by: str = "",
         lifetime: float = LIFETIME_S,
+        secret: str = "",
     ) -> str:
         """Sign somebody in; return the secret for the cookie.
 
-        device: name of a paired device. let_in_by: id of the sign-in that let it in.
+        device: name of a paired device or a program. let_in_by: id of the sign-in that let it in.
+        secret: a program's token.
         """
-        secret = new_secret()
+        secret = secret or new_secret()
         row = (
             secrets.token_hex(8), digest(secret), name, role.value, device, now, now,
             now + lifetime, let_in_by,

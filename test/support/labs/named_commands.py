@@ -118,6 +118,7 @@ keys gateway
 keys config
 users add teacher --role instructor
 users add anna ben carla --role student
+users token anna --program matlab --role student --days 30
 users list
 users role anna operator
 users invite ben

@@ -93,9 +93,8 @@ def test_a_headset_is_paired_by_a_phone(class_lab: Gateway) -> None:
     assert headset.get(asked).json()["state"] == "waiting"
     body = {"code": shown_there["code"], "role": "student"}
     approved = phone.send("POST", "/api/pairings/approve", json=body)
-    assert approved.json() == {
-        "state": "approved", "user": {"id": "anna", "name": "Quest 3", "role": "student"},
-    }  # fmt: skip
+    user = {"id": "anna", "name": "Quest 3", "role": "student"}
+    assert approved.json() == {"state": "approved", "user": user, "token": ""}
     assert headset.get(asked).json()["state"] == "approved"
     assert headset.user == {"id": "anna", "name": "anna", "role": "student"}
     devices = phone.get("/api/devices").json()["devices"]

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import re
+from typing import Any
 
+import httpx
 import pytest
+from fastapi.testclient import TestClient
 from gateway_side import PASSWORD, Gateway, code_of
 
 from mrlab_ros.core.bridge.rules import Role
@@ -169,3 +172,66 @@ def test_a_copy_of_the_file_holds_no_secret(class_lab: Gateway) -> None:
     assert b"anna" in stored
     assert not any(each.encode() in stored for each in (str(cookie.value), link, PASSWORD))
     assert class_lab.people.database.path.stat().st_mode & 0o077 == 0
+
+
+def asked(
+    class_lab: Gateway, method: str, path: str, token: str, **options: Any
+) -> httpx.Response:
+    """Ask as a program does: without Origin, cookie and CSRF token."""
+    headers = {"authorization": f"Bearer {token}"}
+    http = TestClient(class_lab.app, base_url=class_lab.url)
+    return http.request(method, path, headers=headers, **options)
+
+
+def test_a_program_acts_for_a_person_until_it_is_ended(class_lab: Gateway) -> None:
+    anna = class_lab.browser("anna", Role.OPERATOR)
+    body = {"program": "matlab", "role": "student", "days": 1}
+    token = anna.send("POST", "/api/tokens", json=body).json()["token"]
+    session = asked(class_lab, "GET", "/api/session", token).json()
+    assert session["user"] == {"id": "anna", "name": "anna", "role": "student"}
+    (row,) = [
+        each for each in anna.get("/api/devices").json()["devices"] if each["name"] == "matlab"
+    ]
+    # It lets nobody in, changes what it may without an Origin, and is no cookie.
+    refused = asked(class_lab, "POST", "/api/tokens", token, json=body)
+    assert code_of(refused) == (403, "device_lets_in")
+    as_cookie = {"cookie": f"{class_lab.people.cookie}={token}"}
+    assert class_lab.anyone.get("/api/session", headers=as_cookie).json()["user"] is None
+    ended = asked(class_lab, "DELETE", f"/api/devices/{row['id']}", token)
+    assert ended.status_code == 204
+    assert asked(class_lab, "GET", "/api/session", token).json()["user"] is None
+
+
+def test_a_token_is_no_more_than_its_person_and_expires(class_lab: Gateway) -> None:
+    anna = class_lab.browser("anna")
+    body = {"program": "matlab", "role": "instructor"}
+    answer = anna.send("POST", "/api/tokens", json=body)
+    assert code_of(answer) == (400, "paired_role_too_high")
+    body |= {"role": "student", "days": 1}
+    token = anna.send("POST", "/api/tokens", json=body).json()["token"]
+    class_lab.clock.now += 2 * 24 * 3600
+    assert asked(class_lab, "GET", "/api/session", token).json()["user"] is None
+
+
+def test_a_program_is_let_in_by_the_code_that_it_shows(class_lab: Gateway) -> None:
+    anna = class_lab.browser("anna")
+    program = TestClient(class_lab.app, base_url=class_lab.url)
+    begun = program.post("/api/pairings", json={"device": "matlab", "program": True}).json()
+    path = f"/api/pairings/{begun['secret']}"
+    assert program.get(path).json()["token"] == ""
+    body = {"code": begun["code"], "role": "student"}
+    anna.send("POST", "/api/pairings/approve", json=body)
+    token = program.get(path).json()["token"]
+    assert not program.cookies
+    user = asked(class_lab, "GET", "/api/session", token).json()["user"]
+    assert (user["id"], user["role"]) == ("anna", "student")
+
+
+def test_the_local_user_lets_a_program_in(local_lab: Gateway) -> None:
+    program = TestClient(local_lab.app, base_url=local_lab.url)
+    begun = program.post("/api/pairings", json={"program": True}).json()
+    body = {"code": begun["code"], "role": "operator"}
+    assert local_lab.local().send("POST", "/api/pairings/approve", json=body).status_code == 200
+    token = program.get(f"/api/pairings/{begun['secret']}").json()["token"]
+    user = asked(local_lab, "GET", "/api/session", token).json()["user"]
+    assert user == {"id": "local", "name": "local", "role": "operator"}
