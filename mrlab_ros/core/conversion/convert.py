@@ -300,6 +300,7 @@ def _checked(
     notes += questions.asked(workspace, variable, survey.name(variable), robot, options)
     layout = lay_out(chosen, survey, options, notes)
     layout, rate = _at_a_rate(survey, chosen, layout, options, default_frame_rate, file, notes)
+    notes += questions.unread(survey, variable, rate, options, notes)
     notes += _against_robot(layout, rate, variable.path, robot, notes)
     notes += kinematics_match.findings(workspace, robot)
     found.notes = notes = found.said(dimensions.with_lines(notes, squeezed))

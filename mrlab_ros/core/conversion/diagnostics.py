@@ -463,6 +463,11 @@ LITTLE_IN_DEGREES = Code(
 LIKE_PERCENT = Code(
     "like_percent", "it runs from 0 to 100 in several columns, as percent do", severity=INFO
 )
+UNIT_STATED = Code(
+    "unit_stated",
+    "'{source}' says that it is in {stated:choice " + ANGLES + "}",
+    severity=INFO,
+)
 SMALL_FOR_DEGREES = Code(
     "small_for_degrees",
     "its unit in the file is {stated:choice " + ANGLES + "}, and it reaches {largest:number}, "
@@ -720,6 +725,15 @@ UNUSED_BESIDE = Code(
     "If they are offsets, signs or factors of the joints, apply them and save the result as q.",
     severity=WARNING,
     meaning="Numbers beside a matrix were not used, such as offsets, signs or factors.",
+    fixes=(("", "", "plot({name:matlab})"),),
+)
+TEXT_UNREAD = Code(
+    "text_unread",
+    "'{source}' says '{words}', and {unread:list} was not understood: '{variable}' was taken as "
+    "it is.",
+    "If it changes how the numbers are meant, apply it and save the result as q.",
+    severity=WARNING,
+    meaning="A text beside a matrix says something that was not understood.",
     fixes=(("", "", "plot({name:matlab})"),),
 )
 NO_MOTION = Code(

@@ -19,13 +19,12 @@ from mrlab_ros.core.conversion.diagnostics import (
     RATE_DEFAULT,
     RATE_FOUND,
     RATE_OF_VELOCITY,
-    RATE_UNCLEAR,
     TIME_UNIT,
 )
 from mrlab_ros.core.conversion.evidence import rate_scalars
 from mrlab_ros.core.conversion.evidence.assessment import Assessment
 from mrlab_ros.core.conversion.evidence.joining import first_path
-from mrlab_ros.core.conversion.evidence.names import Hint, hint, leaf, parts, words
+from mrlab_ros.core.conversion.evidence.names import Hint, describe, hint, leaf, parts, words
 from mrlab_ros.core.conversion.evidence.rate_scalars import Scalar
 from mrlab_ros.core.conversion.evidence.survey import Survey
 from mrlab_ros.core.conversion.evidence.time_vectors import (
@@ -46,8 +45,8 @@ RELATED = words(
     "trajectory trajektorie robot roboter record recording rec result results messung joint "
     "joints arm ref reference state states"
 )
+OF_MOTION = ("velocities", "joint_velocities", "angular_velocities", "pixels")
 AGREES_WITH_MOTION = 0.05  # the same for a rate from a velocity
-MOST_NAMED = 5
 
 
 @dataclass
@@ -95,6 +94,7 @@ def find(
     workspace = survey.workspace
     coarse = chosen is not None and chosen.coarse
     motion = chosen.rates if chosen is not None else ()
+    motion = tuple((p, r) for p, r in motion if describe(p).what in ("", *OF_MOTION))
     if not coarse:
         # velocities a row, as jtraj gives them without times, say nothing of a second
         motion = tuple((p, r) for p, r in motion if abs(r - 1) > AGREES_WITH_MOTION)
@@ -140,25 +140,8 @@ def find(
     if by_text is not None:
         notes.append(rate_findings.assumed(by_text.path, by_text.rate, default))
         return Rate(by_text.rate, None, notes)
-    joints = len(survey.robot.joints)
-    if not unsure and not notes:
-        # a time that is in the file is never ignored
-        unsure = rate_scalars.unread(workspace, path, rows, joints)
     if unsure:
-        notes.append(
-            RATE_UNCLEAR(
-                variable=unsure[0].path,
-                value=default,
-                unit="Hz",
-                found=[s.path for s in unsure[:MOST_NAMED]],
-                rate=default,
-                fixes=tuple(
-                    rate_findings.rate_fix(r)
-                    for r in dict.fromkeys([default, *(s.rate for s in unsure)])
-                    if r
-                ),
-            )
-        )
+        notes.append(rate_findings.unclear([(s.path, s.rate) for s in unsure], default))
     elif (
         unused := rate_findings.unused_times(workspace, path, rows, clocks, default)
     ) is not None:

@@ -26,13 +26,16 @@ from mrlab_ros.core.conversion.diagnostics import (
     UNIT_MIXED,
     UNIT_OF_NAME,
     UNIT_REACHES,
+    UNIT_STATED,
     UNIT_UNREAD,
     UNITS_APPLIED,
     UNWRAP_APPLIED,
 )
 from mrlab_ros.core.conversion.evidence import statements
 from mrlab_ros.core.conversion.evidence import unit_range as units
+from mrlab_ros.core.conversion.evidence import units as spellings
 from mrlab_ros.core.conversion.evidence.assessment import Assessment
+from mrlab_ros.core.conversion.evidence.headings import BRACKETS
 from mrlab_ros.core.conversion.evidence.joining import first_path
 from mrlab_ros.core.conversion.evidence.labels import said_by_units
 from mrlab_ros.core.conversion.evidence.statements import Statement, UnitClaim
@@ -61,6 +64,7 @@ def in_radians(
         notes.append(UNITS_APPLIED(variable=path, taken="mm"))
     elif unit:
         notes += _as_asked(arm, unit, factor, assessment, notes)
+        notes += _stated_otherwise(unit, assessment, said)
         arm *= factor
     else:
         factor = _stated_factor(assessment, said, notes) or 1.0
@@ -95,6 +99,17 @@ def _as_asked(
     return [*found, UNITS_APPLIED(variable=path, taken=unit, counts=counts)]
 
 
+def _stated_otherwise(
+    unit: str, assessment: Assessment, said: list[Statement]
+) -> list[Diagnostic]:
+    """Return the warning of a unit that a person named and the file contradicts."""
+    others = [c for c in unit_claims(assessment, said) if c.unit.name != unit]
+    return [
+        _doubtful(assessment.path, UNIT_STATED(source=c.source, stated=c.unit.name))
+        for c in others[:1]
+    ]
+
+
 def unit_claims(assessment: Assessment, said: list[Statement]) -> list[UnitClaim]:
     """Return the units that the file states for a matrix: columns, texts beside it, its name."""
     path, name = assessment.path, assessment.name.unit
@@ -118,7 +133,8 @@ def _stated_factor(
     claims = unit_claims(assessment, said)
     if not claims:
         unread = statements.unread_units(said, first_path(path))
-        notes += [UNIT_UNREAD(variable=path, source=s.path, words=s.text) for s in unread[:1]]
+        found = [(s.path, s.text) for s in unread] + _unread_in_headings(assessment)
+        notes += [UNIT_UNREAD(variable=path, source=s, words=text) for s, text in found[:1]]
         return None
     first, *others = claims
     if others:
@@ -140,11 +156,21 @@ def _stated_factor(
             )
         return float(2 * np.pi / counts)
     by_name = first.source == path and said_by_units(assessment.variable.units).unit is None
-    if by_name and first.unit.name == "deg":
-        return None
-    if by_name and first.unit.factor != 1.0:
+    if by_name and first.unit.factor != 1.0 and first.unit != spellings.DEGREES:
         raise BadInput(UNIT_OF_NAME(variable=path, stated=first.unit.name))
     return first.unit.factor
+
+
+def _unread_in_headings(assessment: Assessment) -> list[tuple[str, str]]:
+    """Return the headings of a matrix with a unit in brackets that is none of angles."""
+    found = []
+    for heading in assessment.variable.columns:
+        match = BRACKETS.search(heading)
+        unit = spellings.parse(match[1]) if match else None
+        known = unit is not None and (unit.is_angle or unit.quantity in ("none", spellings.TIMES))
+        if match and match.start() and not match[1].isdigit() and not known:
+            found.append((heading, match[1]))
+    return found
 
 
 def _refuse_other_units(
@@ -202,6 +228,9 @@ def _converted(
     claim = unit_claims(assessment, said)[0]
     source = claim.source if claim.source != path else None
     found = [CONVERTED_UNIT(variable=path, stated=claim.unit.name, source=source)]
+    few = _spanning_little(arm / factor) if claim.unit == spellings.DEGREES else []
+    if few:
+        found.append(_doubtful(path, LITTLE_IN_DEGREES(columns=columns_text(few))))
     largest = float(np.abs(arm).max()) / factor
     if largest <= units.LEAST_DEGREES and claim.unit.name != "turn":
         found.append(_doubtful(path, SMALL_FOR_DEGREES(largest=largest, stated=claim.unit.name)))

@@ -2,28 +2,41 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, Severity
+from mrlab_ros.core.conversion import rate_findings
 from mrlab_ros.core.conversion.diagnostics import (
     MOTOR_SIDE,
     NAMES_OTHER,
     ORDER_STATED,
     ORDER_UNCLEAR,
     ROBOT_STATED,
+    TEXT_UNREAD,
     UNUSED_BESIDE,
 )
-from mrlab_ros.core.conversion.evidence import beside, statements
+from mrlab_ros.core.conversion.evidence import beside, joining, ledger, statements
 from mrlab_ros.core.conversion.evidence.joining import first_path
-from mrlab_ros.core.conversion.evidence.names import Name, described, leaf
+from mrlab_ros.core.conversion.evidence.ledger import About, Claim, End, Ledger, Standing
+from mrlab_ros.core.conversion.evidence.names import Name
 from mrlab_ros.core.conversion.evidence.statements import Statement
+from mrlab_ros.core.conversion.evidence.survey import Survey
 from mrlab_ros.core.conversion.explain import saving
 from mrlab_ros.core.conversion.options import Options, columns_text
 from mrlab_ros.core.conversion.workspace import Variable, Workspace, shortened
 from mrlab_ros.core.robots.model import RobotModel
 
 MOST_CLAIMS = 3
+CLAIMED_BY = {
+    "order_stated": About.ORDER, "order_unclear": About.ORDER, "names_other": About.ORDER,
+    "robot_stated": About.ROBOT, "motor_side": About.MOTOR, "unit_unread": About.UNIT,
+}  # fmt: skip
+# a rate that is doubted already
+RATE_WARNED = frozenset((
+    "rate_unclear", "rate_unused", "rate_conflict", "time_length", "time_counts_rows",
+))  # fmt: skip
 # the questions whose fixes are answers of a person: what is asked about is taken all the same
 ANSWERS = frozenset(("question", "ambiguous", "names_other", "robot_stated", "motor_side"))
 
@@ -42,24 +55,96 @@ def asked(
     found = [*_robots(workspace, variable, robot), *_motors(said, variable, name, joints)]
     if not options.columns:
         found += _orders(said, variable, robot)
-    vectors = beside.unused_vectors(said, joints)
-    if vectors:
-        unread = [w.text for v in vectors for w in described(leaf(v.path)) if w.unread]
-        found.append(
-            UNUSED_BESIDE(
-                variable=variable.path,
-                found=shortened([v.path for v in vectors]),
-                count="one" if len(vectors) == 1 else "more",
-                unread=shortened([f"'{word}'" for word in dict.fromkeys(unread)]),
-            )
-        )
-    numbers = beside.factors(said)
-    if numbers:
-        named = shortened([v.path for v in numbers])
-        found.append(UNUSED_BESIDE(variable=variable.path, found=named, count="factor", unread=[]))
     if options.variable:
         return [_answered(d) for d in found]
     return found
+
+
+def unread(
+    survey: Survey, variable: Variable, rate: float, options: Options, notes: list[Diagnostic]
+) -> list[Diagnostic]:
+    """Return the warnings of what stands in the file and no claim explains.
+
+    rate: Hz, that was taken. notes: what is said already.
+    """
+    if variable.is_message or variable.values is None or len(variable.shape) != 2:
+        return []
+    claims = claimed(survey, variable, rate, options, notes)
+    told = {text for note in notes for text in _texts(note)}
+    told.update(joining.sources(variable.path, options.join))
+    robot = survey.robot
+    size = (variable.shape[0], len(robot.joints))
+    names = f"{robot.id} {robot.product} {robot.manufacturer}"
+    found = ledger.read(survey.workspace, variable.path, size, claims, told, names)
+    return [*_times(found, claims, options, notes), *_beside(found, variable.path)]
+
+
+def claimed(
+    survey: Survey, variable: Variable, rate: float, options: Options, notes: list[Diagnostic]
+) -> list[Claim]:
+    """Return the claims that a reading of a matrix rests on, with where the file makes them."""
+    name = survey.name(variable)
+    stated = Standing.STATED if name.hint.of_joints else Standing.INFERRED
+    found = [Claim(About.QUANTITY, "positions", stated, variable.path)]
+    said = statements.about(survey.workspace, first_path(variable.path))
+    units = statements.unit_claims(said, first_path(variable.path))
+    found += [Claim(About.UNIT, c.unit.name, Standing.STATED, c.source) for c in units]
+    codes = {n.code: n for n in notes}
+    by = codes.get("rate_found") or codes.get("rate_assumed") or codes.get("rate_of_velocity")
+    standing = Standing.ASSUMED if "rate_default" in codes else Standing.STATED
+    found.append(Claim(About.RATE, repr(rate), standing, by.variable if by else ""))
+    for code, about in CLAIMED_BY.items():
+        if code in codes:
+            found.append(Claim(about, code, Standing.STATED, str(codes[code].values["source"])))
+    return found
+
+
+def _texts(note: Diagnostic) -> Iterator[str]:
+    for value in note.values.values():
+        if isinstance(value, str):
+            yield value
+        elif isinstance(value, (list, tuple)):
+            yield from (v for v in value if isinstance(v, str))
+
+
+def _times(
+    found: Ledger, claims: list[Claim], options: Options, notes: list[Diagnostic]
+) -> list[Diagnostic]:
+    """Return what is said of times that nothing explains, or that contradict the rate."""
+    times = found.unread(End.TIME)
+    if not times or options.frame_rate or any(n.code in RATE_WARNED for n in notes):
+        return []
+    rate = next(c for c in claims if c.about is About.RATE)
+    if rate.standing is Standing.ASSUMED:
+        return [rate_findings.unclear([(e.path, e.rate) for e in times], float(rate.value))]
+    others = [e for e in times if e.rate]
+    return [
+        rate_findings.conflict(rate.source, float(rate.value), e.path, e.rate) for e in others[:1]
+    ]
+
+
+def _beside(found: Ledger, path: str) -> list[Diagnostic]:
+    """Return what is said of numbers and texts beside a matrix that nothing explains."""
+    notes = []
+    for end in (End.PER_JOINT, End.FACTOR):
+        entries = found.unread(end)
+        if not entries:
+            continue
+        count = "one" if len(entries) == 1 else "more"
+        unread = dict.fromkeys(w for e in entries for w in e.words)
+        notes.append(
+            UNUSED_BESIDE(
+                variable=path,
+                found=shortened([e.path for e in entries]),
+                count="factor" if end is End.FACTOR else count,
+                unread=shortened([f"'{word}'" for word in unread]),
+            )
+        )
+    for e in found.unread(End.TEXT)[:MOST_CLAIMS]:
+        words = e.variable.text.strip()[:80]
+        listed = shortened([f"'{word}'" for word in e.words])
+        notes.append(TEXT_UNREAD(variable=path, source=e.path, words=words, unread=listed))
+    return notes
 
 
 def _answered(found: Diagnostic) -> Diagnostic:

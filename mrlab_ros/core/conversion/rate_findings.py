@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,7 @@ from mrlab_ros.core.conversion.diagnostics import (
     NO_TIMES_OF_ROWS,
     RATE_ASSUMED,
     RATE_CONFLICT,
+    RATE_UNCLEAR,
     RATE_UNUSED,
     TIME_BACKWARD,
     TIME_COUNTS_ROWS,
@@ -41,6 +43,7 @@ from mrlab_ros.core.conversion.workspace import Variable, Workspace
 
 COARSE_SINGLE = 1e5  # above it, single precision is no clock of a robot
 CONTAINERS = ("table", "timetable", "timeseries", "containers.Map", "dictionary")
+MOST_NAMED = 5
 AGREES = 0.01  # relative; rates that differ by less are the same
 
 
@@ -132,6 +135,18 @@ def assumed(source: str, rate: float, default: float | None) -> Diagnostic:
     if default is not None and abs(default - rate) > AGREES * rate:
         fixes.append(rate_fix(default))
     return RATE_ASSUMED(variable=source, value=rate, unit="Hz", rate=rate, fixes=tuple(fixes))
+
+
+def unclear(found: Sequence[tuple[str, float]], default: float) -> Diagnostic:
+    """Return what to say of variables that may say the rate, with the rates, Hz, that follow."""
+    return RATE_UNCLEAR(
+        variable=found[0][0],
+        value=default,
+        unit="Hz",
+        found=[path for path, _ in found[:MOST_NAMED]],
+        rate=default,
+        fixes=tuple(rate_fix(r) for r in dict.fromkeys([default, *(r for _, r in found)]) if r),
+    )
 
 
 def counting(clock: Clock, default: float) -> Diagnostic:

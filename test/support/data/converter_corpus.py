@@ -372,14 +372,22 @@ def units() -> Iterator[File]:
         q = move(robot, seed=110 + i)
         degrees = np.degrees(q)
         yield File(f"degrees_{robot}", robot, mat(q=degrees), ".mat", REFUSE)
-        yield File(f"degrees_named_{robot}", robot, mat(q_deg=degrees), ".mat", REFUSE)
+        yield File(f"degrees_named_{robot}", robot, mat(q_deg=degrees), ".mat", ACCEPT, 0, q)
         yield File(f"centidegrees_{robot}", robot, mat(q=np.round(degrees * 100)), ".mat", REFUSE)
         yield File(f"millidegrees_{robot}", robot, mat(q=np.round(degrees * 1000)), ".mat", REFUSE)
         counts = np.round(q / (2 * np.pi) * 65536)
         yield File(f"counts_{robot}", robot, mat(enc=counts, q=counts), ".mat", REFUSE)
         yield File(f"transposed_{robot}", robot, mat(q=q.T), ".mat", REFUSE)
     small = 4 * np.sin(np.linspace(0, 6, 300))[:, None] * np.linspace(0.2, 1, 6)
-    yield File("degrees_small_named", "ur5e", mat(theta_deg=small), ".mat", REFUSE)
+    yield File(
+        "degrees_small_named",
+        "ur5e",
+        mat(theta_deg=small),
+        ".mat",
+        NOT_SILENT,
+        0,
+        np.radians(small),
+    )
 
 
 def rates() -> Iterator[File]:

@@ -136,6 +136,7 @@ def honest(robot: str) -> Iterator[Case]:
     yield case("meta_rad", mat(q=q, meta={"unit": "rad", "fs": 50.0, "author": "M. Muster"}))
     yield case("meta_robot", mat(q=q, fs=50.0, robot=model(robot).product))
     yield case("order_same", mat(q=q, fs=50.0, joint_order=np.arange(1.0, 7.0)))
+    yield case("described", mat(q=q, fs=50.0, description="pick and place of the robot arm"))
     yield case("names_same", mat(q=q, fs=50.0, joint_names=names_of(*model(robot).joint_names)))
     yield case(
         "names_numbered", mat(q=q, fs=50.0, labels=names_of(*(f"q{i}" for i in range(1, 7))))
@@ -238,6 +239,18 @@ def misleading(robot: str) -> Iterator[Case]:
     yield case("motor_gear", mat(q=s, fs=50.0, gear_ratio=np.array([100.0] * 6)), "gear motor")
     for name, number in {"scale": 0.001, "q_factor": 57.3, "scaling": 2.0}.items():
         yield case(f"factor_{name}", mat(q=s, fs=50.0, **{name: number}), "factor")
+    for name, number in {"units_per_rad": 100.0, "q_gain": 0.5, "conv": 57.3}.items():
+        yield case(f"beside_{name}", mat(q=s, fs=50.0, **{name: number}), "factor")
+    for key, words in {
+        "note": "mirrored arm, left is right", "remarks": "raw encoder counts",
+        "readme": "axes inverted", "comment": "scaled by 0.5", "info": "values relative to home",
+    }.items():  # fmt: skip
+        yield case(f"text_{key}", mat(q=s, fs=50.0, **{key: words}), words)
+    for unit in ("steps", "%", "a.u."):
+        headings = ",".join(f"q{i} [{unit}]" for i in range(1, 7))
+        yield case(f"heading_{unit}", csv(headings, s), "unit percent", suffix=".csv")
+    for name in ("log_q", "exp_q", "q_current", "q_unit"):
+        yield case(name, mat(**{name: s, "fs": 50.0}), "understood current")
     yield case("robot_series", mat(q=q, fs=50.0, model="iiwa14"), "robot")
     rng = np.random.default_rng(5)
     low = np.array([j.lower for j in model(robot).joints])
@@ -253,10 +266,13 @@ def misleading(robot: str) -> Iterator[Case]:
         "temps": np.arange(400.0) / 50, "zz": np.arange(400.0) / 50, "marcas": np.cumsum(
             rng.uniform(0.01, 0.03, 400)), "info": "recorded at 50 Hz", "note": "dt = 20 ms",
         "tvec": np.arange(200.0) / 50, "stamp": np.arange(401.0) / 50,
+        "n_per_s": 50.0, "tau_s": 0.02, "speed_hz": 50.0, "logging_rate": 50.0,
+        "x_axis": np.arange(400.0) / 50, "remarque": "une mesure toutes les 20 ms",
+        "force": np.column_stack([np.arange(400.0) / 50, v[:, :3]]),
         "hz": 50.0, "freqEch": 50.0, "seconds": 7.98, "duree_totale": 7.98, "meta": {"Te": 0.02},
     }.items():  # fmt: skip
         word = name.lower() if name != "meta" else "te"
-        value = value.reshape(-1, 1) if isinstance(value, np.ndarray) else value
+        value = value.reshape(len(value), -1) if isinstance(value, np.ndarray) else value
         yield case(f"rate_{name}", mat(q=q, **{name: value}), word, q, 50.0)
     base = np.column_stack([np.linspace(0, 0.4, rows), 0.2 * q[:, :2], q])[
         :, [0, 1, 2, 3, 4, 5, 6, 7]

@@ -3477,6 +3477,10 @@ export const diagnostics: Templates = {
   text_no_json: ['Ein Textpaket ist kein JSON-Objekt[: {why:problem}].'],
   text_not_read: ['Es gibt auch einen Online-Text; er wird nicht gelesen.'],
   text_or_texts: ['ein Text oder eine Liste von Texten[, jeder {item:problem}]'],
+  text_unread: [
+    "'{source}' sagt '{words}', und {unread:list} ist unbekannt: '{variable}' wurde so genommen, wie sie ist.",
+    'Ändert es die Bedeutung der Zahlen, wende es an und speichere das Ergebnis als q.',
+  ],
   thing_not_in_scene: [
     "In der Szene heißt nichts '{thing}'; vorhanden: {known:list}.",
     '[Meinst du {close}?]',
@@ -3669,6 +3673,9 @@ export const diagnostics: Templates = {
   unit_of_name: [
     "'{variable}' heißt nach der Einheit {stated:choice rad=Radiant|deg=Grad|mrad=Milliradiant|urad=Mikroradiant|gon=Gon|turn=Umdrehungen|halfturn=halbe Umdrehungen|cdeg=Hundertstel Grad|mdeg=Tausendstel Grad|arcmin=Bogenminuten|arcsec=Bogensekunden|counts=Zählschritte|%=Prozent|normalized=Anteile eines Bereichs|mm=mm}; erwartet werden Radiant.",
     'Rechne die Werte in Radiant um, oder bestätige die Einheit, indem du sie nennst.',
+  ],
+  unit_stated: [
+    "'{source}' nennt die Einheit {stated:choice rad=Radiant|deg=Grad|mrad=Milliradiant|urad=Mikroradiant|gon=Gon|turn=Umdrehungen|halfturn=halbe Umdrehungen|cdeg=Hundertstel Grad|mdeg=Tausendstel Grad|arcmin=Bogenminuten|arcsec=Bogensekunden|counts=Zählschritte|%=Prozent|normalized=Anteile eines Bereichs|mm=mm}",
   ],
   unit_unread: [
     "'{source}' nennt für '{variable}' '{words}', und das ist keine bekannte Einheit von Winkeln; die Werte wurden als Radiant gelesen.",

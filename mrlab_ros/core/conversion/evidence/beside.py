@@ -11,8 +11,8 @@ import numpy as np
 
 from mrlab_ros.core.conversion.evidence.glossary import ROBOTS, Class
 from mrlab_ros.core.conversion.evidence.names import described, leaf, spelled
-from mrlab_ros.core.conversion.evidence.statements import ELEMENT, OURS, Statement
-from mrlab_ros.core.conversion.workspace import Variable, Workspace
+from mrlab_ros.core.conversion.evidence.statements import Statement
+from mrlab_ros.core.conversion.workspace import Workspace
 from mrlab_ros.core.robots.model import RobotModel
 
 SPLIT = re.compile(r"[\n;,|]+|\s{1,}(?=\D)")
@@ -187,37 +187,3 @@ def gears(said: list[Statement], joints: int) -> Statement | None:
         if np.isfinite(numbers).all() and float(numbers.max()) > 1:
             return s
     return None
-
-
-def factors(said: list[Statement]) -> list[Variable]:
-    """Return numbers other than 1 that are called a factor, of nothing else than the joints."""
-    return [
-        s.variable
-        for s in said
-        if s.near <= 2
-        and s.variable.values is not None
-        and s.variable.values.size == 1
-        and float(s.variable.values.reshape(-1)[0]) not in (0.0, 1.0)
-        and s.names(Class.FACTOR)
-        and all(w.can_be(Class.FACTOR, *OURS) for w in s.words)
-    ]
-
-
-def unused_vectors(said: list[Statement], joints: int) -> list[Variable]:
-    """Return vectors of one number a joint whose names are not understood, such as q_offset."""
-    return [
-        s.variable
-        for s in said
-        if s.near <= 2
-        and s.variable.values is not None
-        and s.variable.values.size == joints
-        and joints > 1
-        and min(s.variable.shape) == 1
-        and np.isfinite(s.variable.values).all()
-        and s.variable.values.any()
-        and any(w.unread for w in s.words)
-        and not ELEMENT.search(leaf(s.path))
-        and not any(
-            w.can_be(Class.TABLE, Class.GEAR, Class.GRIPPER) or w.quantity for w in s.words
-        )
-    ]

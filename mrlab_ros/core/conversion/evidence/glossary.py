@@ -38,6 +38,7 @@ class Class(Enum):
     MOTOR = "motor"
     GRIPPER = "gripper"
     TABLE = "table"  # what a number beside the matrix may be: mass, seed, count
+    ADMIN = "admin"  # a text of this name is about the file, not about its numbers
     OTHER = "other"  # another quantity, by QUANTITIES
 
 
@@ -86,7 +87,8 @@ CLASSES = {
         desejada desejados desejadas atual atuais gemeten gewenst gewenste zmierzone zadane zadana
         zadany referans olculen istenen shiji qiwang cankao mokuhyou zadana mereni sollwert
         sollwerte istwert istwerte gewuenscht gewuenschte gemessen gemessene vorgabe start home
-        begin final end ende nominal planned plan geplant simulated sim simuliert simule simulado
+        begin final end ende nominal planned plan geplant gepland planificado pianificato planifie
+        track tracked simulated sim simuliert simule simulado
         simulata sensor encoder enc init initial следующий заданный измеренный заданные 期望 实际
         目标 測定 目標 expected in input output out new neu nouveau nueva best opt optimal nom
         action actions""",
@@ -94,7 +96,9 @@ CLASSES = {
         log logs logged data daten dat donnees datos dati dados dane veri shuju deta dados record
         records recorded recording rec aufnahme aufzeichnung aufgezeichnet history hist filtered
         filt filter smoothed smooth geglaettet gefiltert lisse filtre filtrado filtrato
-        interpolated interp interpoliert raw roh unwrapped sampled samples sample resampled mat
+        filtrados filtrada filtradas filtrati filtrata filtrate gefilterd filtree filtres filtrees
+        suavizado suavizada suavizados lisses interpolated interp interpoliert raw roh unwrapped
+        sampled samples sample resampled mat
         matrix matrices matriz matrice matriks list lista liste listen vec vector vectors vektor
         vektoren array arr table tabelle tabla tableau tab seq sequence sequenz sequence secuencia
         result results res resultat resultate ergebnis ergebnisse resultats resultados risultati
@@ -121,13 +125,13 @@ CLASSES = {
         misura medida mesure messeinheit miary""",
     Class.UNIT_FLAG: "is use uses used in are as flag",
     Class.CLOCK: """
-        t time times tout tvec timevector zeit zeiten tiempo tiempos temps tempo tempos tijd
+        t time times tout tvec timevector zeit zeiten tiempo tiempos temps tempo tempos tempi tijd
         tijden czas zaman sure shijian jikan cas время 时间 時間 시간 timestamp timestamps stamp
         stamps zeitstempel zeitpunkt zeitpunkte elapsed clock uhr datenum datetime tspan tick ticks
         ttraj tlog tsim tt tq ts instant instants horodatage""",
     Class.PERIOD: """
         dt ts te ta tm tc deltat tstep timestep dtime deltatime takt taktzeit takzeit zeitschritt
-        period periode periodo periodes step schritt interval intervall intervalle intervalo
+        period periode periodo periodes stap step schritt interval intervall intervalle intervalo
         intervallo cycle cycletime zyklus zykluszeit ciclo pas paso passo delta schrittweite
         tsample tcycle tabtast tastzeit zhouqi shuki okres krok""",
     Class.RATE: """
@@ -136,7 +140,8 @@ CLASSES = {
         czestotliwosc frekans frekvence cadence taux tasa tasso taxa fsample fsampling f sps""",
     Class.SAMPLING: """
         sample samples sampling samp abtast abtastung abtastungen abtastzeit abtastrate
-        abtastfrequenz abtastintervall abtastperiode echantillonnage echantillon muestreo muestra
+        abtastfrequenz abtastintervall abtastperiode echantillonnage echantillon echant
+        bemonstering bemonsterings logging muestreo muestra
         campionamento campione amostragem amostra control controller controle controllo loop
         update publish record recording frame frames per second capture acquisition servo
         regel regler ros probkowania ornekleme caiyang bild cycle sequence""",
@@ -151,6 +156,7 @@ CLASSES = {
         name names namen nom noms nombre nombres nome nomi nomes label labels heading headings
         header headers titles columns columnas colonnes beschriftung legend legende""",
     Class.FACTOR: """
+        per
         scale scaling factor factors faktor faktoren facteur facteurs fattore fator escala echelle
         skala skalierung massstab multiplier multiplikator scalefactor""",
     Class.GEAR: """
@@ -162,13 +168,21 @@ CLASSES = {
         schliessen greiferzustand greiferposition zange vacuum suction saugnapf sauger robotiq
         closed geschlossen pince prehenseur garra pinza pinca mano ventouse chwytak zhuazi
         jiazhua tutucu grijper захват 夹爪 グリッパー""",
+    Class.ADMIN: """
+        author authors autor autores auteur autore auteurs ersteller bearbeiter created creator
+        creation date datum datums fecha datas erstellt stand operator user benutzer student
+        studenten etudiant file filename datei dateiname fichier archivo bestand source quelle
+        lab labor course kurs institute institut university licence license lizenz host software
+        program programm script skript language sprache uuid topic path folder ordner url email
+        project projekt proyecto projet progetto projeto matlab toolbox toolversion title titel
+        version release place ort serial frame""",
     Class.TABLE: """
         mass masse masa massa weight gewicht payload traglast charge carga carico length laenge
         longueur largo lunghezza width breite height hoehe radius gain gains kp ki kd tol tolerance
         toleranz eps limit limits seed id version number anzahl nombre numero num n count counts
         dof dofs ndof nq nj joints joint gravity g temperature index trial year month day date
         serial size points steps iterations iter maxiter damping friction stiffness inertia alpha
-        beta gamma k score cost error success episode episodes port scale m l a d mu rho""",
+        beta gamma k score cost error success episode episodes port m l a d mu rho""",
 }
 
 # the quantities are those of diagnostics.QUANTITY
@@ -294,3 +308,26 @@ ROBOTS = {
     "wam barrett schunk lwa mitsubishi epson omron hanwha neuromeka indy7 rainbow flexiv rizon "
     "agilex piper",
 }
+
+# words of texts that say nothing of numbers; they do not explain a name
+_PROSE = """
+    a an and are as at be by for from has have i if in into is it its of on or our over per so
+    that the their then there these they this those to was we were while with without one two
+    three each every during before after up down pick place picking placing grasp grasping
+    welding painting pouring stacking demo lab test experiment exercise lesson course student
+    teacher class group task job work cell table box cube ball part object workpiece circle
+    line square cycle morning good bad ok yes no new old slow fast smooth simple made generated
+    created exported recorded written saved computed taken using used by matlab octave python
+    simulink simulation robotics toolbox ros rtde script function version program file der die
+    das ein eine einer eines im in am an auf aus bei mit ohne von vom zu zum zur und oder fuer
+    ist sind war wurde werden aufgenommen erzeugt erstellt gespeichert berechnet labor versuch
+    uebung aufgabe greifen ablegen schweissen teil wuerfel kreis gerade bewegung des dem den
+    alle le la les un une des du de d l en et ou pour avec sans sur dans par est sont tp essai
+    prise depose enregistre calcule genere toutes tous chaque el los las una unos y o con sin
+    por para del al es son ensayo prueba laboratorio tomar dejar grabado calculado generado
+    cada il lo gli uno e ed con senza per di del della dei delle prova registrato calcolato
+    generato ogni presa os as um uma com sem pelo pela dos das ensaio prova gravado calculado
+    gerado cada het een van met zonder voor en of door bij proef opgenomen berekend gegenereerd
+    elke
+    """
+PROSE = frozenset(_PROSE.split())

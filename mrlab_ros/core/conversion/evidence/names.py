@@ -98,6 +98,9 @@ CJK = re.compile(r"[\u3040-\u30ff\u3400-\u9fff\uac00-\ud7af]")
 FRONT = ("qdd", "ddq", "qd", "dq", "q", "th")
 GLUE = ("", "s", "es", "n", "en", "e")
 LEAST_PART = 3
+# two readings: a function before a symbol and a recording behind it, a motor's current or the
+# present positions behind one
+FUNCTIONS, ALSO_CURRENTS = ("log", "exp"), "current"
 
 
 def words(text: str) -> frozenset[str]:
@@ -366,6 +369,9 @@ def _said_by_words(found: list[Word]) -> Name:
     if other:
         return Name(Hint.AGAINST, other)
     unread = tuple(w.text for w in found if _is_unread(w, symbol))
+    if symbol and len(found) > 1:
+        unread += tuple(w.text for w in found[:1] if w.text in FUNCTIONS)
+        unread += tuple(w.text for w in found[-1:] if w.text == ALSO_CURRENTS)
     if symbol and found[-1].text == "rev" and len(found) > 1:
         return Name(Hint.DOUBTFUL, "turns_or_reversed")
     if jointed or angled:
@@ -387,7 +393,7 @@ def _is_unread(word: Word, symbol: bool) -> bool:
         return False
     known = (
         *HARMLESS, Class.SYMBOL, Class.JOINT, Class.ANGLE, Class.CONFIGURATION, Class.PLACE,
-        Class.MOTION, Class.UNIT_KEY, Class.NAMES, Class.SAMPLING, Class.MOTOR,
+        Class.MOTION, Class.NAMES, Class.SAMPLING, Class.MOTOR,
     )  # fmt: skip
     return not word.can_be(*known)
 

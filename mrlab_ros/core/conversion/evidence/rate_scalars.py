@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mrlab_ros.core.conversion.evidence import statements
 from mrlab_ros.core.conversion.evidence.glossary import Class
@@ -16,12 +14,11 @@ from mrlab_ros.core.conversion.evidence.names import described, leaf, parts, wor
 from mrlab_ros.core.conversion.evidence.time_vectors import (
     LEAST_RATE,
     MOST_RATE,
-    PATH_PARAMETERS,
     UNIT_WORDS,
     snapped,
     unit_named,
 )
-from mrlab_ros.core.conversion.workspace import Workspace, outer
+from mrlab_ros.core.conversion.workspace import Workspace
 
 RATE_NAMES = words(
     "fs framerate samplerate samplingrate samplefrequency samplingfrequency samplefreq hz fps "
@@ -51,7 +48,8 @@ OF_RATES = (
     Class.CLOCK, Class.PERIOD, Class.RATE, Class.SAMPLING, Class.KEPT, Class.ROLE, Class.ARM,
     Class.SYMBOL, Class.JOINT,
 )  # fmt: skip
-NO_TIMES = (Class.TABLE, Class.GEAR, Class.GRIPPER, Class.UNIT_FLAG)
+PER_SECOND = re.compile(r"(?i)[_ ]?per[_ ]?s(ec(ond)?)?$")
+SETTLED = (Class.TABLE, Class.GEAR, Class.GRIPPER, Class.UNIT_FLAG)
 OF_TIMES = (Class.CLOCK, Class.PERIOD, Class.RATE, Class.SAMPLING, Class.DURATION)
 IN_HERTZ = re.compile(r"(?P<number>\d+(?:[.,]\d+)?)\s*(?P<unit>k?hz)\b", re.I)
 IN_STEPS = re.compile(
@@ -59,7 +57,6 @@ IN_STEPS = re.compile(
     r"[^\d\n]{0,20}(?P<number>\d+(?:[.,]\d+)?)\s*(?P<unit>ms|us|s)\b",
     re.I,
 )
-LEAST_STEP, MOST_STEP = 1e-4, 0.5  # s; of a number that no word explains
 FOREIGN_ROWS = 20  # of data beside a rate that have their own number of rows
 # an entry of a containers.Map or of a dictionary
 KEY = re.compile(r"""\('([^']+)'\)$|\{"([^"]+)"\}$""")
@@ -134,90 +131,56 @@ def sure_rates(workspace: Workspace) -> tuple[float, ...]:
 def _by_words(name: str, number: float, unit: str, rows: int) -> tuple[float | None, bool]:
     """Return the rate that the words of a name make of a number, 0 for none, and if it is sure.
 
-    None where the name says neither a rate nor a step. Words of sampling beside it make it sure.
+    None where the name says neither a rate nor a step. Words of sampling beside it make it sure,
+    unread ones and those of something else do not.
     """
     said = described(name)
     times = words(" ".join(UNIT_WORDS["ms"] | UNIT_WORDS["us"] | UNIT_WORDS["ns"]))
     said = [w for w in said if w.text not in times or w is said[0]]
-    known = all(w.can_be(*OF_RATES) for w in said)
-    beside = len(said) > 1 and any(w.can_be(Class.SAMPLING) for w in said)
-    if not known or number == rows:
+    if not said or number == rows:
         return None, False
+    known = all(w.can_be(*OF_RATES) for w in said)
+    stepped = any(w.can_be(Class.PERIOD) for w in said[:1]) and any(
+        w.can_be(Class.CLOCK) and len(w.text) > 1 for w in said[1:]
+    )
+    sampled = any(w.can_be(Class.SAMPLING) for w in said)
+    beside = known and len(said) > 1 and (sampled or stepped)
     if any(w.text in ("hz", "khz") for w in said):
-        return number * (1e3 if said[-1].text == "khz" else 1.0), True
-    if any(w.can_be(Class.RATE) for w in said):
+        return number * (1e3 if said[-1].text == "khz" else 1.0), known
+    if PER_SECOND.search(name):
+        return number, False
+    if not known and any(w.quantity or w.can_be(*SETTLED) for w in said):
+        return None, False
+    if any(w.can_be(Class.RATE) and (known or len(w.text) > 1) for w in said):
         return number, beside
-    if any(w.can_be(Class.PERIOD) for w in said) or (
-        beside and any(w.can_be(Class.CLOCK) for w in said)
-    ):
-        step = number * {"ms": 1e-3, "us": 1e-6, "ns": 1e-9}.get(unit, 1.0)
-        if unit or beside:
+    step = number * {"ms": 1e-3, "us": 1e-6, "ns": 1e-9}.get(unit, 1.0)
+    likely = LIKELY_STEPS[0] <= step <= LIKELY_STEPS[1]
+    period = any(w.can_be(Class.PERIOD) and (known or len(w.text) > 1) for w in said)
+    if period or (beside and any(w.can_be(Class.CLOCK) for w in said)):
+        if known and (unit or beside):
             return 1 / step, beside
-        return (1 / step if LIKELY_STEPS[0] <= step <= LIKELY_STEPS[1] else 0.0), False
-    return None, False
+        return (1 / step if likely else 0.0), False
+    return (1 / step, False) if unit and likely and len(parts(name)) > 1 else (None, False)
 
 
 def in_texts(workspace: Workspace, path: str) -> Scalar | None:
     """Return the rate that a text near the matrix says, such as 'recorded at 250 Hz'."""
     for s in statements.about(workspace, first_path(path)):
-        if not s.text:
-            continue
-        match = IN_HERTZ.search(s.text) or IN_STEPS.search(s.text)
-        if match is None:
-            continue
-        number = float(match["number"].replace(",", "."))
-        scale = {"ms": 1e-3, "us": 1e-6, "s": 1.0, "khz": 1e3}.get(match["unit"].lower(), 1.0)
-        rate = (
-            number * scale if match["unit"].lower().endswith("hz") else 1 / (number * scale or 1)
-        )
-        if LEAST_RATE <= rate <= MOST_RATE:
-            return Scalar(s.path, snapped(rate), sure=False)
+        rate = rate_in(s.text)
+        if rate:
+            return Scalar(s.path, rate, sure=False)
     return None
 
 
-def unread(workspace: Workspace, path: str, rows: int, joints: int) -> list[Scalar]:
-    """Return what nothing explains near the matrix and what could say the time of its rows.
-
-    Numbers that may be a step, a rate or a duration, vectors that rise, and texts that speak of
-    time in digits; rate: Hz, 0 where none follows.
-    """
-    found = []
-    matrix = first_path(path)
-    within = {outer(matrix), *(outer(v.path) for _, v in statements.nearby(workspace, matrix))}
-    for v in workspace.variables:
-        if v.path == matrix or statements.ELEMENT.search(v.path) or outer(v.path) not in within:
-            continue
-        said = described(leaf(v.path))
-        if v.text:
-            timed = any(w.can_be(*OF_TIMES) for w in (*said, *statements.words_of_text(v.text)))
-            if timed and any(c.isdigit() for c in v.text) and v.kind != "logical":
-                found.append(Scalar(v.path, 0.0, sure=False))
-            continue
-        path_parameter = "".join(parts(leaf(v.path))) in PATH_PARAMETERS and v.values is not None
-        if v.values is None or not said or path_parameter or any(w.quantity for w in said):
-            continue
-        if v.values.size == 1:
-            number = float(v.values.reshape(-1)[0])
-            known = any(
-                w.can_be(Class.TABLE, Class.GEAR, Class.GRIPPER, Class.UNIT_FLAG) for w in said
-            )
-            if not known and _may_be_time(number, rows, joints):
-                rate = 1 / number if number < 1 else number
-                found.append(Scalar(v.path, snapped(rate), sure=False))
-        elif v.values.size == rows and min(v.shape) == 1 and rows >= 3 and _rises(v.values):
-            found.append(Scalar(v.path, 0.0, sure=False))
-    return found
-
-
-def _may_be_time(number: float, rows: int, joints: int) -> bool:
-    if not np.isfinite(number) or number in (rows, joints, joints + 1):
-        return False
-    return LEAST_STEP <= number <= MOST_STEP or 2 <= number <= MOST_RATE
-
-
-def _rises(values: NDArray[Any]) -> bool:
-    steps = np.diff(values.reshape(-1).astype(np.float64))
-    return bool(np.isfinite(steps).all() and (steps > 0).all() and not (steps == 1).all())
+def rate_in(text: str) -> float:
+    """Return the rate, Hz, that a text says, 0 where it says none."""
+    match = IN_HERTZ.search(text) or IN_STEPS.search(text)
+    if match is None:
+        return 0.0
+    number, unit = float(match["number"].replace(",", ".")), match["unit"].lower()
+    scale = {"ms": 1e-3, "us": 1e-6, "s": 1.0, "khz": 1e3}.get(unit, 1.0)
+    rate = number * scale if unit.endswith("hz") else 1 / (number * scale or 1)
+    return snapped(rate) if LEAST_RATE <= rate <= MOST_RATE else 0.0
 
 
 def of_duration(workspace: Workspace, path: str, rows: int) -> Scalar | None:

@@ -125,7 +125,9 @@ def _units(s: Statement, matrix: str) -> Iterator[tuple[Unit, str]]:
             if unit.is_angle or (unit.quantity == "shares" and unit.name != ""):
                 yield unit, s.text
             return
-    if (keyed or _tells(s)) and _is_ours(s, matrix):
+    if keyed and not _is_ours(s, matrix):
+        return
+    if (keyed or _tells(s)) and not any(w.quantity for w in s.words):
         spoken = set(_spoken(s.text))
         if len(spoken) == 1:
             yield spoken.pop(), s.text
@@ -133,7 +135,9 @@ def _units(s: Statement, matrix: str) -> Iterator[tuple[Unit, str]]:
 
 def _tells(s: Statement) -> bool:
     """Say whether a text may describe the matrix: a comment, or one about what is beside it."""
-    return s.variable.kind == COMMENT or s.near == 0 or s.names(Class.ABOUT, *OURS[:7])
+    if s.variable.kind == COMMENT or s.near == 0 or s.names(Class.ABOUT, *OURS[:7]):
+        return True
+    return any(w.can_be(*OURS[1:5]) for w in words_of_text(s.text))
 
 
 def _is_ours(s: Statement, matrix: str) -> bool:

@@ -121,6 +121,7 @@ EXAMPLES = {
     "unit_unread": Example([var("q", Q), text("unit", "ells")]),
     "order_stated": Example([var("q", Q), var("joint_order", [2, 1, 3, 4, 5, 6])]),
     "motor_side": Example([var("q", Q), var("gear_ratio", [100.0])]),
+    "text_unread": Example([var("q", Q), text("note", "mirrored for the left arm")]),
     "unused_beside": Example([var("q", Q), var("q_offset", [1, 2, 3, 4, 5, 6.5])]),
     "twin": Example([var("q_act", Q + 1e-3), var("q_des", Q)]),
     "rate_unused": Example([var("q", Q), Variable("t", "char", (ROWS, 4))]),

@@ -10,7 +10,7 @@ q_target q_des qlist qj qc qt qPath qs jointTraj jointTrajectory
 joint_trajectory joint_angles jointangles JointAngles angle_export theta theta_list
 thetalist thetaRes th_l th_r ref_joint point_record configs robotConfigs q1 q_0 traj_q0_q1
 q_actual.signals.values s.q out.q.signals.values TrajectoryData.theta out.q.Data
-q_target.signals(1).values run(2).q c.joint_positions q_current currentJoints
+q_target.signals(1).values run(2).q c.joint_positions currentJoints
 Gelenkwinkel Achswinkel q1..q6 A1..A6 log.j1..log.j6 actual_q_0..actual_q_5 theta_deg sollwinkel
 """
 TWO_FACED = """

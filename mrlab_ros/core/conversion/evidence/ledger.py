@@ -1,0 +1,329 @@
+"""The ledger of a file: how everything in it ends beside the matrix that was chosen.
+
+Each number, vector, matrix, text and attribute is explained by a claim, harmless, or unread.
+Nothing that is unread and could change the motion or its rate is passed over in silence.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from enum import Enum
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mrlab_ros.core.conversion.evidence import rate_scalars, statements
+from mrlab_ros.core.conversion.evidence.glossary import PROSE, Class
+from mrlab_ros.core.conversion.evidence.joining import first_path
+from mrlab_ros.core.conversion.evidence.names import Hint, Word, described, hint, leaf, parts
+from mrlab_ros.core.conversion.evidence.statements import ELEMENT, Statement
+from mrlab_ros.core.conversion.evidence.time_vectors import (
+    MOST_RATE,
+    PATH_PARAMETERS,
+    SECONDS,
+    UNIT_WORDS,
+    counts_rows,
+    is_regular,
+    snapped,
+)
+from mrlab_ros.core.conversion.workspace import COMMENT, Variable, Workspace
+
+
+class About(Enum):
+    """The part of a reading that a claim is about."""
+
+    QUANTITY = "quantity"
+    UNIT = "unit"
+    ORDER = "order"
+    ROBOT = "robot"
+    RATE = "rate"
+    MOTOR = "motor"
+
+
+class Standing(Enum):
+    """How sure a claim is: the file says so, the numbers do, or nothing does."""
+
+    STATED = "stated"
+    INFERRED = "inferred"
+    ASSUMED = "assumed"
+
+
+@dataclass(frozen=True)
+class Claim:
+    """A part of the reading of a matrix. source: the path of its evidence, or empty."""
+
+    about: About
+    value: str
+    standing: Standing
+    source: str = ""
+
+
+class End(Enum):
+    """How something of a file ends; unread: by what it could be."""
+
+    EXPLAINED = "explained"
+    HARMLESS = "harmless"
+    TIME = "time"
+    FACTOR = "factor"
+    PER_JOINT = "per_joint"
+    TEXT = "text"
+
+    @property
+    def unread(self) -> bool:
+        return self not in (End.EXPLAINED, End.HARMLESS)
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One variable of the file. words: those not understood; rate: Hz, 0 where none follows."""
+
+    variable: Variable
+    end: End
+    words: tuple[str, ...] = ()
+    rate: float = 0.0
+
+    @property
+    def path(self) -> str:
+        return self.variable.path
+
+
+# classes of words that explain a number beside a matrix as no time and no factor of it
+SETTLED = (Class.TABLE, Class.GEAR, Class.GRIPPER, Class.UNIT_FLAG)
+OF_TIMES = (Class.CLOCK, Class.PERIOD, Class.RATE, Class.DURATION)
+ALSO_OTHERWISE = (Class.TABLE, Class.ROLE, Class.KEPT, Class.SYMBOL)
+OF_MATRIX = (Class.SYMBOL, Class.JOINT, Class.ANGLE, Class.CONFIGURATION)
+CHANGES = (Class.MOTOR, Class.GEAR, Class.FACTOR, Class.ORDER)
+TELLING = (*OF_MATRIX, Class.PLACE)
+TIME_UNITS = frozenset().union(*(UNIT_WORDS[u] for u in ("s", "ms", "us", "ns")))
+TIMED = re.compile(
+    r"\d\s*(?:[munµ]?s|[mu]?sec\w*|k?hz|hertz|fps|sek\w*|seg\w*|second\w*|ms\w*)\b|"
+    r"(?:rate|dt|fs|ts)\s*[=:]\s*\d",
+    re.I,
+)
+LEAST_STEP, MOST_STEP = 1e-4, 0.5  # s; of a number that no word explains
+ENOUGH = 8  # numbers of a vector that rises
+MOST_ENTRIES = 3000
+SAME = 0.01
+FAR = 99  # how near what belongs to another struct is
+
+
+@dataclass(frozen=True)
+class Ledger:
+    """The entries of a file, the nearest to the matrix first."""
+
+    entries: tuple[Entry, ...]
+
+    def unread(self, *ends: End) -> list[Entry]:
+        return [e for e in self.entries if e.end in ends]
+
+
+@dataclass(frozen=True)
+class _Matrix:
+    """What the ledger is kept for. rate: Hz; assumed: nothing says it."""
+
+    path: str
+    rows: int
+    joints: int
+    rate: float
+    assumed: bool
+    robot: frozenset[str]
+
+
+def read(
+    workspace: Workspace,
+    path: str,
+    size: tuple[int, int],
+    claims: Sequence[Claim],
+    told: Iterable[str],
+    robot: str,
+) -> Ledger:
+    """Return how everything in a file ends beside the matrix at `path`.
+
+    size: its rows and the joints of the robot. told: the paths that a finding names already.
+    robot: all its names.
+    """
+    rate = next(c for c in claims if c.about is About.RATE)
+    own = first_path(path)
+    matrix = _Matrix(
+        own, *size, float(rate.value), rate.standing is Standing.ASSUMED, frozenset(parts(robot))
+    )
+    known = {c.source for c in claims} | set(told) | {own, path}
+    near = {v.path: n for n, v in reversed(statements.nearby(workspace, own))}
+    held = [v for v in workspace.variables if v.path in near or matrix.assumed]
+    held.sort(key=lambda v: near.get(v.path, FAR))
+    return Ledger(
+        tuple(
+            Entry(v, End.EXPLAINED)
+            if v.path in known
+            else _entry(v, near.get(v.path, FAR), matrix)
+            for v in held[:MOST_ENTRIES]
+            if not ELEMENT.search(leaf(v.path)) or v.kind == COMMENT
+        )
+    )
+
+
+def _entry(v: Variable, near: int, matrix: _Matrix) -> Entry:
+    said = Statement(v, near, tuple(described(leaf(ELEMENT.sub("", v.path)))))
+    if v.text:
+        return _text(said, matrix)
+    if v.values is None or v.kind == "logical" or not v.values.size:
+        return Entry(v, End.HARMLESS)
+    if v.values.size == 1:
+        return _number(said, matrix)
+    if len(v.shape) == 2 and min(v.shape) == 1:
+        return _vector(said, matrix)
+    rises = matrix.assumed and _has_clock(v, matrix)
+    return Entry(v, End.TIME if rises else End.HARMLESS)
+
+
+def _is_timed(words: Sequence[Word]) -> bool:
+    """Say whether a name has a word that says time and means nothing else there."""
+    if len(words) > 1 and words[-1].text in TIME_UNITS | {"hz", "khz"}:
+        return True
+    return any(w.can_be(*OF_TIMES) and not w.can_be(*ALSO_OTHERWISE) for w in words)
+
+
+def _is_settled(words: Sequence[Word]) -> bool:
+    """Say whether a name explains its number as a quantity of its own."""
+    return bool(words) and all(
+        w.can_be(*SETTLED) or w.quantity or w.can_be(Class.ROLE, Class.ARM, Class.JOINT)
+        for w in words
+    ) and any(w.can_be(*SETTLED) or w.quantity for w in words)  # fmt: skip
+
+
+def _touches(words: Sequence[Word], matrix: _Matrix) -> bool:
+    """Say whether a name is that of the matrix with more behind or before it: q_gain."""
+    own = [w.text for w in described(leaf(matrix.path))]
+    return len(words) > 1 and bool(own) and own[0] in {w.text for w in words}
+
+
+def _unread(words: Sequence[Word]) -> tuple[str, ...]:
+    return tuple(w.text for w in words if w.unread and len(w.text) > 1)
+
+
+def _number(s: Statement, matrix: _Matrix) -> Entry:
+    v, words = s.variable, s.words
+    assert v.values is not None
+    number = float(np.asarray(v.values).reshape(-1)[0])
+    counts = (0.0, 1.0, matrix.rows, matrix.joints, matrix.joints + 1)
+    if not np.isfinite(number) or number in counts:
+        return Entry(v, End.HARMLESS)
+    timed, settled = _is_timed(words), _is_settled(words)
+    rate = _rate_of(number, words)
+    if number > 0 and matrix.assumed and (timed or (not settled and _may_be_time(number))):
+        return Entry(v, End.TIME, rate=rate)
+    if _agrees(number, matrix):
+        return Entry(v, End.EXPLAINED)
+    if s.near > 2:
+        return Entry(v, End.HARMLESS)
+    if timed:
+        likely = rate_scalars.LIKELY_RATES[0] <= rate <= rate_scalars.LIKELY_RATES[1]
+        rated = any(w.can_be(Class.PERIOD, Class.RATE) and len(w.text) > 1 for w in words)
+        return Entry(v, End.TIME if likely and rated else End.HARMLESS, rate=rate)
+    touching = _touches(words, matrix) and not any(w.can_be(Class.ROLE) for w in words)
+    factor = any(w.can_be(Class.FACTOR) and not w.can_be(Class.TABLE) for w in words)
+    if touching or (not settled and (factor or _unread(words))):
+        return Entry(v, End.FACTOR, _unread(words))
+    return Entry(v, End.HARMLESS)
+
+
+def _may_be_time(number: float) -> bool:
+    return LEAST_STEP <= number <= MOST_STEP or 2 <= number <= MOST_RATE
+
+
+def _rate_of(number: float, words: Sequence[Word]) -> float:
+    """Return the rate, Hz, that a number would mean as a step below 1, else as a rate."""
+    last = words[-1].text if words else ""
+    if number <= 0:
+        return 0.0
+    for unit in ("ms", "us", "ns"):
+        if last in UNIT_WORDS[unit]:
+            return snapped(1 / (number * SECONDS[unit]))
+    return snapped(1 / number if number < 1 else number)
+
+
+def _agrees(number: float, matrix: _Matrix) -> bool:
+    """Say whether a number is the rate of the rows, their step or their duration, in any unit."""
+    lasting = (1.0, matrix.rows, matrix.rows - 1)
+    values = [matrix.rate, *(n / matrix.rate for n in lasting)]
+    units = (1.0, 1e-3, 1e-6, 1e-9, 60.0)
+    return not matrix.assumed and any(
+        abs(number * k - value) <= SAME * value for k in units for value in values
+    )
+
+
+def _vector(s: Statement, matrix: _Matrix) -> Entry:
+    v, words = s.variable, s.words
+    assert v.values is not None
+    values = np.asarray(v.values, dtype=np.float64).reshape(-1)
+    if not np.isfinite(values).all():
+        return Entry(v, End.HARMLESS)
+    if len(values) == matrix.joints and s.near <= 2 and values.any() and matrix.joints > 1:
+        numbers = sorted(values.tolist())
+        permuted = numbers in ([float(n + i) for n in range(matrix.joints)] for i in (0, 1))
+        away = any(w.quantity == "errors" for w in words)
+        open_to = away or (
+            bool(_unread(words) or any(w.unread for w in words))
+            and not any(w.can_be(*SETTLED[:3]) or w.quantity for w in words)
+        )
+        return Entry(
+            v, End.PER_JOINT if open_to and not permuted else End.EXPLAINED, _unread(words)
+        )
+    path_parameter = "".join(parts(leaf(v.path))) in PATH_PARAMETERS
+    other = (any(w.quantity for w in words) or _is_settled(words)) and not _is_timed(words)
+    if matrix.assumed and not (path_parameter or other) and len(values) >= ENOUGH:
+        steps = np.diff(values)
+        if (steps > 0).all() and not (steps == 1).all():
+            return Entry(v, End.TIME)
+    return Entry(v, End.HARMLESS)
+
+
+def _has_clock(v: Variable, matrix: _Matrix) -> bool:
+    """Say whether the first or the last column of another matrix rises as times do."""
+    values: NDArray[Any] | None = v.values
+    if values is None or values.ndim != 2 or len(values) < ENOUGH or v.is_message:
+        return False
+    if v.path == matrix.path or hint(v.path) in (Hint.POSITIONS, Hint.PARTLY):
+        return False
+    columns = (values[:, 0], values[:, -1])
+    return any(is_regular(c) and not counts_rows(c) and c[0] >= 0 for c in columns)
+
+
+def _text(s: Statement, matrix: _Matrix) -> Entry:
+    v, text = s.variable, s.text
+    if v.kind == "logical":
+        return Entry(v, End.HARMLESS)
+    rate = rate_scalars.rate_in(text)
+    if matrix.assumed:
+        spoken = (*s.words, *statements.words_of_text(text))
+        timed = any(w.can_be(*rate_scalars.OF_TIMES) for w in spoken)
+        if TIMED.search(text) or (timed and any(c.isdigit() for c in text)):
+            return Entry(v, End.TIME)
+    elif rate and s.near <= 2 and abs(rate - matrix.rate) > SAME * rate:
+        return Entry(v, End.TIME, rate=rate)
+    if s.near > 2 or s.names(Class.ADMIN, Class.UNIT_KEY, Class.NAMES):
+        return Entry(v, End.HARMLESS)
+    words = tuple(dict.fromkeys(_words_that_matter(s, matrix)))
+    return Entry(v, End.TEXT if words else End.HARMLESS, words)
+
+
+def _words_that_matter(s: Statement, matrix: _Matrix) -> Iterator[str]:
+    """Yield the words of a text that say what a matrix could be and that no claim obeys.
+
+    Those that name another quantity, a motor, a factor, an order; in a description, also the
+    unread ones.
+    """
+    spoken = statements.words_of_text(s.text)
+    found = [w for w in spoken if w.text not in PROSE and w.text not in matrix.robot]
+    telling = any(w.can_be(*TELLING) or (w.unit and w.unit.is_angle) for w in found)
+    described_by = s.near == 0 or s.names(Class.ABOUT, Class.ARM) or len(spoken) > 1
+    reads_all = described_by and (telling or s.variable.kind != COMMENT)
+    for w in found:
+        other = w.quantity and not w.can_be(Class.ROLE, Class.KEPT, Class.PLACE)
+        changes = w.can_be(*CHANGES) and not w.can_be(Class.KEPT, Class.SAMPLING, Class.TABLE)
+        counted = w.unit is not None and not w.unit.factor
+        if other or changes or counted or (reads_all and w.unread):
+            yield w.text
