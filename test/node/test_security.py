@@ -17,7 +17,7 @@ import zenoh
 from child_process import HOST, start_child
 from graph import wait_for
 from mrlab_msgs.msg import Latency, Robot, Robots
-from mrlab_msgs.srv import ListTrajectories, Remove, Step, Trigger
+from mrlab_msgs.srv import ListTrajectories, Remove, StartRecording, Step, Trigger
 from own_port import free_endpoint
 from rclpy.parameter import Parameter
 from rclpy.serialization import serialize_message
@@ -276,6 +276,23 @@ def test_a_pattern_calls_no_service(graph, people):
             "The service /recorder/stop is called by its key recorder/stop, not as */stop."
         ]
     assert called == []
+
+
+def test_nobody_names_a_file_of_the_lab_s_machine(graph, people):
+    asked = []
+
+    def answer(request, response):
+        asked.append(request.bag)
+        return response
+
+    graph.client.create_service(StartRecording, "recorder/start", answer)
+    instructor = people[Role.INSTRUCTOR]
+    wait_for(lambda: offered(instructor, "recorder/start"), "recorder/start")
+    for path in ("/etc/bag", "../bag", "..", "~/bag", "a/b", "monday", ""):
+        wanted = bytes(serialize_message(StartRecording.Request(bag=path)))
+        answers, reasons = ask(instructor, "recorder/start", wanted)
+        assert len(answers) + len(reasons) == 1
+    assert asked == ["monday", ""]
 
 
 def test_nobody_sends_for_the_lab(graph, keys, people, connect):

@@ -143,6 +143,11 @@ CALLED_BY_ANOTHER_KEY = Code(
     "The service {service} is called by its key {key}, not as {found}.",
     meaning="A query for several keys calls no service.",
 )
+PATH_FROM_AFAR = Code(
+    "path_from_afar",
+    "{service}: '{path}' is a path on the lab's machine.",
+    "Expected a name without a folder; programs on that machine call the service over ROS.",
+)
 REQUEST_TOO_LARGE = Code(
     "request_too_large",
     "A request of {service} has {size:integer} bytes; expected {largest:integer} at most "

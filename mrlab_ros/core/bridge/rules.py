@@ -177,6 +177,12 @@ class ServiceRule:
         True,
     )
 
+    local: str = field(
+        TEXT,
+        "Field of a request that may name a file of the lab's machine. In a lab with keys a call "
+        "over zenoh leaves it empty, or gives a name without a folder.",
+        "",
+    )
     urgent: bool = field(
         FLAG,
         "Whether a call stops something: in the gateway it has limits of its own, which no other "
@@ -187,6 +193,12 @@ class ServiceRule:
     def needed(self, *, own: bool) -> Role:
         """Return who may call the service; own: for what belongs to the one who calls."""
         return self.own if own and self.role.may(self.own) else self.role
+
+    def names_a_path(self, request: object) -> str:
+        """Return the path that a request names in the field `local`; empty: it names none."""
+        found = str(getattr(request, self.local, "")) if self.local else ""
+        plain = found not in (".", "..") and not set(found) & set("/\\~")
+        return "" if plain else found
 
     @cached_property
     def pattern(self) -> re.Pattern[str]:

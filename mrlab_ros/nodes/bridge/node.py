@@ -162,7 +162,9 @@ class BridgeNode(
                 self.create_subscription(said, topic, self._on_lab, qos.LATCHED)
         # By service: how many servers it had at the last check.
         self._servers: dict[str, int] = {}
-        self._service_routes = Services(self._bridge, self._why_not)
+        self._service_routes = Services(
+            self._bridge, self._why_not, keyed=bool(self.parameters.keys)
+        )
         self._assets = AssetRoutes(self._bridge, share.directory(), self._rules.types)
         self._streams = SpunNode(streams)
         sys.setswitchinterval(SWITCH_INTERVAL_S)

@@ -63,13 +63,17 @@ class Services:
     """The routes of services.
 
     why_not: gets a service that moves something and returns why it is not called now; None: it is.
+    keyed: the lab has keys, and clients on other machines.
     """
 
     def __init__(
         self,
         bridge: BridgeContext,
         why_not: Callable[[str], Diagnostic | None] = lambda service: None,
+        *,
+        keyed: bool = False,
     ) -> None:
+        self._keyed = keyed
         self._bridge = bridge
         self._why_not = why_not
         # Reentrant: add_done_callback may run at once when the response is already there.
@@ -137,6 +141,8 @@ class Services:
                 self._refuse(route, query, large)
                 return
             request, why_not = read(query.payload)
+            if self._keyed and why_not is None and (path := route.rule.names_a_path(request)):
+                why_not = say.PATH_FROM_AFAR(service=route.name, path=path)
             if why_not is None and route.rule.moves:
                 why_not = self._why_not(route.name)
                 if why_not is None and (why_not := clock.why_doubtful()):

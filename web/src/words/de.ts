@@ -3064,6 +3064,10 @@ export const diagnostics: Templates = {
     'Der Dienst {service} bekam {size:integer} Bytes, die keine Anfrage von {type} sind.',
     'Sende ihr CDR, mit dem Kopf von 4 Bytes.',
   ],
+  path_from_afar: [
+    "{service}: '{path}' ist ein Pfad auf der Maschine des Labors.",
+    'Erwartet: ein Name ohne Ordner; Programme auf dieser Maschine rufen den Dienst über ROS auf.',
+  ],
   request_too_large: [
     'Eine Anfrage an {service} hat {size:integer} Bytes; erwartet: höchstens {largest:integer} (max_size in der Liste der Erlaubten).',
   ],
