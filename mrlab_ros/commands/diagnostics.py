@@ -91,8 +91,24 @@ LAB_SILENT = Code(
 )
 RECORDER_FROZEN = Code(
     "recorder_frozen",
-    "The recorder gave no sign of life for {silent:time}; what it wrote stays readable, and if "
-    "it goes on it ends the recording.",
+    "The recorder gave no sign of life for {silent:time}: a frozen one ends the recording when it "
+    "continues, a restarted one continues the recording.",
+)
+STOP_WAITS = Code(
+    "stop_waits",
+    "The recorder gave no sign of life for {silent:time}; the order to end the recording into "
+    "{bag} waits for it, and is carried out as soon as a recorder runs.",
+)
+STOP_NOT_AWAITED = Code(
+    "stop_not_awaited",
+    "did not wait for the recorder; the order to end the recording into {bag} waits for it, and "
+    "is carried out as soon as a recorder runs",
+    severity=WARNING,
+)
+STOP_UNKNOWN = Code(
+    "stop_unknown",
+    "did not wait for the recorder, which may still record[ into {bag}]",
+    severity=WARNING,
 )
 BAG_CLOSED = Code("bag_closed", "the bag is closed", severity=INFO)
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import sys
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -12,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from mrlab_ros.app.diagnostics import RECORDING_ENDED_LATE
 from mrlab_ros.commands import output
 from mrlab_ros.commands.diagnostics import (
     BAG_CLOSED,
@@ -24,6 +24,9 @@ from mrlab_ros.commands.diagnostics import (
     RECORDER_SILENT,
     RECORDING_CONTINUES,
     RECORDING_GONE,
+    STOP_NOT_AWAITED,
+    STOP_UNKNOWN,
+    STOP_WAITS,
     STOP_WITH_BAG,
 )
 from mrlab_ros.commands.output import say
@@ -49,6 +52,8 @@ ANSWER_S = 3.5
 FROZEN_S = 2.5
 # A bag of hours is closed by then, s.
 STOP_TIMEOUT_S = 30.0
+# A recorder that died has carried out by then what was left for it, s; a frozen one has not.
+ORDER_S = 8.0
 TO_END = (*ENDING, Fix(command="mrlab status"))
 
 
@@ -83,7 +88,7 @@ def record(
     if bag is not None and (meant := COMMANDS.get(str(bag))) is not None:
         raise Misuse(NOT_A_BAG_NAME(bag=str(bag), fixes=(Fix(command=meant),)))
     request = srv.StartRecording.Request(
-        bag=str(bag.absolute()) if bag else "",
+        bag=str(bag.absolute()) if bag else time.strftime("session_%Y-%m-%d_%H-%M-%S"),
         topics=[topic.strip() for topic in topics.split(",") if topic.strip()],
         split_duration=split,
     )
@@ -91,10 +96,45 @@ def record(
         begun = ""
         try:
             # First: what happens until then is not recorded.
-            begun = graph.order(srv.StartRecording, "/recorder/start", request).bag
+            begun = _start(graph, request)
             _show(graph, begun, as_json=as_json)
         except KeyboardInterrupt:
             _interrupted(graph, begun, as_json=as_json)
+
+
+def _start(graph: GraphClient, request: Any) -> str:
+    """Start a recording; return its bag, which also tells it from those of others.
+
+    Where a recorder dies before it answers, the one that comes after it is asked again.
+    """
+    from mrlab_msgs import msg, srv
+
+    from mrlab_ros.ros.calls import NoAnswer
+
+    state = graph.watch(msg.RecorderState, "/recorder/state")
+    deadline, asked_before = time.monotonic() + RETURN, False
+    while True:
+        try:
+            return str(graph.order(srv.StartRecording, "/recorder/start", request).bag)
+        except NoAnswer:
+            if time.monotonic() > deadline:
+                raise
+            asked_before = True
+        except Misuse:
+            # The recorder that died had begun it, and the one after it continues it.
+            now: Any = state.value
+            if not asked_before or not _records(now, request.bag):
+                raise
+            return str(now.bag)
+
+
+def _records(state: Any, name: str) -> bool:
+    """Return whether the recorder records into a bag of that name."""
+    return (
+        state is not None
+        and state.state == RecorderState.RECORDING.value
+        and Path(state.bag).name == Path(name).name
+    )
 
 
 def _show(graph: GraphClient, bag: str, *, as_json: bool) -> None:
@@ -134,13 +174,10 @@ def _interrupted(graph: GraphClient, begun: str, *, as_json: bool) -> None:
     begun: the bag; empty where no recording was begun, as far as is known.
     """
     try:
-        said = _stop(graph, lambda: size_of(begun))
+        said = _stop(graph, begun)
     except KeyboardInterrupt:
-        print(
-            "mrlab: did not wait for the recorder; mrlab status shows whether it still records, "
-            "and mrlab record --stop ends that",
-            file=sys.stderr,
-        )
+        waits = bool(begun) and _leave(graph.domain, begun)
+        say((STOP_NOT_AWAITED if waits else STOP_UNKNOWN)(bag=begun), as_json=as_json)
         raise typer.Exit(130) from None
     except LabError:
         if begun:
@@ -164,7 +201,7 @@ def _end(bag: Path | None, *, as_json: bool) -> None:
         state = graph.watch(msg.RecorderState, "/recorder/state").wait(lambda _: True, SILENCE)
         if state.state != msg.RecorderState.RECORDING:
             raise Misuse(NO_RECORDING(fixes=(Fix(command="mrlab record"),)))
-        said = _stop(graph, lambda: size_of(state.bag))
+        said = _stop(graph, state.bag)
     say(said, as_json=as_json, bag=state.bag)
 
 
@@ -201,7 +238,7 @@ def _follow(
                 elif waiting:
                     say(RECORDER_BACK(bag=bag))
                 began, waiting, said = True, False, trouble
-            elif began and trouble is None and gap < SILENCE / 2:
+            elif began and _was_ended(trouble, gap):
                 say(ENDED_BY_ANOTHER(bag=bag, fixes=looking))
                 return
             elif began:
@@ -223,6 +260,13 @@ def _follow(
         time.sleep(REFRESH)
 
 
+def _was_ended(trouble: Diagnostic | None, gap: float) -> bool:
+    """Return whether another client ended a recording. gap: s without a state before that."""
+    if trouble is None:
+        return gap < SILENCE / 2
+    return trouble.code == RECORDING_ENDED_LATE.code
+
+
 def _print_state(state: Any, _: Any) -> None:
     facts = {"position": state.position, "messages": state.messages, "bytes": state.bytes}
     print(json.dumps(facts), flush=True)
@@ -236,13 +280,13 @@ def _line(state: Any, before: Any) -> str:
     return f"{state.position:.0f} s  {state.messages} messages  {megabytes(state.bytes)}{rate}"
 
 
-def _stop(graph: GraphClient, size: Callable[[], int]) -> Diagnostic:
-    """End the recording; raise LabError where the recorder does not answer.
+def _stop(graph: GraphClient, bag: str) -> Diagnostic:
+    """End the recording into `bag`; raise LabError where the recorder does not answer.
 
-    size: returns the bytes of its bag; one that grows has a recorder that can be asked elsewhere.
+    The order is then left for whoever is the recorder when it runs. Empty: a recording that may
+    have begun. A bag that grows has a recorder that can be asked elsewhere.
     """
     from diagnostic_msgs.msg import DiagnosticArray
-    from mrlab_msgs import msg
     from mrlab_msgs.srv import Trigger
 
     from mrlab_ros.messages import qos
@@ -256,21 +300,50 @@ def _stop(graph: GraphClient, size: Callable[[], int]) -> Diagnostic:
             signs.last = time.monotonic()
 
     graph.subscribe(DiagnosticArray, "/diagnostics", hear, qos.LATCHED)
-    before = size()
+    before = size_of(bag)
+
+    def ask(find_timeout: float) -> Any:
+        request = Trigger.Request()
+        return graph.call(Trigger, "/recorder/stop", request, ANSWER_S, find_timeout=find_timeout)
+
     try:
-        answer = graph.call(
-            Trigger, "/recorder/stop", Trigger.Request(), ANSWER_S, find_timeout=RETURN
-        )
+        return _said(ask(ANSWER_S))
     except NoAnswer:
         silent = time.monotonic() - signs.last
-        if silent > FROZEN_S and size() > before:
-            return _stop_elsewhere()
-        if silent > FROZEN_S:
-            raise NoAnswer(RECORDER_FROZEN(silent=silent, fixes=TO_END)) from None
-        state = graph.watch(msg.RecorderState, "/recorder/state")
-        state.wait(lambda now: now.state != msg.RecorderState.RECORDING, STOP_TIMEOUT_S)
+    waits = bool(bag) and _leave(graph.domain, bag)
+    if silent <= FROZEN_S:
+        return _closed(graph, STOP_TIMEOUT_S)
+    if size_of(bag) > before:
+        return _stop_elsewhere()
+    try:
+        return _closed(graph, ORDER_S) if waits else _said(ask(RETURN))
+    except NoAnswer:
+        if waits:
+            raise NoAnswer(STOP_WAITS(silent=silent + ORDER_S, bag=bag)) from None
+        raise NoAnswer(RECORDER_FROZEN(silent=silent, fixes=TO_END)) from None
+
+
+def _closed(graph: GraphClient, timeout: float) -> Diagnostic:
+    """Wait until no recording runs; raise NoAnswer after `timeout` s, LabError where it failed."""
+    from mrlab_msgs import msg
+
+    state = graph.watch(msg.RecorderState, "/recorder/state")
+    ended = state.wait(lambda now: now.state != msg.RecorderState.RECORDING, timeout)
+    if not ended.message:
         return BAG_CLOSED()
-    return _said(answer)
+    said = heard(ended)
+    if said.code != RECORDING_ENDED_LATE.code:
+        raise LabError(said)
+    return said
+
+
+def _leave(domain: int, bag: str) -> bool:
+    """Leave the order to end the recording into `bag` with the lab; return whether it waits."""
+    from mrlab_ros.adapters.stop_orders import StopOrders
+    from mrlab_ros.processes.run_file import RunFile
+
+    facts = RunFile(domain).read() or {}
+    return StopOrders(facts.get("state_dir", "")).leave(bag)
 
 
 def _stop_elsewhere() -> Diagnostic:
@@ -297,6 +370,8 @@ def _said(answer: Any) -> Diagnostic:
 
 def size_of(bag: str) -> int:
     """Return the bytes of a bag's files on this machine; 0: none can be seen."""
+    if not bag:
+        return 0
     try:
         return sum(file.stat().st_size for file in Path(bag).glob("*.mcap"))
     except OSError:

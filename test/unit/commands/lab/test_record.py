@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
@@ -11,6 +12,8 @@ import pytest
 import typer
 from refusals import refused
 
+from mrlab_ros.adapters.stop_orders import StopOrders
+from mrlab_ros.app.diagnostics import RECORDING_ENDED_LATE
 from mrlab_ros.commands.diagnostics import (
     BAG_CLOSED,
     ENDED_BY_ANOTHER,
@@ -22,15 +25,19 @@ from mrlab_ros.commands.diagnostics import (
     RECORDER_SILENT,
     RECORDING_CONTINUES,
     RECORDING_GONE,
+    STOP_NOT_AWAITED,
+    STOP_UNKNOWN,
+    STOP_WAITS,
 )
 from mrlab_ros.commands.lab import record as command
 from mrlab_ros.commands.lab.record import record
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.errors import LabError, Misuse
-from mrlab_ros.core.recording.diagnostics import RECORDING_GAP
+from mrlab_ros.core.recording.diagnostics import RECORDING_GAP, RECORDING_RUNS
 from mrlab_ros.core.recording.recorder import RecorderState
 from mrlab_ros.core.runtime.watch import Sign
 from mrlab_ros.messages.status import signs_to_message
+from mrlab_ros.processes import run_file
 from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.graph import Watch
 
@@ -131,14 +138,35 @@ def test_a_recording_that_another_client_ends_has_ended_well(monkeypatch):
     assert (ended.code, ended.fixes[0].command) == (ENDED_BY_ANOTHER.code, f"mrlab bag info {BAG}")
 
 
-class Lab:
-    """A graph whose recorder does not answer in time. living: whether it gives signs of life."""
+def test_a_recording_that_was_ended_while_its_recorder_was_dead_has_ended_well(monkeypatch):
+    late = RECORDING_ENDED_LATE(folder=BAG, messages=7)
+    states = recording(until=4.0) | {10.0: state(RecorderState.STOPPED, late)}
+    said = follow(Recorder(monkeypatch, states))
+    assert [each.code for each in said] == [RECORDER_AWAITED.code, ENDED_BY_ANOTHER.code]
 
-    def __init__(self, monkeypatch: pytest.MonkeyPatch, *, living: bool = False):
+
+class Lab:
+    """A graph whose recorder does not answer in time.
+
+    living: whether it gives signs of life; state_dir: of the lab; empty: no order can be left.
+    """
+
+    domain = 7
+
+    def __init__(
+        self, monkeypatch: pytest.MonkeyPatch, *, living: bool = False, state_dir: str = ""
+    ):
         self.now, self.living, self.calls = 0.0, living, 0
         self.interrupted = 0
         self.ended: Watch[SimpleNamespace] = Watch("/recorder/state")
         monkeypatch.setattr(command, "time", SimpleNamespace(monotonic=lambda: self.now))
+        monkeypatch.setattr(command, "size_of", self.size_of)
+        monkeypatch.setattr(command, "ORDER_S", 0.1)
+        monkeypatch.setattr(run_file.RunFile, "read", lambda _: {"state_dir": state_dir})
+        self.grows = False
+
+    def size_of(self, bag: str) -> int:
+        return int(self.now * 1000) if self.grows else 1000
 
     def subscribe(self, kind: object, topic: str, callback: Callable, quality: object) -> None:
         self.hear = callback
@@ -158,30 +186,94 @@ class Lab:
         return self.ended
 
 
-def test_a_frozen_recorder_is_given_up_soon_with_what_becomes_of_the_bag(monkeypatch):
+def waiting(folder: Path) -> list[str]:
+    return [order.bag for order in StopOrders(str(folder)).waiting()]
+
+
+def test_a_stop_waits_for_a_recorder_that_does_not_run(monkeypatch, tmp_path):
+    lab = Lab(monkeypatch, state_dir=str(tmp_path))
+    with refused(STOP_WAITS, NoAnswer, bag=BAG):
+        command._stop(lab, BAG)
+    assert (lab.calls, lab.now < 5.0, waiting(tmp_path)) == (1, True, [BAG])
+
+
+@pytest.mark.parametrize("living", [True, False])
+def test_a_stop_that_the_recorder_carried_out_later_is_a_success(monkeypatch, tmp_path, living):
+    lab = Lab(monkeypatch, state_dir=str(tmp_path), living=living)
+    late = RECORDING_ENDED_LATE(folder=BAG, messages=7)
+    lab.ended.set(state(RecorderState.STOPPED, late))
+    assert command._stop(lab, BAG).code == late.code
+
+
+def test_a_recording_that_failed_before_its_stop_says_why(monkeypatch, tmp_path):
+    lab = Lab(monkeypatch, state_dir=str(tmp_path))
+    lab.ended.set(state(RecorderState.STOPPED, RECORDING_GAP(time=4.0, missing=6.4)))
+    with pytest.raises(LabError) as error:
+        command._stop(lab, BAG)
+    assert error.value.diagnostic.code == RECORDING_GAP.code
+
+
+def test_a_frozen_recorder_without_a_folder_is_given_up_with_both_ends(monkeypatch):
     lab = Lab(monkeypatch)
     with refused(RECORDER_FROZEN, NoAnswer):
-        command._stop(lab, lambda: 1000)
-    assert (lab.calls, lab.now < 5.0) == (1, True)
+        command._stop(lab, BAG)
+    assert lab.calls == 2
 
 
 def test_a_recorder_behind_a_frozen_bridge_is_asked_elsewhere(monkeypatch):
     lab = Lab(monkeypatch)
+    lab.grows = True
     monkeypatch.setattr(command, "_stop_elsewhere", lambda: "elsewhere")
-    assert command._stop(lab, lambda: int(lab.now * 1000)) == "elsewhere"
+    assert command._stop(lab, BAG) == "elsewhere"
 
 
 def test_a_recorder_that_lives_may_take_its_time_to_close_a_bag(monkeypatch):
     lab = Lab(monkeypatch, living=True)
     lab.ended.set(state(RecorderState.STOPPED))
-    assert command._stop(lab, lambda: 1000) == BAG_CLOSED()
+    assert command._stop(lab, BAG) == BAG_CLOSED()
     assert lab.calls == 1
 
 
-def test_a_second_interrupt_waits_for_nothing(monkeypatch, capsys):
-    lab = Lab(monkeypatch)
+@pytest.mark.parametrize("kept", [True, False])
+def test_a_second_interrupt_waits_for_nothing(monkeypatch, capsys, tmp_path, kept):
+    lab = Lab(monkeypatch, state_dir=str(tmp_path) if kept else "")
     lab.interrupted = True
     with pytest.raises(typer.Exit) as ended:
-        command._interrupted(lab, BAG, as_json=False)
+        command._interrupted(lab, BAG, as_json=True)
     assert ended.value.exit_code == 130
-    assert "mrlab record --stop ends that" in capsys.readouterr().err
+    said = json.loads(capsys.readouterr().out)
+    assert said["code"] == (STOP_NOT_AWAITED if kept else STOP_UNKNOWN).code
+    assert waiting(tmp_path) == ([BAG] if kept else [])
+
+
+class Starting:
+    """A graph whose first recorder dies before it answers a start."""
+
+    def __init__(self, *answers: object):
+        self.answers = list(answers)
+        self.state: Watch[SimpleNamespace] = Watch("/recorder/state")
+
+    def watch(self, kind: object, topic: str) -> Watch[SimpleNamespace]:
+        return self.state
+
+    def order(self, *_: object) -> SimpleNamespace:
+        answer = self.answers.pop(0)
+        if isinstance(answer, Exception):
+            raise answer
+        return answer
+
+
+def test_a_start_is_asked_of_the_recorder_that_comes_after_a_dead_one():
+    lab = Starting(NoAnswer("Timeout"), SimpleNamespace(bag=BAG))
+    assert command._start(lab, SimpleNamespace(bag="class")) == BAG
+
+
+def test_a_start_that_a_dead_recorder_began_is_followed_and_that_of_another_refused():
+    runs = Misuse(RECORDING_RUNS(bag=BAG))
+    lab = Starting(NoAnswer("Timeout"), runs)
+    lab.state.set(state(RecorderState.RECORDING))
+    assert command._start(lab, SimpleNamespace(bag="class")) == BAG
+    for lab in (Starting(runs), Starting(NoAnswer("Timeout"), runs)):
+        lab.state.set(state(RecorderState.RECORDING))
+        with refused(RECORDING_RUNS, Misuse):
+            command._start(lab, SimpleNamespace(bag="mine"))
