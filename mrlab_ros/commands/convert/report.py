@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import zip_longest
+from math import isfinite
 from pathlib import Path
 from typing import Any
 
@@ -38,8 +39,8 @@ def record(given: str, result: ConversionResult, written: Path | None) -> dict[s
                 "score": c.score,
                 "why": c.why,
                 "reasons": plain(c.reasons),
-                "minimum": c.minimum,
-                "maximum": c.maximum,
+                "minimum": c.minimum if isfinite(c.minimum) else None,
+                "maximum": c.maximum if isfinite(c.maximum) else None,
                 "sparkline": c.sparkline(),
             }
             for c in result.candidates
@@ -121,8 +122,7 @@ def _choices(result: ConversionResult) -> Table:
         table.add_row(
             c.path,
             c.size,
-            f"{c.minimum:.3g}",
-            f"{c.maximum:.3g}",
+            *(f"{end:.3g}" if isfinite(end) else "-" for end in (c.minimum, c.maximum)),
             c.sparkline(),
             f"{c.score:.2f}",
             c.why,

@@ -18,7 +18,8 @@ class Candidate:
     """A matrix that could be the joint positions.
 
     path: as MATLAB writes it. shape: as MATLAB's size() gives it. score: 0 to 1, larger is
-    likelier. reasons: what speaks for and against it. minimum, maximum: in the matrix's own unit.
+    likelier. reasons: what speaks for and against it. minimum, maximum: of its finite columns, in
+    the matrix's own unit; NaN where it has none.
     """
 
     path: str

@@ -221,7 +221,7 @@ def misleading(robot: str) -> Iterator[Case]:
         yield case(f"unit_{unit}", mat(q=held, fs=50.0, unit=unit), "unit rad turn percent", truth)
     for unit in ("Nm", "V", "rad/s"):
         yield case(f"unit_{unit[:3]}", mat(q=s, fs=50.0, unit=unit), "unit")
-    yield case("unit_two", mat(q_deg=s, fs=50.0, unit="rad"), "rad")
+    yield case("unit_two", mat(q_deg=s, fs=50.0, unit="rad"), "radians degrees")
     back = np.arange(6)[::-1]
     yield case("order_back", mat(q=q[:, ::-1], fs=50.0, joint_order=back + 1.0), "order", q)
     yield case("order_labels", mat(q=q[:, ::-1], fs=50.0,

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
 from numpy.typing import NDArray
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
@@ -98,13 +100,15 @@ class Assessment:
 
     def candidate(self) -> Candidate:
         """Return what a person can choose."""
+        ends = np.array([self.low, self.high])
+        ends = ends[:, np.isfinite(ends).all(axis=0)]
         return Candidate(
             self.path,
             self.variable.shape,
             self.score,
             (*self.reasons, *self.doubts, *self.objections),
-            float(self.low.min()),
-            float(self.high.max()),
+            float(ends[0].min()) if ends.size else math.nan,
+            float(ends[1].max()) if ends.size else math.nan,
             preview(self.variable),
         )
 

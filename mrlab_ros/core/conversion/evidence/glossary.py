@@ -65,7 +65,8 @@ CLASSES = {
         lagen positie posities pozycja pozycje konum pozisyon weizhi ichi poloha polohy
         координата координаты положение положения 位置 위치 positionen coordinate coordinates
         koordinaten coords coordonnee coordonnees coordenadas coordinata value values
-        valeur valeurs valor valores valore valori state states zustand point points punkt punkte
+        waarden waarde valeur valeurs valor valores valore valori
+        state states zustand point points punkt punkte
         pt pts pose punto puntos punti ponto pontos stuetzpunkte observation observations""",
     Class.MOTION: """
         traj trajs trajectory trajectories trj path paths bahn bahnen pfad pfade bahndaten motion
@@ -90,7 +91,8 @@ CLASSES = {
         begin final end ende nominal planned plan geplant gepland planificado pianificato planifie
         track tracked simulated sim simuliert simule simulado
         simulata sensor encoder enc init initial следующий заданный измеренный заданные 期望 实际
-        目标 測定 目標 expected in input output out new neu nouveau nueva best opt optimal nom
+        目标 測定 目標 expected in input output out new neu nouveau nueva best opt optimal nom sp
+        nieuw nieuwe werkelijk werkelijke reais finale finali nuovo nuova novo novas
         action actions""",
     Class.KEPT: """
         log logs logged data daten dat donnees datos dati dados dane veri shuju deta dados record
@@ -106,7 +108,7 @@ CLASSES = {
         todos tous ds export exported saved save copy kopie file run lauf test trial versuch exp
         experiment messung messungen messwerte enregistrement enregistrees registro registrado
         registrata dataset signal signals ts timeseries col cols column columns row rows spalte
-        frame frames step steps sample part segment seg demo example beispiel ejemplo exemple
+        frame frames sample part segment seg demo example beispiel ejemplo exemple
         esempio exemplo my mein mon mi his version ver v1 v2 tmp final the of der die das des de
         du del della di la le les los las el et und and per von pro from to fuer for robot robots
         roboter robota arm arms""",
@@ -128,7 +130,8 @@ CLASSES = {
         t time times tout tvec timevector zeit zeiten tiempo tiempos temps tempo tempos tempi tijd
         tijden czas zaman sure shijian jikan cas время 时间 時間 시간 timestamp timestamps stamp
         stamps zeitstempel zeitpunkt zeitpunkte elapsed clock uhr datenum datetime tspan tick ticks
-        ttraj tlog tsim tt tq ts instant instants horodatage""",
+        ttraj tlog tsim tt tq ts instant instants instantes istanti
+        horodatage tijdstempel tijdstempels temporale temporal temporel""",
     Class.PERIOD: """
         dt ts te ta tm tc deltat tstep timestep dtime deltatime takt taktzeit takzeit zeitschritt
         period periode periodo periodes stap step schritt interval intervall intervalle intervalo
@@ -141,7 +144,7 @@ CLASSES = {
     Class.SAMPLING: """
         sample samples sampling samp abtast abtastung abtastungen abtastzeit abtastrate
         abtastfrequenz abtastintervall abtastperiode echantillonnage echantillon echant
-        bemonstering bemonsterings logging muestreo muestra
+        bemonstering bemonsterings ctrl logging muestreo muestra
         campionamento campione amostragem amostra control controller controle controllo loop
         update publish record recording frame frames per second capture acquisition servo
         regel regler ros probkowania ornekleme caiyang bild cycle sequence""",

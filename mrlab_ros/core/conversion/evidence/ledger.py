@@ -213,6 +213,10 @@ def _number(s: Statement, matrix: _Matrix) -> Entry:
         return Entry(v, End.HARMLESS)
     timed, settled = _is_timed(words), _is_settled(words)
     rate = _rate_of(number, words)
+    if all(len(w.text) == 1 for w in words):
+        # a letter explains nothing that is near a usual rate or step
+        least, most = rate_scalars.LIKELY_RATES
+        settled = settled and not least <= rate <= most
     if number > 0 and matrix.assumed and (timed or (not settled and _may_be_time(number))):
         return Entry(v, End.TIME, rate=rate)
     if _agrees(number, matrix):
@@ -273,7 +277,8 @@ def _vector(s: Statement, matrix: _Matrix) -> Entry:
             v, End.PER_JOINT if open_to and not permuted else End.EXPLAINED, _unread(words)
         )
     path_parameter = "".join(parts(leaf(v.path))) in PATH_PARAMETERS
-    other = (any(w.quantity for w in words) or _is_settled(words)) and not _is_timed(words)
+    longer = [w for w in words if len(w.text) > 1]
+    other = (any(w.quantity for w in words) or _is_settled(longer)) and not _is_timed(words)
     if matrix.assumed and not (path_parameter or other) and len(values) >= ENOUGH:
         steps = np.diff(values)
         if (steps > 0).all() and not (steps == 1).all():

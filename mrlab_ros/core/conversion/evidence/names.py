@@ -332,6 +332,8 @@ def _said_by(said: list[str], *, series: bool) -> Name:
         return Name(Hint.AGAINST, "accelerations" if dotted["two"] else "velocities")
     if said[:1] == ["i"] and len(said) > 1:
         return Name(Hint.AGAINST, "currents")
+    if len(said) == 2 and said[1] == "d" and word_of(said[0]).can_be(Class.SYMBOL):
+        return Name(Hint.DOUBTFUL, "joint_velocities")  # or desired
     if bare in vocabulary():
         said = [bare]
     found = [word for p in said if not p.isdigit() for word in words_in(_bare(p))]

@@ -137,6 +137,9 @@ def _tells(s: Statement) -> bool:
     """Say whether a text may describe the matrix: a comment, or one about what is beside it."""
     if s.variable.kind == COMMENT or s.near == 0 or s.names(Class.ABOUT, *OURS[:7]):
         return True
+    unit = units.parse(s.text)
+    if unit is not None and unit.name in SPOKEN and units.plain(s.text) not in AMBIGUOUS:
+        return True
     return any(w.can_be(*OURS[1:5]) for w in words_of_text(s.text))
 
 

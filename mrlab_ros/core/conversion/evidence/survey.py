@@ -57,12 +57,13 @@ class Survey:
     def ranked(self) -> list[Assessment]:
         """Return the matrices that could be taken as they are, likeliest first.
 
-        Of equal ones those that were measured come before the actions that were asked for.
+        Those with NaN come last. Of equal ones those that were measured come before the actions
+        that were asked for.
         """
         found = [
             a for a in self.fitting if self.columns_asked or not blocking_clocks(a, self.robot)
         ]
-        return sorted(found, key=lambda a: (-a.points, a.path.startswith("action")))
+        return sorted(found, key=lambda a: (not a.finite, -a.points, a.path.startswith("action")))
 
 
 def survey(workspace: Workspace, robot: RobotModel, *, columns_asked: bool = False) -> Survey:
