@@ -70,7 +70,7 @@ ENDED_BY_ANOTHER = Code(
 )
 RECORDING_GONE = Code(
     "recording_gone",
-    "The recording into {bag} has ended: the recorder was restarted.",
+    "The recording into {bag} has ended while its recorder did not answer.",
     meaning="A recorder returned without the recording that ran; the bag holds what came before.",
 )
 RECORDER_SILENT = Code(

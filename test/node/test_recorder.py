@@ -399,6 +399,23 @@ def test_every_value_of_a_latched_topic_is_recorded_where_the_clock_is_set(
     assert words(folder, "/systems") == ["old", "new 0", "new 1", "new 2"]
 
 
+def test_a_topic_without_publishers_is_given_up_and_followed_again(
+    graph, recorder, states, monkeypatch
+):
+    monkeypatch.setattr(recording, "GONE_NS", 0)
+    monkeypatch.setattr(recording, "PUBLISHER_CHECK_EVERY", 1)
+    folder = start(graph, "class", ("/*/telemetry",))
+    for number in range(2):
+        made = graph.client.create_publisher(String, "/ur5e_1/telemetry", qos.STREAM)
+        wait_for(made.get_subscription_count, "the recorder")
+        made.publish(String(data=f"word {number}"))
+        wait_for(lambda number=number: states.last().messages == number + 1, "the word")
+        graph.client.destroy_publisher(made)
+        wait_for(lambda: not graph.client.count_subscribers("/ur5e_1/telemetry"), "the end")
+    order(graph, "stop")
+    assert words(folder, "/ur5e_1/telemetry") == ["word 0", "word 1"]
+
+
 def test_a_value_of_before_a_clock_was_set_back_is_no_event_of_the_recording():
     topic = Topic("/systems", "std_msgs/msg/String", (QosProfile(durability="transient_local"),))
     followed = recording.Followed(None, topic, 1)

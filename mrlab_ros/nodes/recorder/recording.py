@@ -35,6 +35,9 @@ PUBLISHER_CHECK_EVERY = 8
 FLUSH_NS = 400_000_000
 # How often metadata.yaml is brought up to date while recording, ns.
 METADATA_NS = 10 * SECOND
+# A topic that has had no publisher for so long is not followed any more, ns: one that is restarted
+# is back by then, and each subscription holds memory.
+GONE_NS = 30 * SECOND
 # Latched messages of a topic arrive within this time after it is followed, ns.
 PRESENT_NS = SECOND // 2
 # A stamp that is so far in the future is of before the clock was set back, ns.
@@ -51,11 +54,19 @@ class Followed:
         self.topic = topic
         self.publishers = publishers
         self.since_ns = time.time_ns()
+        # When its last publisher was found to have gone, monotonic; 0: it has one.
+        self._alone_ns = 0
         # By this time of the clock that nobody sets, what was published before has arrived.
         self._present_ns = time.monotonic_ns() + PRESENT_NS
         # The newest of what was published before: a latched topic keeps several values, and the
         # older ones are no events of this recording.
         self.before: Received | None = None
+
+    def is_gone(self, publishers: int) -> bool:
+        """Return whether it has had no publisher for GONE_NS. publishers: that it has now."""
+        now_ns = time.monotonic_ns()
+        self._alone_ns = 0 if publishers else self._alone_ns or now_ns
+        return not publishers and now_ns - self._alone_ns >= GONE_NS
 
     def takes(self, message: Received) -> bool:
         """Return whether to write `message` now; keep back what was published before.
@@ -164,7 +175,9 @@ class Recording:
                 continue
             known = self._followed.get(name)
             publishers = self._streams.count_publishers(name)
-            if publishers and (known is None or known.publishers != publishers):
+            if known is not None and known.is_gone(publishers):
+                self._unfollow(name)
+            elif publishers and (known is None or known.publishers != publishers):
                 try:
                     changed |= self._follow(name, publishers)
                 except Exception as error:
@@ -205,8 +218,7 @@ class Recording:
             known.publishers = publishers
             if (known.topic.latched, known.topic.reliable) == (topic.latched, topic.reliable):
                 return False
-            self._poll.remove(known.subscription)
-            self._streams.destroy_subscription(known.subscription)
+            self._unfollow(name)
         kind = message_class(topic.type)
         with self._lock:
             self._writer.add_topic(topic)
@@ -217,6 +229,11 @@ class Recording:
         self._followed[name] = Followed(subscription, topic, publishers)
         self._poll.add(subscription, name)
         return True
+
+    def _unfollow(self, name: str) -> None:
+        subscription = self._followed.pop(name).subscription
+        self._poll.remove(subscription)
+        self._streams.destroy_subscription(subscription)
 
     def _attach(self, name: str, media_type: str, data: bytes) -> None:
         """Put a file into the bag, unless it is closed."""
