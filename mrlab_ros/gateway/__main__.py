@@ -28,6 +28,7 @@ WRONG_CONFIGURATION = 78
 LAST_WORDS_S = 1
 # Connections that may wait to be accepted: a class that opens the pages at once.
 BACKLOG = 256
+GONE = "socket.send() raised exception."
 # Of a WebSocket, bytes: its own frames are smaller.
 LARGEST_FRAME = 4 * 1024 * 1024
 
@@ -49,6 +50,8 @@ def main() -> None:
     # Each request of a client of an OpenID Connect provider would be a line.
     logging.getLogger("httpx").setLevel(logging.WARNING)
     logging.getLogger("uvicorn.error").addFilter(_is_news)
+    # A line for every write to a socket whose other side is gone.
+    logging.getLogger("asyncio").addFilter(lambda record: record.msg != GONE)
     try:
         serve(settings_of(sys.argv[1:]))
     except LabError as error:

@@ -13,7 +13,9 @@ from collections.abc import AsyncIterator
 import h11
 from uvicorn.protocols.http.h11_impl import H11Protocol
 from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
+from websockets.frames import Frame
 
+from mrlab_ros.core.runtime.bucket import Bucket
 from mrlab_ros.gateway.diagnostics import BODY_STOPPED
 from mrlab_ros.gateway.errors import TooSlow
 
@@ -22,16 +24,29 @@ HEAD_S = 20.0
 BODY_S = 30.0
 # Bytes that may wait in a WebSocket's transport when a ping comes.
 MOST_UNREAD = 128 * 1024
+# Pings and pongs of one WebSocket, frames/s and frames; a browser sends one pong in 20 s.
+CONTROL_RATE, CONTROL_BURST = 5.0, 50.0
 
 
 class ReadingSocket(WebSocketsSansIOProtocol):
-    """uvicorn's WebSocket; ends where the other side sends pings and does not read."""
+    """uvicorn's WebSocket; ends where the other side pings without end, or does not read."""
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        super().connection_made(transport)
+        self.control = Bucket(CONTROL_RATE, CONTROL_BURST)
 
     def handle_ping(self) -> None:
-        if self.transport.get_write_buffer_size() > MOST_UNREAD:
+        unread = self.transport.get_write_buffer_size()
+        if unread > MOST_UNREAD or not self.control.take(1, self.loop.time()):
             self.transport.abort()
         else:
             super().handle_ping()
+
+    def handle_pong(self, event: Frame) -> None:
+        if self.control.take(1, self.loop.time()):
+            super().handle_pong(event)
+        else:
+            self.transport.abort()
 
 
 def protocol(wait: float = HEAD_S) -> type[H11Protocol]:

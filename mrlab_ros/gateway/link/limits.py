@@ -5,6 +5,7 @@ How many batches a client may be sent: it says up to which number, after decodin
 
 from __future__ import annotations
 
+import asyncio
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -65,7 +66,7 @@ class LinkLimits:
         500,
     )
     pages_each: int = field(
-        Integer(between(1, 100_000), "pages"), "Pages that one person may have open.", 64
+        Integer(between(1, 100_000), "pages"), "Pages that one person may have open.", 32
     )
     frame_rate: float = field(
         Number(between(1, 1e6), "frames/s"), "Frames a second that a page may send.", 2000.0
@@ -135,6 +136,8 @@ class Budget:
         self._room = limits.person_queue
         # Bytes that wait.
         self.queued = 0
+        # Held while a page of this person begins: its subscriptions take work of all.
+        self.begins = asyncio.Lock()
 
     def wait(self, size: int, now: float) -> float:
         """Count a frame of `size` bytes; return how long the page has to wait for the next, s."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections import OrderedDict, deque
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -98,12 +99,17 @@ class LinkSession:
 
     # ---- a new socket ----
 
-    def attach(self, received: int, wanted: Mapping[int, str]) -> None:
+    async def attach(self, received: int, wanted: Mapping[int, str]) -> None:
         """Begin on a new socket: the client has fragments up to `received`.
 
         wanted: its subscriptions, number -> key expression; states that may have been lost on the
-        way are given again.
+        way are given again. Others have their turn between two subscriptions, and pages of one
+        person begin one after another.
         """
+        async with self.budget.begins:
+            await self._attach(received, wanted)
+
+    async def _attach(self, received: int, wanted: Mapping[int, str]) -> None:
         self._credit = Credit(BATCHES)
         self._texts.clear()
         self._texts_size = 0
@@ -112,11 +118,13 @@ class LinkSession:
         self._reliable.rewind(received)
         for number in [n for n, s in self._subscriptions.items() if wanted.get(n) != s.expression]:
             self.unsubscribe(number)
-        for subscription in self._subscriptions.values():
+        for subscription in list(self._subscriptions.values()):
             self._hub.replay(subscription.expression, self, each=False)
+            await asyncio.sleep(0)
         for number, expression in wanted.items():
             if number not in self._subscriptions:
                 self.subscribe(number, expression)
+                await asyncio.sleep(0)
 
     # ---- from the client ----
 

@@ -56,6 +56,8 @@ VERSION, SIGN_IN_ENDED, TOO_MANY = 4001, SOCKET_REFUSED, 4029
 BROKEN, BEHIND, SILENT = 4400, 4409, 4408
 # s for a client's first frame.
 HELLO_S = 5.0
+# s until a page learns that there are too many.
+FULL_S = 2.0
 # s without a frame after which a client counts as gone. A page in view sends one every second, but
 # stands still while it builds a scene; what waits for it is bounded meanwhile.
 SILENCE_S = 15.0
@@ -140,6 +142,8 @@ async def link(websocket: WebSocket, person: CurrentPerson, people: ThePeople) -
         except BadInput as error:
             await _close(websocket, BROKEN, error.diagnostic)
         except TooMany as error:
+            # Whoever tries again and again costs the others a handshake each time.
+            await asyncio.sleep(FULL_S)
             await _close(websocket, TOO_MANY, error.diagnostic)
         else:
             socket = _Socket(websocket, port, client, hidden)
@@ -170,7 +174,8 @@ class _Socket:
         """Serve until one side ends it."""
         session = self._session
         session.wake = self._woken.set
-        session.attach(received, wanted)
+        await session.attach(received, wanted)
+        self._heard = time.monotonic()
         welcome = {
             "op": "welcome",
             "token": session.token,

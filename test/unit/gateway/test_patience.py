@@ -9,10 +9,11 @@ import pytest
 import uvicorn
 from refusals import refused
 from websockets.asyncio.client import connect
+from websockets.exceptions import ConnectionClosedError
 
 from mrlab_ros.gateway.diagnostics import BODY_STOPPED
 from mrlab_ros.gateway.errors import TooSlow
-from mrlab_ros.gateway.patience import in_time, protocol
+from mrlab_ros.gateway.patience import CONTROL_BURST, ReadingSocket, in_time, protocol
 
 WAIT_S = 0.2
 
@@ -39,7 +40,7 @@ async def served() -> AsyncIterator[int]:
         config = uvicorn.Config(
             application,
             http=protocol(WAIT_S),
-            ws="websockets-sansio",
+            ws=ReadingSocket,
             lifespan="off",
             log_config=None,
         )
@@ -111,3 +112,16 @@ def test_a_whole_body_passes():
         return [piece async for piece in in_time(body(), "q.mat", WAIT_S)]
 
     assert asyncio.run(run()) == [b"first", b"second"]
+
+
+def test_a_socket_that_pings_without_end_is_ended() -> None:
+    async def pings() -> int:
+        async with served() as port, connect(f"ws://127.0.0.1:{port}", ping_interval=None) as ws:
+            for count in range(10 * int(CONTROL_BURST)):
+                try:
+                    await (await ws.ping())
+                except ConnectionClosedError:
+                    return count
+        return -1
+
+    assert CONTROL_BURST <= asyncio.run(pings()) < 2 * CONTROL_BURST

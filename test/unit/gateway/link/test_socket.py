@@ -670,6 +670,11 @@ async def test_the_first_client_of_a_gateway_gets_every_message_of_a_latched_his
     await side.until(lambda: len(side.records) == 3)
 
 
+@pytest.fixture(autouse=True)
+def no_delay(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(socket, "FULL_S", 0.0)
+
+
 @scene
 async def test_an_instructor_comes_in_where_others_took_all_places(stage: Stage) -> None:
     stage.gateway.app.state.link.sessions._limits = LinkLimits(pages=1)
