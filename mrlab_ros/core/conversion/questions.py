@@ -160,7 +160,7 @@ def _yes(variable: Variable) -> tuple[Fix, ...]:
 
 def _robots(workspace: Workspace, variable: Variable, robot: RobotModel) -> list[Diagnostic]:
     found = []
-    for claim in beside.robot_claims(workspace, robot)[:1]:
+    for claim in statements.robot_claims(workspace, robot)[:1]:
         severity = Severity.ERROR if claim.other_maker else Severity.WARNING
         found.append(
             ROBOT_STATED(
@@ -180,7 +180,7 @@ def _robots(workspace: Workspace, variable: Variable, robot: RobotModel) -> list
 def _motors(
     said: list[Statement], variable: Variable, name: Name, joints: int
 ) -> list[Diagnostic]:
-    gear = beside.gears(said, joints)
+    gear = statements.gears(said, joints)
     if gear is None and not name.motor:
         return []
     source = variable.path if gear is None else gear.path

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import itertools
 import re
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from mrlab_ros.core.conversion.evidence.glossary import ROBOTS, Class
-from mrlab_ros.core.conversion.evidence.names import described, leaf, spelled
+from mrlab_ros.core.conversion.evidence.glossary import Class
+from mrlab_ros.core.conversion.evidence.names import described, spelled
 from mrlab_ros.core.conversion.evidence.statements import Statement
-from mrlab_ros.core.conversion.workspace import Workspace
 from mrlab_ros.core.robots.model import RobotModel
 
 SPLIT = re.compile(r"[\n;,|]+|\s{1,}(?=\D)")
@@ -122,68 +120,3 @@ def _tokens(text: str) -> list[str]:
 
 def _only(found: list[int]) -> int | None:
     return found[0] if len(found) == 1 else None
-
-
-@dataclass(frozen=True)
-class RobotClaim:
-    """A robot that a text names. other_maker: it is of another maker than the chosen one."""
-
-    source: str
-    text: str
-    other_maker: bool
-
-
-def robot_claims(workspace: Workspace, robot: RobotModel) -> list[RobotClaim]:
-    """Return the texts that name another robot than the chosen one."""
-    own = set(re.split(r"[\W_]+", spelled(f"{robot.id} {robot.manufacturer} {robot.product}")))
-    own_makers = {
-        maker
-        for maker, words in ROBOTS.items()
-        if own & set(words.split()) or maker in spelled(robot.manufacturer)
-    }
-    known = {word: maker for maker, words in ROBOTS.items() for word in words.split()}
-    if not own_makers:
-        return []
-    found = []
-    for v in workspace.variables:
-        if not v.text or len(v.text) > 200 or v.kind == "logical":
-            continue
-        tokens = [t for t in re.split(r"[\W_]+", spelled(v.text)) if t]
-        pairs = [a + b for a, b in itertools.pairwise(tokens)]
-        said = [t for t in dict.fromkeys((*tokens, *pairs)) if _series(t, known)]
-        makers = {known[_series(t, known)] for t in said}
-        keyed = any(
-            w.can_be(Class.ARM) or w.text in ("model", "modell") for w in described(leaf(v.path))
-        )
-        if not makers or not (keyed or len(tokens) <= 12):
-            continue
-        models = [
-            t for t in said if any(c.isdigit() for c in t) or t in ("iiwa", "iisy", "youbot")
-        ]
-        if not makers & own_makers:
-            found.append(RobotClaim(v.path, v.text.strip(), other_maker=True))
-        elif models and not any(m in own or any(o.startswith(m) for o in own) for m in models):
-            found.append(RobotClaim(v.path, v.text.strip(), other_maker=False))
-    return found
-
-
-def _series(word: str, known: Collection[str]) -> str:
-    """Return the word of a robot that is known: itself, or the series of one such as iiwa14."""
-    series = word.rstrip("0123456789")
-    if word in known:
-        return word
-    return series if len(series) > 2 and series in known else ""
-
-
-def gears(said: list[Statement], joints: int) -> Statement | None:
-    """Return the gear ratios beside a matrix, or None."""
-    for s in said:
-        values = s.variable.values
-        if values is None or values.size not in (1, joints) or not s.names(Class.GEAR):
-            continue
-        if any(w.quantity or w.can_be(Class.GRIPPER) for w in s.words):
-            continue
-        numbers = np.abs(np.asarray(values, dtype=np.float64))
-        if np.isfinite(numbers).all() and float(numbers.max()) > 1:
-            return s
-    return None

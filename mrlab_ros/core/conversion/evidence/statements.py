@@ -1,18 +1,20 @@
-"""Texts, flags and numbers that state something of a matrix, and how near to it they stand."""
+"""What a file states of a matrix, how near it stands: its unit, its robot, gears of its motors."""
 
 from __future__ import annotations
 
+import itertools
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
 from mrlab_ros.core.conversion.evidence import units
-from mrlab_ros.core.conversion.evidence.glossary import Class
-from mrlab_ros.core.conversion.evidence.names import Word, described, leaf, words_in
+from mrlab_ros.core.conversion.evidence.glossary import ROBOTS, Class
+from mrlab_ros.core.conversion.evidence.names import Word, described, leaf, spelled, words_in
 from mrlab_ros.core.conversion.evidence.units import ANGLES, TIMES, Unit
 from mrlab_ros.core.conversion.workspace import COMMENT, Variable, Workspace, outer
+from mrlab_ros.core.robots.model import RobotModel
 
 ELEMENT = re.compile(r"[({][^.]*$")
 # words of a text: letters with the signs of units inside
@@ -214,3 +216,68 @@ def counts_a_turn(said: list[Statement]) -> float | None:
 def words_of_text(text: str) -> list[Word]:
     """Return the words of a text of the file, compounds taken apart."""
     return [w for token in TOKEN.findall(text) for w in words_in(token.lower())]
+
+
+@dataclass(frozen=True)
+class RobotClaim:
+    """A robot that a text names. other_maker: it is of another maker than the chosen one."""
+
+    source: str
+    text: str
+    other_maker: bool
+
+
+def robot_claims(workspace: Workspace, robot: RobotModel) -> list[RobotClaim]:
+    """Return the texts that name another robot than the chosen one."""
+    own = set(re.split(r"[\W_]+", spelled(f"{robot.id} {robot.manufacturer} {robot.product}")))
+    own_makers = {
+        maker
+        for maker, words in ROBOTS.items()
+        if own & set(words.split()) or maker in spelled(robot.manufacturer)
+    }
+    known = {word: maker for maker, words in ROBOTS.items() for word in words.split()}
+    if not own_makers:
+        return []
+    found = []
+    for v in workspace.variables:
+        if not v.text or len(v.text) > 200 or v.kind == "logical":
+            continue
+        tokens = [t for t in re.split(r"[\W_]+", spelled(v.text)) if t]
+        pairs = [a + b for a, b in itertools.pairwise(tokens)]
+        said = [t for t in dict.fromkeys((*tokens, *pairs)) if _series(t, known)]
+        makers = {known[_series(t, known)] for t in said}
+        keyed = any(
+            w.can_be(Class.ARM) or w.text in ("model", "modell") for w in described(leaf(v.path))
+        )
+        if not makers or not (keyed or len(tokens) <= 12):
+            continue
+        models = [
+            t for t in said if any(c.isdigit() for c in t) or t in ("iiwa", "iisy", "youbot")
+        ]
+        if not makers & own_makers:
+            found.append(RobotClaim(v.path, v.text.strip(), other_maker=True))
+        elif models and not any(m in own or any(o.startswith(m) for o in own) for m in models):
+            found.append(RobotClaim(v.path, v.text.strip(), other_maker=False))
+    return found
+
+
+def _series(word: str, known: Collection[str]) -> str:
+    """Return the word of a robot that is known: itself, or the series of one such as iiwa14."""
+    series = word.rstrip("0123456789")
+    if word in known:
+        return word
+    return series if len(series) > 2 and series in known else ""
+
+
+def gears(said: list[Statement], joints: int) -> Statement | None:
+    """Return the gear ratios beside a matrix, or None."""
+    for s in said:
+        values = s.variable.values
+        if values is None or values.size not in (1, joints) or not s.names(Class.GEAR):
+            continue
+        if any(w.quantity or w.can_be(Class.GRIPPER) for w in s.words):
+            continue
+        numbers = np.abs(np.asarray(values, dtype=np.float64))
+        if np.isfinite(numbers).all() and float(numbers.max()) > 1:
+            return s
+    return None
