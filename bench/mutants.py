@@ -44,7 +44,7 @@ MODULES = {
     "mrlab_ros.core.systems.orders": ("core/systems",),
     "mrlab_ros.core.systems.timeline": ("core/systems",),
     "mrlab_ros.core.conversion.frame_rate": ("core/conversion",),
-    "mrlab_ros.core.conversion.gripper": ("core/conversion",),
+    "mrlab_ros.core.conversion.evidence.other_columns": ("core/conversion",),
     "mrlab_ros.core.physics.clearance": ("core/physics",),
     "mrlab_ros.core.physics.collisions": ("core/physics",),
     "mrlab_ros.core.recording.recorder": ("core/recording",),

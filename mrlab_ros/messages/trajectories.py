@@ -14,10 +14,9 @@ from numpy.typing import NDArray
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, of_record
 from mrlab_ros.core.base.geometry import Array
-from mrlab_ros.core.conversion.candidates import Candidate
+from mrlab_ros.core.conversion.candidates import Candidate, Preview
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome
 from mrlab_ros.core.conversion.options import Options
-from mrlab_ros.core.conversion.preview import Preview
 from mrlab_ros.core.trajectory.document import Frames, warnings_of
 from mrlab_ros.core.trajectory.trajectory import Channels, Source, Trajectory
 from mrlab_ros.messages.texts import values_to_message

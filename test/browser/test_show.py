@@ -18,8 +18,8 @@ from mrlab_ros.app.show.page import page
 from mrlab_ros.app.show.session import session
 from mrlab_ros.core.base.clock import PlaybackClock
 from mrlab_ros.core.base.diagnostic import Diagnostic, Severity
+from mrlab_ros.core.conversion.candidates import Preview
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome
-from mrlab_ros.core.conversion.preview import Preview
 from mrlab_ros.core.recording.recorded_motion import RecordedMotion, RecordedObject
 from mrlab_ros.core.recording.report import Contact, ReportedState, SessionReport
 from mrlab_ros.core.recording.run_finding import runs_of

@@ -22,7 +22,7 @@ from mrlab_ros.core.base.diagnostic import Diagnostic, Severity
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.foreign_text import visible
 from mrlab_ros.core.base.names import close_to
-from mrlab_ros.core.conversion.preview import Preview
+from mrlab_ros.core.conversion.candidates import Preview
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.runtime.colours import JOINTS, SEVERITIES
 from mrlab_ros.core.trajectory import document as trajectory_document

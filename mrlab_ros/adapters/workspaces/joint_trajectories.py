@@ -20,7 +20,7 @@ from mrlab_ros.adapters.workspaces.diagnostics import LIBRARY_FAILED
 from mrlab_ros.adapters.workspaces.matlab.elements import Damaged, NotAWorkspace, TooLarge
 from mrlab_ros.adapters.workspaces.sinks import Found, Sink
 from mrlab_ros.core.conversion.diagnostics import SHORT_POINT
-from mrlab_ros.core.conversion.named_columns import GRIPPER
+from mrlab_ros.core.conversion.evidence.headings import GRIPPER
 from mrlab_ros.core.conversion.workspace import JOINT_TRAJECTORY
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 

@@ -19,10 +19,9 @@ from mrlab_ros.adapters.trajectories import npz_file
 from mrlab_ros.adapters.workspaces.diagnostics import CONVERTER_FAILED, NO_ROOM, TOO_LARGE
 from mrlab_ros.core.base.diagnostic import Diagnostic, from_plain, plain
 from mrlab_ros.core.base.errors import BadInput
-from mrlab_ros.core.conversion.candidates import Candidate
+from mrlab_ros.core.conversion.candidates import Candidate, Preview
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome, convert
 from mrlab_ros.core.conversion.options import MOST_ROWS, Options
-from mrlab_ros.core.conversion.preview import Preview
 from mrlab_ros.core.conversion.workspace import Workspace
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.derived_signals import ProxyCoefficients

@@ -70,8 +70,8 @@ from mrlab_ros.adapters.workspaces.sinks import Found, ObjectSink, Sink, View
 from mrlab_ros.adapters.workspaces.tables import table
 from mrlab_ros.core.base.diagnostic import Diagnostic, plain
 from mrlab_ros.core.base.errors import BadInput
-from mrlab_ros.core.conversion.dimensions import is_motion
 from mrlab_ros.core.conversion.options import Options
+from mrlab_ros.core.conversion.picking import is_motion
 from mrlab_ros.core.conversion.workspace import Workspace
 from mrlab_ros.core.robots.model import Joint, KinematicChain, RobotModel, Segment
 from mrlab_ros.core.trajectory.derived_signals import ProxyCoefficients

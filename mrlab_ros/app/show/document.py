@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 
 from mrlab_ros.app.show.packed import packed
 from mrlab_ros.core.base.diagnostic import Diagnostic, plain
+from mrlab_ros.core.conversion.candidates import Preview
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome
 from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE
-from mrlab_ros.core.conversion.preview import Preview
 from mrlab_ros.core.robots.model import ShownRobot
 from mrlab_ros.core.trajectory.trajectory import Source, Trajectory
 

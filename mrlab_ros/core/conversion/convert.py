@@ -8,61 +8,39 @@ from dataclasses import dataclass, field, replace
 from enum import Enum
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from mrlab_ros.core.base.diagnostic import MATLAB_PATH, Diagnostic, Fix, Severity
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.conversion import (
-    dimensions,
     discovery,
-    fixes,
-    frame_rate,
     kinematics_match,
-    left_out_columns,
     limits,
+    picking,
     questions,
-    rate_findings,
     resampling,
 )
-from mrlab_ros.core.conversion.candidates import Candidate
+from mrlab_ros.core.conversion.candidates import Candidate, Preview, contents, preview
 from mrlab_ros.core.conversion.diagnostics import (
-    BAD_MESSAGE,
     DOUBTFUL_VALUES,
-    LATE_POINT,
     NO_MOTION,
-    NO_TIMES,
-    RATE_DEFAULT,
     REPEATED_PIECES,
-    RESAMPLED,
-    TOO_LONG,
     TOO_MANY_ROWS,
     TRAJECTORY_TAKEN,
     WAYPOINTS,
 )
-from mrlab_ros.core.conversion.evidence import datevec, joining, values
+from mrlab_ros.core.conversion.evidence import joining, other_columns
 from mrlab_ros.core.conversion.evidence.assessment import Assessment
 from mrlab_ros.core.conversion.evidence.headings import split_tables
-from mrlab_ros.core.conversion.evidence.measuring import fits, is_coarse
-from mrlab_ros.core.conversion.evidence.stated import with_headings, with_statements
-from mrlab_ros.core.conversion.evidence.survey import Survey, survey
-from mrlab_ros.core.conversion.explain import contents
+from mrlab_ros.core.conversion.evidence.joint_order import with_headings, with_statements
+from mrlab_ros.core.conversion.evidence.survey import Survey, fits, survey
 from mrlab_ros.core.conversion.layout import Layout, lay_out
 from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE, MOST_ROWS, Options
 from mrlab_ros.core.conversion.picking import Chosen, pick, reshaped
-from mrlab_ros.core.conversion.preview import Preview, preview
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory import derived_signals
 from mrlab_ros.core.trajectory.catalogue import checked_id
 from mrlab_ros.core.trajectory.derived_signals import ProxyCoefficients
 from mrlab_ros.core.trajectory.trajectory import Source, Trajectory
-
-MOST_FRAMES = 2_000_000  # of a message that is sampled: five hours and a half at 100 Hz
-MOST_OWN_RATE = 10_000.0  # Hz; points that come more often are sampled at the default
-# Hz and rad (m): rows that come more slowly and are farther apart are waypoints
-WAYPOINT_RATE, WAYPOINT_STEP = 10.0, 0.1
-TIMES_IN_MATLAB = "t = 2 * (0:size(q, 1) - 1)'; save('traj.mat', 'q', 't')"
 
 
 class Outcome(Enum):
@@ -141,7 +119,7 @@ def convert(
 
     def tried(refused: ConversionResult) -> ConversionResult:
         """Return a refusal with those of its fixes that lead to a motion."""
-        if found.workspace is None or found.workspace.count > fixes.MOST_VALUES:
+        if found.workspace is None or found.workspace.count > questions.MOST_VALUES:
             return refused
         alone = replace(found.workspace, confirm=None)
 
@@ -149,7 +127,7 @@ def convert(
             sizes: dict[str, Any] = {"default_frame_rate": default_frame_rate, "rows": most_rows}
             return _findings(file, alone, changed, robot, **sizes)
 
-        said = fixes.vetted(refused.diagnostics, options, attempt)
+        said = questions.vetted(refused.diagnostics, options, attempt)
         return replace(refused, diagnostics=tuple(found.said(list(said))))
 
     try:
@@ -184,7 +162,7 @@ def convert(
         )
     except BadInput as refused:
         found.notes.append(refused.diagnostic)
-        notes = dimensions.with_lines(found.notes, found.squeezed)
+        notes = picking.with_lines(found.notes, found.squeezed)
         return tried(_rejected(file, found.said(notes), found.variable))
     return ConversionResult(file, Outcome.ACCEPTED, trajectory, (), _worst_first(found.notes))
 
@@ -228,7 +206,7 @@ class _Found:
     notes: list[Diagnostic] = field(default_factory=list)
     workspace: Workspace | None = None
     variable: Variable | None = None
-    squeezed: dict[str, dimensions.Squeezed] = field(default_factory=dict)
+    squeezed: dict[str, picking.Squeezed] = field(default_factory=dict)
     unspeakable: tuple[str, ...] = ()
 
     def said(self, notes: list[Diagnostic]) -> list[Diagnostic]:
@@ -269,7 +247,7 @@ def _checked(
     held = found.workspace = read()
     paths = [v.path for v in held.variables]
     found.unspeakable = tuple(p for p in paths if not MATLAB_PATH.fullmatch(p))
-    stored, squeezed = dimensions.flattened(held, robot)
+    stored, squeezed = picking.flattened(held, robot)
     found.squeezed = squeezed
     workspace, wanted = _prepared(stored, options, robot, file)
     pieces = joining.expanded(options.join) if options.join else []
@@ -278,7 +256,7 @@ def _checked(
         notes.append(DOUBTFUL_VALUES(variable=options.join, why=[why]))
     chosen, survey, offered = _find(workspace, wanted, options, robot, file, notes)
     if chosen is None:
-        said = found.said(dimensions.with_lines(notes, squeezed))
+        said = found.said(picking.with_lines(notes, squeezed))
         if not offered:
             return _rejected(file, said, survey.workspace.find(notes[-1].variable))
         candidates = tuple(a.candidate() for a in offered)
@@ -291,19 +269,21 @@ def _checked(
     for path in sources:
         matrix = stored.find(path)
         if path in squeezed and matrix is not None:
-            notes.append(dimensions.squeezed_finding(path, squeezed[path], matrix))
+            notes.append(picking.squeezed_finding(path, squeezed[path], matrix))
     if options.columns and not options.transpose and not variable.is_message:
-        notes += left_out_columns.doubts(chosen, robot)
+        notes += picking.doubts(chosen, robot)
     if workspace.confirm is not None and variable.values is not None:
         # before the joints are copied, as the second reader needs memory as well
         workspace.confirm(sources)
     notes += questions.asked(workspace, variable, survey.name(variable), robot, options)
     layout = lay_out(chosen, survey, options, notes)
-    layout, rate = _at_a_rate(survey, chosen, layout, options, default_frame_rate, file, notes)
+    layout, rate = resampling.at_a_rate(
+        survey, chosen, layout, options, default_frame_rate, file, notes
+    )
     notes += questions.unread(survey, variable, rate, options, notes)
     notes += _against_robot(layout, rate, variable.path, robot, notes)
     notes += kinematics_match.findings(workspace, robot)
-    found.notes = notes = found.said(dimensions.with_lines(notes, squeezed))
+    found.notes = notes = found.said(picking.with_lines(notes, squeezed))
     errors = [n for n in notes if n.severity is Severity.ERROR]
     if errors and all(n.code in questions.ANSWERS for n in errors):
         asked = (survey.of(variable).candidate(),)
@@ -317,7 +297,7 @@ def _against_robot(
     layout: Layout, rate: float, path: str, robot: RobotModel, notes: list[Diagnostic]
 ) -> list[Diagnostic]:
     """Return what is said of the frames, at `rate` Hz, against what the robot can do."""
-    why = values.fault(layout.arm, rate, robot)
+    why = limits.fault(layout.arm, rate, robot)
     if why:
         return [NO_MOTION(variable=path, why=why)]
     found = limits.against_robot(layout.arm, rate, robot.joints, path, robot.id)
@@ -347,7 +327,7 @@ def _prepared(
 
     The second is the path of the matrix that the options name, or empty.
     """
-    workspace = datevec.with_times(workspace)
+    workspace = other_columns.with_times(workspace)
     workspace = split_tables(with_headings(workspace, robot), robot)
     wanted = options.variable
     if workspace.find(wanted) is None:
@@ -395,166 +375,3 @@ def _find(
     picked = pick(stored, options, workspace, robot)
     # the variable that was assessed, so that it is not assessed again
     return replace(picked, variable=best.variable), found, []
-
-
-def _at_a_rate(
-    survey: Survey,
-    chosen: Chosen,
-    layout: Layout,
-    options: Options,
-    default: float,
-    file: str,
-    notes: list[Diagnostic],
-) -> tuple[Layout, float]:
-    """Return the samples as frames at an even rate, and that rate, Hz."""
-    variable = chosen.variable
-    if variable.is_message:
-        return _resampled(survey.workspace, variable, layout, options, default, notes)
-    rows = len(layout.arm)
-    if options.frame_rate and not options.resample:
-        notes += _waypoints(variable.path, layout.arm, options.frame_rate, timed=False)
-        return layout, options.frame_rate
-    # what the options took of the matrix, in rad; with a column of time or in degrees all is far
-    assessment = replace(survey.of(variable), coarse=is_coarse(layout.arm))
-    if layout.scale != 1.0:
-        # a derivative in rad/s of positions in another unit says nothing of the rate
-        assessment = replace(assessment, rates=())
-    found = frame_rate.find(survey, assessment, variable.path, rows, layout.times, default, file)
-    if not options.resample:
-        notes += found.notes
-        assumed = any(n.code == RATE_DEFAULT.code for n in found.notes)
-        notes += _waypoints(
-            variable.path, layout.arm, found.rate, timed=not assumed, assumed=assumed
-        )
-        return layout, found.rate
-    return _made_even(variable.path, found, layout, options, default, notes)
-
-
-def _too_long(path: str, *, duration: float, rate: float) -> Diagnostic:
-    """Return what is said of rows that last too long for a rate: s, Hz."""
-    lower = 0.99 * (MOST_FRAMES - 1) / duration
-    found = TOO_LONG(variable=path, most=MOST_FRAMES, duration=duration, rate=rate, lower=lower)
-    # below that a gap is the fault, and no rate mends it
-    return found if lower >= 1 else replace(found, fixes=())
-
-
-def _waypoints(
-    path: str, arm: NDArray[Any], rate: float, *, timed: bool, assumed: bool = False
-) -> list[Diagnostic]:
-    """Return a warning where rows are so far apart that they are waypoints rather than samples.
-
-    timed: the file says when the rows are reached. assumed: it does not say their rate either.
-    """
-    if rate > WAYPOINT_RATE and not assumed:
-        return []
-    steps = np.abs(np.diff(arm, axis=0)).max(axis=1)
-    worst = int(steps.argmax())
-    least = float(np.median(steps)) if rate > WAYPOINT_RATE else steps[worst]
-    if least <= WAYPOINT_STEP:
-        return []
-    found = WAYPOINTS(
-        variable=path,
-        rate=rate,
-        value=float(steps[worst]),
-        unit="rad",
-        limit=WAYPOINT_STEP,
-        first_row=worst + 2,
-        last_row=worst + 2,
-    )
-    return [found if timed else replace(found, fixes=(Fix(matlab=TIMES_IN_MATLAB),))]
-
-
-def _made_even(
-    path: str,
-    found: frame_rate.Rate,
-    layout: Layout,
-    options: Options,
-    default: float,
-    notes: list[Diagnostic],
-) -> tuple[Layout, float]:
-    """Return rows at times of their own as frames at an even rate, joined by straight lines.
-
-    Waypoints become frames at the rate that was asked for, else at `default`, Hz.
-    """
-    clock = found.clock
-    if clock is None and any(n.code == RATE_DEFAULT.code for n in found.notes):
-        fixes = (Fix(matlab=TIMES_IN_MATLAB), Fix("resample", "", ""))
-        raise BadInput(NO_TIMES(variable=path, fixes=fixes))
-    if clock is None:
-        times = np.arange(len(layout.arm)) / found.rate
-        even = found.rate
-        notes += found.notes
-    else:
-        flaws = rate_findings.flaws(clock)
-        if clock.backward:
-            raise BadInput(replace(flaws[0], severity=Severity.ERROR))
-        notes += [n for n in found.notes if n not in flaws and not n.code.startswith("time_")]
-        times, even = clock.times, frame_rate.resampling_rate(clock)
-    if even <= WAYPOINT_RATE:
-        even = default
-    times_ns = np.rint(times * 1e9).astype(np.int64)
-    kept = np.flatnonzero(np.diff(times_ns, prepend=times_ns[0] - 1) > 0)
-    times_ns = times_ns[kept]
-    rate = options.frame_rate or even
-    frames = resampling.frame_count(times_ns, rate)
-    words: dict[str, Any] = {"duration": float(times_ns[-1]) * 1e-9, "rate": rate}
-    if frames > MOST_FRAMES:
-        raise BadInput(_too_long(path, **words))
-    words |= {"points": len(times_ns), "frames": frames, "curve": "lines"}
-    notes.append(RESAMPLED(variable=path, **words))
-    arm = resampling.resample(times_ns, layout.arm[kept], None, rate)
-    gripper = layout.gripper
-    if gripper is not None:
-        gripper = resampling.hold(times_ns, gripper[kept], rate)
-    return replace(layout, arm=arm, gripper=gripper), rate
-
-
-def _resampled(
-    workspace: Workspace,
-    variable: Variable,
-    layout: Layout,
-    options: Options,
-    default: float,
-    notes: list[Diagnostic],
-) -> tuple[Layout, float]:
-    """Return the points of a message as frames.
-
-    The rate is the one asked for; else that of the points, where they come evenly and as often
-    as the default or more, so that none is lost; else the default.
-    """
-    times = _part(workspace, variable, "time_from_start")
-    assert times is not None
-    times_ns = np.rint(times.reshape(-1).astype(np.float64) * 1e9).astype(np.int64)
-    late = np.flatnonzero(np.diff(times_ns) <= 0)
-    if len(late):
-        point = int(late[0]) + 2
-        why = LATE_POINT(point=point, time=float(times_ns[point - 1]) * 1e-9)
-        raise BadInput(BAD_MESSAGE(variable=variable.path, why=why))
-    velocities = _part(workspace, variable, "velocities")
-    if velocities is not None:
-        velocities = velocities[:, layout.source_columns].astype(np.float64)
-        bad = limits.non_finite(velocities, f"{variable.path}.velocities")
-        if bad is not None:
-            raise BadInput(bad)
-        velocities *= layout.scale
-    own = resampling.even_rate(times_ns) or 0.0
-    kept = own if default <= own <= MOST_OWN_RATE else default
-    rate = options.frame_rate or kept
-    frames = resampling.frame_count(times_ns, rate)
-    duration = float(times_ns[-1] - times_ns[0]) * 1e-9
-    words: dict[str, Any] = {"duration": duration, "rate": rate}
-    if frames > MOST_FRAMES:
-        raise BadInput(_too_long(variable.path, **words))
-    curve = "lines" if velocities is None else "splines"
-    words |= {"points": len(times_ns), "frames": frames, "curve": curve}
-    notes.append(RESAMPLED(variable=variable.path, **words))
-    arm = resampling.resample(times_ns, layout.arm, velocities, rate)
-    gripper = layout.gripper
-    if gripper is not None:
-        gripper = resampling.hold(times_ns, gripper, rate)
-    return replace(layout, arm=arm, gripper=gripper), rate
-
-
-def _part(workspace: Workspace, message: Variable, name: str) -> NDArray[Any] | None:
-    found = workspace.find(f"{message.path}.{name}")
-    return found.values if found else None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
 from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.conversion.candidates import contents, saving
 from mrlab_ros.core.conversion.diagnostics import (
     AMBIGUOUS,
     COPIES,
@@ -17,18 +18,10 @@ from mrlab_ros.core.conversion.diagnostics import (
     UNKNOWN_VARIABLE,
 )
 from mrlab_ros.core.conversion.evidence import joining
-from mrlab_ros.core.conversion.evidence.assessment import Assessment
+from mrlab_ros.core.conversion.evidence.assessment import FEW_ROWS, Assessment
 from mrlab_ros.core.conversion.evidence.names import Hint
-from mrlab_ros.core.conversion.evidence.scoring import FEW_ROWS
 from mrlab_ros.core.conversion.evidence.survey import Survey
-from mrlab_ros.core.conversion.explain import (
-    contents,
-    described,
-    holds_samples,
-    object_finding,
-    refusal,
-    saving,
-)
+from mrlab_ros.core.conversion.explain import described, holds_samples, object_finding, refusal
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 
 # A score from which a matrix is taken or offered, and below which it is not even offered.

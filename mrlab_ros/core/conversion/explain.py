@@ -7,7 +7,15 @@ from typing import Any
 
 import numpy as np
 
-from mrlab_ros.core.base.diagnostic import MATLAB_PATH, Code, Diagnostic, Fix
+from mrlab_ros.core.base.diagnostic import Code, Diagnostic, Fix
+from mrlab_ros.core.conversion.candidates import (
+    MOST_INSIDE,
+    OBJECT_CODE,
+    OPENED,
+    contents,
+    matlab_name,
+    saving,
+)
 from mrlab_ros.core.conversion.diagnostics import (
     BAD_MESSAGE,
     CANDIDATE,
@@ -28,22 +36,22 @@ from mrlab_ros.core.conversion.diagnostics import (
     WRONG_CLASS,
     WRONG_SHAPE,
 )
-from mrlab_ros.core.conversion.dimensions import page_line
 from mrlab_ros.core.conversion.evidence import relations
-from mrlab_ros.core.conversion.evidence.assessment import Assessment, blocking_clocks
-from mrlab_ros.core.conversion.evidence.cartesian import is_transforms
-from mrlab_ros.core.conversion.evidence.clock_columns import ClockColumn, clocks_among
-from mrlab_ros.core.conversion.evidence.datevec import is_datevec
+from mrlab_ros.core.conversion.evidence.assessment import FEW_ROWS, Assessment, blocking_clocks
+from mrlab_ros.core.conversion.evidence.headings import misnamed
 from mrlab_ros.core.conversion.evidence.joining import Series, series, unequal, unequal_series
 from mrlab_ros.core.conversion.evidence.names import Hint
-from mrlab_ros.core.conversion.evidence.scoring import FEW_ROWS
+from mrlab_ros.core.conversion.evidence.other_columns import (
+    ClockColumn,
+    clocks_among,
+    has_states,
+    is_datevec,
+)
+from mrlab_ros.core.conversion.evidence.relations import is_transforms
 from mrlab_ros.core.conversion.evidence.survey import Survey
-from mrlab_ros.core.conversion.gripper import has_states
-from mrlab_ros.core.conversion.named_columns import misnamed
 from mrlab_ros.core.conversion.options import columns_text
+from mrlab_ros.core.conversion.picking import page_line
 from mrlab_ros.core.conversion.workspace import (
-    ATTRIBUTE,
-    COMMENT,
     JOINT_STATE,
     Variable,
     Workspace,
@@ -51,33 +59,8 @@ from mrlab_ros.core.conversion.workspace import (
 )
 from mrlab_ros.core.robots.model import RobotModel
 
-OBJECT_CODE = {
-    "timeseries": "q = {name}.Data; save('traj.mat', 'q')",
-    "timetable": "q = {name}.Variables; save('traj.mat', 'q')",
-    "table": "q = {name}{{:, :}}; save('traj.mat', 'q')",
-    "Simulink.SimulationData.Dataset": "q = {name}{{1}}.Values.Data; save('traj.mat', 'q')",
-    "Simulink.SimulationData.Signal": "q = {name}.Values.Data; save('traj.mat', 'q')",
-    "Simulink.SimulationOutput": "q = {name}.get('q').Data; save('traj.mat', 'q')",
-    "dlarray": "q = extractdata({name}); save('traj.mat', 'q')",
-    "gpuArray": "q = gather({name}); save('traj.mat', 'q')",
-    "function_handle": "q = cell2mat(arrayfun(@(s) reshape({name}(s), 1, []), t(:), "
-    "'UniformOutput', false)); save('traj.mat', 'q', 't')",
-}
-OPENED = {*OBJECT_CODE, "containers.Map", "dictionary"} - {"function_handle"}
 MOST_MISSES = 200
 MOST_SHOWN = 5
-MOST_LISTED, MOST_INSIDE = 12, 6
-
-
-def matlab_name(path: str) -> str:
-    """Return what a line of MATLAB calls the variable at `path`: a joined one, or a part, is q."""
-    return path if MATLAB_PATH.fullmatch(path) else "q"
-
-
-def saving(path: str) -> str:
-    """Return the line of MATLAB that saves the matrix at `path` as q."""
-    taken = "" if matlab_name(path) == "q" else f"q = {path}; "
-    return f"{taken}save('traj.mat', 'q')"
 
 
 def holds_samples(variable: Variable, hint: Hint) -> bool:
@@ -206,30 +189,6 @@ def _looks(a: Assessment) -> tuple[Diagnostic, ...]:
 def described(a: Assessment, reasons: tuple[Diagnostic, ...]) -> Diagnostic:
     """Return what is said of one matrix among others."""
     return CANDIDATE(variable=a.path, size=a.variable.size, reasons=reasons)
-
-
-def contents(workspace: Workspace) -> dict[str, Any]:
-    """Return what the file holds, as the values of diagnostics.CONTENTS."""
-    top = [
-        v
-        for v in workspace.variables
-        if v.kind not in (COMMENT, ATTRIBUTE) and (v.is_message or not re.search(r"[.({]", v.path))
-    ]
-    listed = top[:MOST_LISTED]
-    opened = tuple(
-        v.path for v in listed if v.values is None and not v.is_object and v.kind in OPENED
-    )
-    inside = [
-        f"{v.path} ({v.size})"
-        for v in workspace.variables
-        if v.values is not None and v.values.size > 1 and v.path.startswith(opened)
-    ]
-    return {
-        "count": len(top),
-        "held": [f"{v.path} ({' '.join(filter(None, (v.size, v.kind)))})" for v in listed],
-        "more": len(top) - len(listed) or None,
-        "inside": shortened(inside, MOST_INSIDE) if opened else [],
-    }
 
 
 def near_miss(variable: Variable, survey: Survey) -> Diagnostic | None:

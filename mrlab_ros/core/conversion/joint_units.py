@@ -9,6 +9,7 @@ import numpy as np
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
 from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.conversion.candidates import matlab_name
 from mrlab_ros.core.conversion.diagnostics import (
     ALL_JOINTS_TURN,
     BAD_OPTION,
@@ -35,11 +36,9 @@ from mrlab_ros.core.conversion.evidence import statements
 from mrlab_ros.core.conversion.evidence import unit_range as units
 from mrlab_ros.core.conversion.evidence import units as spellings
 from mrlab_ros.core.conversion.evidence.assessment import Assessment
-from mrlab_ros.core.conversion.evidence.headings import BRACKETS
+from mrlab_ros.core.conversion.evidence.headings import BRACKETS, said_by_units
 from mrlab_ros.core.conversion.evidence.joining import first_path
-from mrlab_ros.core.conversion.evidence.labels import said_by_units
 from mrlab_ros.core.conversion.evidence.statements import Statement, UnitClaim
-from mrlab_ros.core.conversion.explain import matlab_name
 from mrlab_ros.core.conversion.options import Options, columns_text
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.trajectory import Array

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
 from mrlab_ros.core.base.errors import BadInput
-from mrlab_ros.core.conversion import gripper as grippers
 from mrlab_ros.core.conversion import limits as conversion_limits
+from mrlab_ros.core.conversion.candidates import matlab_name
 from mrlab_ros.core.conversion.diagnostics import (
     COLUMNS_APPLIED,
     DOUBTFUL_VALUES,
@@ -29,21 +29,15 @@ from mrlab_ros.core.conversion.diagnostics import (
     SEVEN_AXES,
     TRANSPOSE_APPLIED,
 )
+from mrlab_ros.core.conversion.evidence import other_columns as grippers
 from mrlab_ros.core.conversion.evidence import statements
 from mrlab_ros.core.conversion.evidence.assessment import Assessment, blocking_clocks
+from mrlab_ros.core.conversion.evidence.headings import names_joints, order
 from mrlab_ros.core.conversion.evidence.joining import first_path, rows_of
-from mrlab_ros.core.conversion.evidence.measuring import fits
 from mrlab_ros.core.conversion.evidence.names import parts, words
-from mrlab_ros.core.conversion.evidence.survey import Survey
-from mrlab_ros.core.conversion.explain import (
-    clocks_of,
-    matlab_name,
-    near_miss,
-    time_finding,
-    wrong_shape,
-)
+from mrlab_ros.core.conversion.evidence.survey import Survey, fits
+from mrlab_ros.core.conversion.explain import clocks_of, near_miss, time_finding, wrong_shape
 from mrlab_ros.core.conversion.joint_units import in_radians
-from mrlab_ros.core.conversion.named_columns import names_joints, order
 from mrlab_ros.core.conversion.options import NO_GRIPPER, Options
 from mrlab_ros.core.conversion.picking import Chosen
 from mrlab_ros.core.conversion.workspace import Variable, Workspace

@@ -1,13 +1,18 @@
-"""Asks about what a file states of the chosen matrix and what cannot simply be obeyed."""
+"""Questions about the chosen matrix, warnings of what no claim explains, and tried fixes.
+
+Only those fixes of a refusal are offered that end at a motion without new doubts. A fix has its
+own evidence where it is made; a run can only veto it, as scaling down passes every limit.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, Severity
 from mrlab_ros.core.conversion import rate_findings
+from mrlab_ros.core.conversion.candidates import saving
 from mrlab_ros.core.conversion.diagnostics import (
     MOTOR_SIDE,
     NAMES_OTHER,
@@ -17,13 +22,12 @@ from mrlab_ros.core.conversion.diagnostics import (
     TEXT_UNREAD,
     UNUSED_BESIDE,
 )
-from mrlab_ros.core.conversion.evidence import beside, joining, ledger, statements
+from mrlab_ros.core.conversion.evidence import joining, joint_order, ledger, statements
 from mrlab_ros.core.conversion.evidence.joining import first_path
 from mrlab_ros.core.conversion.evidence.ledger import About, Claim, End, Ledger, Standing
 from mrlab_ros.core.conversion.evidence.names import Name
 from mrlab_ros.core.conversion.evidence.statements import Statement
 from mrlab_ros.core.conversion.evidence.survey import Survey
-from mrlab_ros.core.conversion.explain import saving
 from mrlab_ros.core.conversion.options import Options, columns_text
 from mrlab_ros.core.conversion.workspace import Variable, Workspace, shortened
 from mrlab_ros.core.robots.model import RobotModel
@@ -196,7 +200,7 @@ def _motors(
 def _orders(said: list[Statement], variable: Variable, robot: RobotModel) -> list[Diagnostic]:
     """Return what is said of the orders and names that the file states for the columns."""
     path, joints = variable.path, len(robot.joints)
-    for claim in beside.order_vectors(said, joints)[:MOST_CLAIMS]:
+    for claim in joint_order.order_vectors(said, joints)[:MOST_CLAIMS]:
         words: dict[str, Any] = {"variable": path, "source": claim.source, "words": claim.text}
         if claim.is_identity:
             continue
@@ -215,9 +219,9 @@ def _orders(said: list[Statement], variable: Variable, robot: RobotModel) -> lis
         return [ORDER_UNCLEAR(joints=joints, fixes=fixes, **words)]
     if variable.columns:
         return []
-    for names in beside.names_claims(said, variable.shape[1])[:MOST_CLAIMS]:
+    for names in joint_order.names_claims(said, variable.shape[1])[:MOST_CLAIMS]:
         meant = names.names[:joints]
-        if beside.order_of_names(meant, robot) is None and not _numbers_alone(meant):
+        if joint_order.order_of_names(meant, robot) is None and not _numbers_alone(meant):
             return [
                 NAMES_OTHER(
                     variable=path,
@@ -233,3 +237,70 @@ def _orders(said: list[Statement], variable: Variable, robot: RobotModel) -> lis
 
 def _numbers_alone(names: tuple[str, ...]) -> bool:
     return all(name.strip().isdigit() for name in names)
+
+
+# what corrects an option, and what a person answers: nothing is tried for these
+NOT_TRIED = ANSWERS | {
+    "bad_option", "bad_rate", "bad_columns", "bad_part", "unknown_variable", "order_unclear",
+    "unit_conflict", "no_trajectory", "looks_like", "no_times", "too_long",
+}  # fmt: skip
+DOUBTS = frozenset(("doubtful_values", "velocity_limit", "rate_conflict"))
+MOST_TRIED = 4
+MOST_STEPS = 2
+# numbers of a file whose fixes are tried; a conversion of more takes too long to repeat
+MOST_VALUES = 4_000_000
+
+Attempt = Callable[[Options], Sequence[Diagnostic]]
+
+
+def applied(options: Options, fix: Fix) -> Options:
+    """Return options with a fix, whose value is a text."""
+    now = getattr(options, fix.option)
+    value: Any = fix.value
+    if isinstance(now, bool):
+        value = fix.value == "true"
+    elif isinstance(now, float):
+        value = float(fix.value or 0)
+    return replace(options, **{fix.option: value})
+
+
+def vetted(
+    found: Sequence[Diagnostic], options: Options, attempt: Attempt, steps: int = MOST_STEPS
+) -> tuple[Diagnostic, ...]:
+    """Return the findings, worst first, with those fixes of the worst that lead to a motion.
+
+    attempt: returns the findings, worst first, of a conversion with other options. A fix that
+    fails keeps its line of MATLAB.
+    """
+    worst = found[0]
+    if not any(f.option for f in worst.fixes):
+        return tuple(found)
+    if worst.code in NOT_TRIED or worst.severity is not Severity.ERROR:
+        return tuple(found)
+    before = {d.code for d in found}
+    tried = [f for f in worst.fixes if f.option][:MOST_TRIED]
+    good = [f for f in tried if _leads_on(f, worst, before, options, attempt, steps)]
+    others = [replace(f, option="", value="") for f in worst.fixes if f not in good and f.matlab]
+    others = list(dict.fromkeys(others)) or ([] if good else [Fix(matlab="whos")])
+    return (replace(worst, fixes=(*good, *others)), *found[1:])
+
+
+def _leads_on(
+    fix: Fix, worst: Diagnostic, before: set[str], options: Options, attempt: Attempt, steps: int
+) -> bool:
+    """Say whether a fix removes a finding and leads to a motion, or to one more fix that does."""
+    changed = applied(options, fix)
+    if changed == options:
+        return False
+    after = attempt(changed)
+    errors = [d for d in after if d.severity is Severity.ERROR]
+    if not errors:
+        codes = {d.code for d in after if d.severity is Severity.WARNING}
+        allowed = {"velocity_limit"} if any(d.code == "rate_default" for d in after) else set()
+        return not (codes & DOUBTS) - before - allowed
+    if errors[0].code in ANSWERS:
+        return True
+    if errors[0].code == worst.code or steps <= 1:
+        return False
+    following = vetted(after, changed, attempt, steps - 1)
+    return any(f.option for f in following[0].fixes)

@@ -20,8 +20,8 @@ from mrlab_ros.adapters.trajectories import npz_file
 from mrlab_ros.app.show import document
 from mrlab_ros.core.base.diagnostic import Diagnostic, Severity, from_plain, of_record, plain
 from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.conversion.candidates import Preview
 from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE
-from mrlab_ros.core.conversion.preview import Preview
 from mrlab_ros.gateway.errors import NotFound
 from mrlab_ros.gateway.store.shelf import Shelf, finding_fields
 from mrlab_ros.gateway.uploads.diagnostics import NO_MOTION

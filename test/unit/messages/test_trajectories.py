@@ -14,7 +14,7 @@ from refusals import refused
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, Severity
 from mrlab_ros.core.base.errors import BadInput
-from mrlab_ros.core.conversion.preview import preview
+from mrlab_ros.core.conversion.candidates import preview
 from mrlab_ros.core.conversion.workspace import Variable
 from mrlab_ros.core.trajectory.diagnostics import POSITIONS_SHAPE
 from mrlab_ros.messages import trajectories

@@ -14,7 +14,7 @@ from mrlab_ros.adapters.workspaces.matlab.elements import Damaged, TooLarge, is_
 from mrlab_ros.adapters.workspaces.matlab.mat5 import INTEGERS, LONGEST_TEXT
 from mrlab_ros.adapters.workspaces.sinks import Found, Sink, View
 from mrlab_ros.adapters.workspaces.tables import text
-from mrlab_ros.core.conversion.named_columns import GRIPPER
+from mrlab_ros.core.conversion.evidence.headings import GRIPPER
 from mrlab_ros.core.conversion.workspace import COMMENT
 
 MOST_COMMENTS = 200

@@ -1,4 +1,7 @@
-"""Tables whose headings say what their columns hold, such as actual_q_0 ... actual_qd_0 ..."""
+"""What a table and a matrix are called: headings, label, units and path together.
+
+Columns named as joints are matched to a robot's joints by name, never by place.
+"""
 
 from __future__ import annotations
 
@@ -7,11 +10,13 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.conversion.diagnostics import JOINT_NAMES, JOINTS_MATCHED
 from mrlab_ros.core.conversion.evidence import units
 from mrlab_ros.core.conversion.evidence.names import Hint, Name, describe, without_units
 from mrlab_ros.core.conversion.evidence.time_vectors import is_time_name
-from mrlab_ros.core.conversion.named_columns import names_joints
-from mrlab_ros.core.conversion.workspace import Variable, Workspace
+from mrlab_ros.core.conversion.workspace import Variable, Workspace, shortened
 from mrlab_ros.core.robots.model import RobotModel
 
 BRACKETS = re.compile(r"\s*[\[({]\s*([^\])}]*?)\s*[\])}]\s*$")
@@ -154,3 +159,124 @@ def split_tables(workspace: Workspace, robot: RobotModel) -> Workspace:
     taken = {v.path for v in workspace.variables}
     kept = [v for v in added if v.path and v.path not in taken]
     return replace(workspace, variables=(*workspace.variables, *kept)) if kept else workspace
+
+
+UNNAMED = ("CSV",)  # formats whose matrix is called q by the reader
+# Quantities that are angles as joint positions are: an angle as unit does not tell them apart.
+STAYS_DOUBTFUL = frozenset(("errors", "obstacles", "parameters"))
+KEYED = re.compile(r"\{:,.*\}$|\('[^']*'\)$")
+
+
+def name_of(variable: Variable, file_format: str, robot: RobotModel) -> Name:
+    """Return what path, label, headings and units of a variable say.
+
+    The path of a table without headings was given by the reader and says nothing.
+    """
+    if names_joints(variable, robot):
+        return Name(Hint.POSITIONS)
+    of_units = said_by_units(variable.units)
+    if of_units.hint is Hint.AGAINST:
+        return of_units
+    said = describe(variable.path)
+    if KEYED.search(variable.path):
+        # the columns of a table or an entry of a map: what holds them has any name
+        of_columns = describe_table(variable) if variable.columns else None
+        said = of_columns or describe(variable.label)
+    elif variable.label and said.hint in (Hint.NEUTRAL, Hint.TWO_FACED):
+        said = describe(variable.label)
+    elif said.hint is Hint.DOUBTFUL and said.what not in STAYS_DOUBTFUL:
+        said = _overruled(said, variable)
+    elif file_format in UNNAMED:
+        of_headings = describe_table(variable)
+        if of_headings is not None:
+            said = of_headings
+        elif not variable.columns and variable.path == "q":
+            said = Name(Hint.NEUTRAL)
+    elif variable.columns and said.hint is not Hint.AGAINST:
+        said = describe_table(variable) or said
+    return replace(said, unit=of_units.unit) if of_units.unit else said
+
+
+def _overruled(said: Name, variable: Variable) -> Name:
+    """Return what label and unit in the file make of a doubtful name such as x.
+
+    A label says what the numbers are; an angle as unit leaves a path of the tool alone possible.
+    """
+    of_label = describe(variable.label) if variable.label else said
+    if of_label.hint in (Hint.POSITIONS, Hint.AGAINST):
+        return of_label
+    given = [units.parse(u) for u in variable.units if u.strip()]
+    angles = given and all(u is not None and u.is_angle for u in given)
+    return Name(Hint.TWO_FACED) if angles else said
+
+
+def said_by_units(given: tuple[str, ...]) -> Name:
+    """Return what the units of all columns say together; nothing where they differ."""
+    spelled = {units.plain(u) for u in given if u.strip()}
+    if len(spelled) != 1:
+        return Name(Hint.NEUTRAL)
+    text = spelled.pop()
+    what, unit = units.foreign(text), units.parse(text)
+    if what:
+        return Name(Hint.AGAINST, what)
+    return Name(Hint.NEUTRAL, unit=unit if unit is not None and unit.is_angle else None)
+
+
+GRIPPER = "gripper"
+
+
+def names_joints(variable: Variable, robot: RobotModel) -> bool:
+    """Say whether the columns are named as joints; headings of a table may be anything else."""
+    return variable.is_message or not set(robot.joint_names).isdisjoint(variable.columns)
+
+
+def misnamed(variable: Variable, robot: RobotModel) -> Diagnostic | None:
+    """Return what keeps named joints from being the robot's, None where there is nothing."""
+    if not names_joints(variable, robot):
+        return None
+    names, joints = variable.columns, robot.joint_names
+    missing = [name for name in joints if name not in names]
+    repeated = sorted({name for name in names if names.count(name) > 1})
+    # a table may have columns for more than the arm; a message commands every joint it names
+    unknown = [name for name in names if name not in joints and name != GRIPPER]
+    unknown = unknown if missing or variable.is_message else []
+    if not (missing or unknown or repeated):
+        return None
+    # columns by number keep the names of a message: they mend no joint that it lacks
+    in_vain = variable.is_message and bool(missing or repeated)
+    by_number = Fix("columns", f"1:{len(joints)}")
+    return JOINT_NAMES(
+        variable=variable.path,
+        model=robot.id,
+        missing=shortened(missing),
+        unknown=shortened(unknown),
+        repeated=shortened(repeated),
+        joints=list(joints),
+        fixes=(Fix(matlab="save('traj.mat', 'q')") if in_vain else by_number,),
+    )
+
+
+def order(variable: Variable, robot: RobotModel) -> tuple[list[int], list[Diagnostic]]:
+    """Return the columns, from 0, in the robot's order, a gripper last, and what was done.
+
+    All columns as they are where they do not name joints. Raises BadInput where they name joints
+    that are not the robot's.
+    """
+    names = variable.columns
+    if not names_joints(variable, robot):
+        return list(range(variable.shape[1])), []
+    problem = misnamed(variable, robot)
+    if problem is not None:
+        raise BadInput(problem)
+    wanted = [*robot.joint_names, *([GRIPPER] if GRIPPER in names else [])]
+    indices = [names.index(name) for name in wanted]
+    if indices == list(range(len(names))):
+        return indices, []
+    left_out = [name for name in names if name not in wanted]
+    done = JOINTS_MATCHED(
+        variable=variable.path,
+        model=robot.id,
+        order=[i + 1 for i in indices],
+        left_out=shortened(left_out),
+    )
+    return indices, [done]

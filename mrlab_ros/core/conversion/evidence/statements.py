@@ -1,4 +1,4 @@
-"""What a file states of a matrix, how near it stands: its unit, its robot, gears of its motors."""
+"""What a file states of a matrix, the nearest first: its unit, its robot, gears of motors."""
 
 from __future__ import annotations
 

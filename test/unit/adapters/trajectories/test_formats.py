@@ -5,8 +5,8 @@ import pytest
 from fakes import make_model, make_trajectory
 
 from mrlab_ros.adapters.trajectories import formats
+from mrlab_ros.core.conversion.candidates import Preview
 from mrlab_ros.core.conversion.diagnostics import NON_FINITE
-from mrlab_ros.core.conversion.preview import Preview
 
 
 @pytest.mark.parametrize("rows", [2, 2000, 2001, 123_457])

@@ -17,8 +17,9 @@ from mrlab_ros.adapters.trajectories.files import load_coefficients
 from mrlab_ros.adapters.workspaces import worker
 from mrlab_ros.adapters.workspaces.joint_trajectories import serialized
 from mrlab_ros.adapters.workspaces.matlab.elements import Damaged, NotAWorkspace, TooLarge
-from mrlab_ros.core.conversion.convert import MOST_FRAMES, Outcome, convert
+from mrlab_ros.core.conversion.convert import Outcome, convert
 from mrlab_ros.core.conversion.options import Options
+from mrlab_ros.core.conversion.resampling import MOST_FRAMES
 from mrlab_ros.core.conversion.workspace import JOINT_TRAJECTORY, Variable, Workspace
 from mrlab_ros.core.trajectory import derived_signals
 from mrlab_ros.core.trajectory.trajectory import Source, Trajectory

@@ -11,9 +11,8 @@ import pytest
 from mrlab_ros.app.show import document
 from mrlab_ros.app.show.packed import packed, unpacked
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, Severity
-from mrlab_ros.core.conversion.candidates import Candidate
+from mrlab_ros.core.conversion.candidates import Candidate, Preview
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome
-from mrlab_ros.core.conversion.preview import Preview
 from mrlab_ros.core.robots.model import ShownJoint, ShownRobot
 from mrlab_ros.core.trajectory.derived_signals import ProxyCoefficients, derive
 from mrlab_ros.core.trajectory.trajectory import Source, Trajectory

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from fakes import make_model
 
-from mrlab_ros.core.conversion.dimensions import flattened, page_line
+from mrlab_ros.core.conversion.picking import flattened, page_line
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 
 ARM = make_model(6)

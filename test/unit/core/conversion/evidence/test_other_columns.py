@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mrlab_ros.core.conversion.evidence.datevec import is_datevec, seconds, with_times
+from mrlab_ros.core.conversion.evidence.other_columns import is_datevec, seconds, with_times
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 
 DATES = np.array(

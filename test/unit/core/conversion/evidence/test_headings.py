@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from fakes import make_model
 
-from mrlab_ros.core.conversion.evidence.labels import name_of
+from mrlab_ros.core.conversion.evidence.headings import name_of
 from mrlab_ros.core.conversion.evidence.names import Hint
 from mrlab_ros.core.conversion.workspace import Variable
 

@@ -1,8 +1,12 @@
-"""Columns of a matrix that count time, found by how they rise and by the file's time vectors."""
+"""Columns that are no joints: times, dates and grippers.
+
+Times are found by how they rise and by the time vectors of the file, dates by their six columns
+as clock and datevec give them, grippers by states and ramps.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -167,3 +171,106 @@ def time_vectors(workspace: Workspace) -> dict[int, list[Variable]]:
         ):
             found.setdefault(v.values.size, []).append(v)
     return found
+
+
+WIDTH = 6
+LOWEST = np.array([1970.0, 1, 1, 0, 0, 0])
+HIGHEST = np.array([2100.0, 12, 31, 23, 59, 60])
+DAY_S = 86_400.0
+
+
+def is_datevec(values: NDArray[Any]) -> bool:
+    """Say whether the first six columns of a matrix are dates."""
+    if values.ndim != 2 or values.shape[1] < WIDTH or not len(values):
+        return False
+    if not LOWEST[0] <= float(values[0, 0]) <= HIGHEST[0]:
+        return False
+    part = values[:, :WIDTH]
+    whole = part[:, : WIDTH - 1]
+    with np.errstate(all="ignore"):
+        return bool(
+            (whole == np.rint(whole)).all() and (part >= LOWEST).all() and (part <= HIGHEST).all()
+        )
+
+
+def seconds(values: NDArray[Any]) -> Array:
+    """Return the times, (N, 1) s since the first, of dates, (N, 6)."""
+    # months count from 1970 on, and a month begins at the day that numpy says
+    months = ((values[:, 0] - 1970) * 12 + values[:, 1] - 1).astype(np.int64)
+    begin = months.astype("datetime64[M]").astype("datetime64[D]").astype(np.int64)
+    days = begin - begin[0] + values[:, 2]
+    times = days * DAY_S + values[:, 3:6] @ np.array([3600.0, 60.0, 1.0])
+    return np.asarray(times - times[0], dtype=np.float64)[:, np.newaxis]
+
+
+def with_times(workspace: Workspace) -> Workspace:
+    """Return the workspace with each matrix of dates as a vector of times, s since the first."""
+    variables = tuple(
+        replace(v, values=(times := seconds(v.values)), shape=times.shape, units=("s",))
+        if v.values is not None and v.values.shape[1:] == (WIDTH,) and is_datevec(v.values)
+        else v
+        for v in workspace.variables
+    )
+    changed = any(a is not b for a, b in zip(variables, workspace.variables, strict=True))
+    return replace(workspace, variables=variables) if changed else workspace
+
+
+# Share of a gripper's samples that may be on their way, and of its range that counts as an end.
+ON_ITS_WAY, AN_END = 0.2, 0.02
+WIDEST_M, WIDEST_MM = 0.2, 200.0  # how far grippers open
+NARROWEST_M, NARROWEST_MM = 0.01, 15.0
+
+
+@dataclass(frozen=True)
+class GripperRange:
+    """What the range of a gripper's values is, a name; opens: larger means open."""
+
+    meaning: str
+    opens: bool
+
+
+def between_ends(column: NDArray[Any]) -> int:
+    """Return how many samples of a finite column are at neither end of its range."""
+    low, high = float(column.min()), float(column.max())
+    margin = AN_END * (high - low)
+    return int(np.count_nonzero((column > low + margin) & (column < high - margin)))
+
+
+def has_states(column: NDArray[Any]) -> bool:
+    """Say whether a column is mostly at one of its two ends, or never changes, as a gripper is."""
+    return between_ends(column) <= ON_ITS_WAY * len(column)
+
+
+def meaning(column: NDArray[Any]) -> GripperRange | None:
+    """Return what the range of a column says of a gripper, or None where it is no known one."""
+    low, high = float(column.min()), float(column.max())
+    if (low, high) == (0.0, 1.0):
+        return GripperRange("states", opens=False)
+    if low < -1e-3 * high:
+        return None
+    if 250 <= high <= 255 and low <= 10:
+        return GripperRange("position", opens=False)
+    if NARROWEST_M <= high <= WIDEST_M:
+        return GripperRange("width_m", opens=True)
+    if abs(high - 100) <= 0.5 and low <= 5:
+        return GripperRange("percent", opens=False)
+    if NARROWEST_MM <= high <= WIDEST_MM:
+        return GripperRange("width_mm", opens=True)
+    return None
+
+
+def is_ramp(column: NDArray[Any]) -> bool:
+    """Say whether a column that is long on its way has a range that only a gripper has.
+
+    0 to 255, 0 to 100 and the widths of grippers; 0 to 1 is a joint's range as well.
+    """
+    found = meaning(column)
+    low, high = float(column.min()), float(column.max())
+    rests = np.count_nonzero(np.abs(np.diff(column.astype(np.float64))) <= 1e-9 * (high - low))
+    at_ends = len(column) - between_ends(column)
+    return bool(
+        found is not None
+        and high != 1.0
+        and low <= AN_END * high
+        and (high > 10 or (at_ends >= 0.3 * len(column) and rests >= 0.25 * len(column)))
+    )
