@@ -16,6 +16,7 @@ from mrlab_ros.core.trajectory.trajectory import Trajectory
 
 # A refused joint command is named in the status this often, ns.
 REFUSAL_NS = SECOND
+GOAL_PERIOD_NS = round(SECOND / goals.FRAME_RATE)
 
 
 class External:
@@ -40,7 +41,7 @@ class External:
             self._execution.machine.check(Event.LOAD)
         start_ns, arm, velocities = now_ns, self._execution.arm, None
         if self._execution.moving:
-            start_ns, arm, velocities = self._execution.stream.motion(now_ns)
+            start_ns, arm, velocities = self._execution.stream.motion(now_ns, GOAL_PERIOD_NS)
         trajectory = goals.trajectory(goal, self._execution.model, arm, start_ns, velocities)
         self._replace(now_ns, trajectory)
         self._execution.stream.rate, self._execution.loop = 1.0, False

@@ -7,6 +7,7 @@ states: `Playback` decides what the arm does and calls the matching method.
 from __future__ import annotations
 
 import math
+from collections import deque
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -63,7 +64,9 @@ class Stream:
     def __init__(self, home: Array, standing_rate: float) -> None:
         """Stand at `home`, (J,) rad; repeat a standing pose at `standing_rate` Hz (0: never)."""
         self.trajectory: Trajectory | None = None
-        self.clock = PlaybackClock()
+        # The clock of the next joint state, then those that hold later: what is late when the rate
+        # changes still leaves as it was scheduled.
+        self._clocks = deque([PlaybackClock()])
         self.rate = 1.0
         self.until: float | None = None
         self.arm = home
@@ -82,6 +85,11 @@ class Stream:
         self._last: Sample | None = None
         self.arrived = self.ended = self.held = False
 
+    @property
+    def clock(self) -> PlaybackClock:
+        """The newest clock: the position on the trajectory at any time from its stamp on."""
+        return self._clocks[-1]
+
     # what the arm does ----------------------------------------------------------------------
 
     def stand(self, now_ns: int, position: float, *, sent: bool = False) -> None:
@@ -92,7 +100,7 @@ class Stream:
         self._motion = None
         self.streamed = None
         self.until = None
-        self.clock = PlaybackClock(now_ns, position, 0.0)
+        self._clocks = deque([PlaybackClock(now_ns, position, 0.0)])
         self.next_ns = self._repetition(now_ns) if sent else now_ns
 
     def jump(self, now_ns: int, position: float) -> None:
@@ -132,22 +140,33 @@ class Stream:
         if self.clock.rate == 0 and not resumed:
             self.sent = self.lost = 0
         self._motion = None
-        self.clock = PlaybackClock(start_ns, position, self.rate)
+        self._clocks = deque([PlaybackClock(start_ns, position, self.rate)])
         self.streamed = position if resumed else None
         self._schedule_from(position, skip=resumed)
+        self.next_ns = self._due_ns
 
     def set_rate(self, since_ns: int, rate: float) -> None:
-        """Set the speed; an arm that follows the trajectory goes on at it from `since_ns` on."""
-        self.rate = rate
-        if self.clock.rate == 0:
+        """Set the speed; an arm that follows the trajectory goes on at it from `since_ns` on.
+
+        Joint states that are late then leave as they were scheduled; a turn starts from the last
+        one that was sent instead.
+        """
+        before, self.rate = self.clock, rate
+        if before.rate == 0:
             return
-        start_ns = max(since_ns, self.clock.stamp_ns)
-        self.clock = PlaybackClock(start_ns, self.clock.at(start_ns), rate)
-        if self.streamed is None:
-            self._schedule_from(self.clock.position, skip=False)
+        start_ns = max(since_ns, before.stamp_ns)
+        position = min(max(before.at(start_ns), 0.0), self._loaded.duration)
+        late = self._due_ns < start_ns
+        turns = (rate < 0) != (before.rate < 0)
+        if late and turns:
+            position = self.position
+        clock = PlaybackClock(start_ns, position, rate)
+        if late and not turns:
+            self._clocks.append(clock)
         else:
-            furthest = max if rate > 0 else min
-            self._schedule_from(furthest(self.clock.position, self.streamed), skip=True)
+            self._clocks = deque([clock])
+            self._schedule_on()
+            self.next_ns = self._due_ns
 
     def end_at(self, until: float | None) -> None:
         """End the run at `until` (s), which lies ahead; None: at the trajectory's end."""
@@ -157,15 +176,16 @@ class Stream:
             self._schedule(self._tick)
             self.next_ns = self._due_ns
 
-    def motion(self, now_ns: int) -> tuple[int, Array, Array | None]:
+    def motion(self, now_ns: int, within_ns: int) -> tuple[int, Array, Array | None]:
         """Return when the arm was sent last, where it is, and its velocities, or now and None.
 
-        ns, (J,) rad, (J,) rad/s; None: it stands, or nothing was sent in the last two periods.
+        ns, (J,) rad, (J,) rad/s; None: it stands, or nothing was sent in the last two periods. The
+        instant is at most `within_ns` before `now_ns`: what starts there is not late.
         """
         last = self._last
-        if last is None or not 0 <= now_ns - last.due_ns <= 2 * self.period_ns:
+        if last is None or now_ns - last.due_ns > 2 * self.period_ns:
             return now_ns, self.arm, None
-        return last.due_ns, self.arm, last.velocities
+        return max(last.due_ns, now_ns - within_ns), self.arm, last.velocities
 
     def go_on_from(self, now_ns: int) -> None:
         """Take the pose that left at `now_ns` as the first of the trajectory just loaded."""
@@ -243,8 +263,9 @@ class Stream:
         position, due_ns = self._next_position, self._due_ns
         self.streamed = position
         frame, self.arm, velocities = trajectory.at(position)
-        if self.rate != 1.0:
-            velocities = velocities * self.rate
+        rate = self._clocks[0].rate
+        if rate != 1.0:
+            velocities = velocities * rate
         sample = self._last = Sample(due_ns, self.arm, velocities, position, frame, True)
         self.sent += 1
         self._schedule(self._tick + 1)
@@ -288,29 +309,53 @@ class Stream:
 
     def _tick_at(self, position: float) -> float:
         """Return the number of the run's joint state at `position` (s)."""
-        return (position - self._run_begin) * self._frame_rate / self.rate
+        return (position - self._run_begin) * self._frame_rate / self._clocks[0].rate
+
+    def _schedule_on(self) -> None:
+        """Schedule the first joint state of a clock that goes on from another one.
+
+        Neither its position nor its stamp goes back behind the last one that was sent.
+        """
+        clock = self._clocks[0]
+        if self.streamed is None or self._last is None:
+            self._schedule_from(clock.position, skip=False)
+            return
+        furthest = max if clock.rate > 0 else min
+        reached = furthest(clock.at(self._last.due_ns), self.streamed)
+        self._schedule_from(min(max(reached, 0.0), self._loaded.duration), skip=True)
 
     def _schedule_from(self, position: float, *, skip: bool) -> None:
         """Schedule the first joint state at (or, with skip, after) `position` (s)."""
         self._begin_run()
         tick = self._tick_at(position)
         self._schedule(math.floor(tick + ON_TICK) + 1 if skip else math.ceil(tick - ON_TICK))
-        self.next_ns = self._due_ns
 
     def _schedule(self, tick: int) -> None:
-        """Make `tick` the next joint state; the last one is exactly at the end of the run."""
-        frame_rate, end = self._frame_rate, self._run_end
-        position = self._run_begin + tick * self.rate / frame_rate
-        left = end - position if self.rate > 0 else position - end
+        """Make `tick` the next joint state; the last one is exactly at the end of the run.
+
+        Where the next clock holds by then, it is the first one of that.
+        """
+        clock, frame_rate, end = self._clocks[0], self._frame_rate, self._run_end
+        position = self._run_begin + tick * clock.rate / frame_rate
+        left = end - position if clock.rate > 0 else position - end
         if left < ON_FRAME / frame_rate:
             position = end
         self._tick, self._next_position = tick, position
-        self._due_ns = self.clock.due(position)
+        self._due_ns = clock.due(position)
+        if len(self._clocks) > 1 and self._due_ns > self._clocks[1].stamp_ns:
+            self._clocks.popleft()
+            self._schedule_on()
 
     def _skip_lost(self, now_ns: int) -> None:
         """Leave out the joint states whose successor is due too, and count them."""
-        nearest = min if self.rate > 0 else max
-        reached = nearest(self.clock.at(now_ns), self._run_end)
+        while len(self._clocks) > 1 and self._clocks[1].stamp_ns <= now_ns:
+            if self._next_position == self._run_end:
+                return
+            self.lost += 1
+            self._schedule(self._tick + 1)
+        clock = self._clocks[0]
+        nearest = min if clock.rate > 0 else max
+        reached = nearest(clock.at(now_ns), self._run_end)
         newest = math.floor(self._tick_at(reached) + ON_FRAME)
         self.lost += max(newest - self._tick, 0)
         self._schedule(max(newest, self._tick))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +19,7 @@ from mrlab_ros.core.playback.goal import Code, Goal, Point, WrongGoal
 from mrlab_ros.core.playback.playback import Playback
 from mrlab_ros.core.playback.pursuit import Bounds, Pursuit
 from mrlab_ros.core.playback.states import State
+from mrlab_ros.core.trajectory.trajectory import Channels
 
 UR5E = RobotLibrary(Path(__file__).parents[4] / "robots", Path("/nowhere")).model("ur5e")
 NAMES = UR5E.joint_names
@@ -120,6 +122,32 @@ def test_a_goal_takes_over_the_velocity_that_the_arm_has(stage: Stage, driver, a
     speeds = np.diff(arms[around], axis=0) / np.diff(due[around])[:, None] * SECOND
     assert np.abs(np.diff(speeds, axis=0)).max() < 0.1
     assert np.abs(speeds).max() > 0.2
+
+
+@pytest.mark.parametrize("after", [0.3, 0.999, 1.7])
+def test_a_goal_to_an_arm_that_plays_slowly_begins_now(stage: Stage, after) -> None:
+    rows = HOME - 0.2 * np.arange(11)[:, None]
+    made = stage.goal((1.0, 0.0))
+    slow = replace(
+        made,
+        frame_rate=1.0,
+        positions=rows,
+        channels=Channels(np.full_like(rows, -0.2), np.zeros_like(rows)),
+    )
+    stage.playback.stop(stage.now_ns)
+    stage.playback.load(stage.now_ns, slow)
+    stage.playback.play(stage.now_ns)
+    stage.run(3.0)
+    stage.run(after)
+    count, sent_ns = len(stage.samples), stage.now_ns
+    stage.playback.external.pursue(
+        sent_ns, Goal(NAMES, [Point(2.0, (stage.playback.arm + 1.5).tolist())])
+    )
+    stage.run(3.0)
+    new = [sample.due_ns for sample in stage.samples[count:] if sample.streamed]
+    assert new[0] >= sent_ns
+    assert stage.fastest() < 3.14
+    assert (np.diff(new) <= TICK).all()
 
 
 def test_a_bad_goal_changes_nothing(stage: Stage) -> None:

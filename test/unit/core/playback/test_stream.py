@@ -105,6 +105,45 @@ def test_positions_only_grow_whatever_rate_is_set_on_the_way(rate, steps):
     assert all(np.diff([s.due_ns for s in samples]) > 0)
 
 
+@pytest.mark.parametrize("rate", [0.25, 4.0])
+def test_joint_states_that_are_late_when_the_rate_changes_leave_as_scheduled(rate):
+    stream = make(1001)
+    stream.follow(START, 0.0)
+    samples = take(stream, 10)
+    now = START + 2 * SECOND + 1
+    stream.set_rate(now, rate)
+    stream.set_rate(now + 50 * PERIOD, 1.0)
+    while samples[-1].due_ns < now + 51 * PERIOD:
+        samples.append(stream.trajectory_sample(max(stream.next_ns, now)))
+    assert [s.frame for s in samples[:201]] == list(range(201))
+    assert all(np.diff([s.due_ns for s in samples]) > 0)
+    changed = 2.0 + 0.5 * rate
+    assert samples[-1].position == pytest.approx(changed + 0.01, abs=0.011)
+    assert stream.sent == len(samples)
+
+
+def test_a_rate_that_holds_since_a_while_sends_no_stamp_back():
+    stream = make(1001)
+    stream.follow(START, 0.0)
+    samples = take(stream, 101)
+    stream.set_rate(START + SECOND // 2, 4.0)
+    samples += take(stream, 3)
+    assert all(np.diff([s.due_ns for s in samples]) > 0)
+    assert samples[-1].position == pytest.approx(
+        0.5 + 4 * (samples[-1].due_ns - START - SECOND // 2) / SECOND
+    )
+
+
+def test_what_is_too_late_is_counted_over_a_change_of_rate():
+    stream = make(6001)
+    stream.follow(START, 0.0)
+    take(stream, 1)
+    stream.set_rate(START + SECOND, 2.0)
+    sample = stream.trajectory_sample(START + LOST_AFTER_NS + 2 * SECOND)
+    # 100 of the first second, then every other frame.
+    assert stream.sent + stream.lost == 100 + (sample.frame - 100) // 2 + 1
+
+
 def backwards(rate: float = -1.0, frames: int = 11) -> Stream:
     stream = make(frames)
     stream.set_rate(0, rate)
