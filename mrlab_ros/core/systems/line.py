@@ -9,7 +9,6 @@ is computed from the instant of the death.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 
 from mrlab_ros.core.systems.timeline import Member, Timeline
 
@@ -26,38 +25,41 @@ class Line:
     def __init__(self, timeline: Timeline) -> None:
         self._timeline = timeline
         self._members: list[Member] = []
-        # After a restart of the coordinator: who of them was playing is known by where they are.
-        self._restored = False
+        # Who of them was playing is found by where they are.
+        self._found = False
 
     def leave(self) -> None:
-        """Forget the members: the timeline goes on, or was put somewhere."""
-        self._members, self._restored = [], False
+        """Forget the members: the timeline goes on, or begins at its start."""
+        self._members, self._found = [], False
 
-    def stand(self, position: float, rate: float, playing: Iterable[Member]) -> None:
-        """Note that `playing` stood when the timeline was at `position` (s) and went at `rate`.
+    def stand(self, position: float, rate: float) -> None:
+        """Note that the members stand that were playing when the timeline was at `position` (s).
 
-        Each is at its last joint state before that, until it says where it is.
+        Each is at its last joint state before that, until it says where it is. rate: at which it
+        went.
         """
-        self._members, self._restored = list(playing), False
+        ordered, self._found = self._timeline.ordered, False
+        self._members = [
+            m for m in ordered if (m.end >= position if m.backwards else m.start <= position)
+        ]
         for member in self._members:
             reached = _last_joint_state(member, position, rate)
             furthest = min if member.backwards else max
             member.position = furthest(member.position, reached)
 
-    def come_back(self, position: float) -> None:
-        """Note that the timeline was at `position` (s) when its coordinator ended, or later.
+    def put(self) -> None:
+        """Note that the members were put somewhere, or stand where their coordinator had ended.
 
-        Members that are found inside their shares were playing, unless they wait.
+        Those that are found inside their shares play on from there, unless they wait.
         """
-        self._timeline.place(position)
-        self._members, self._restored = [m for m in self._timeline if not m.done], True
+        self._members, self._found = [m for m in self._timeline if not m.done], True
 
     def position(self, otherwise: float) -> float:
         """Return where the timeline is, s: at the member furthest behind; `otherwise`: at none.
 
         Members that have ended further ahead play on from there, too.
         """
-        played = [m for m in self._members if not self._restored or _is_inside(m)]
+        played = [m for m in self._members if not self._found or _is_inside(m)]
         if not played:
             return otherwise
         furthest_behind = max if self._timeline.backwards else min

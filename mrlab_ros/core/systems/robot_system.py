@@ -34,6 +34,10 @@ ORDER_HORIZON_S = 0.3
 STAGING_TIMEOUT_S = 5.0
 
 
+# Positions that differ by less are one, s.
+SAME_PLACE = 1e-12
+
+
 class Policy(Enum):
     """Which members a collision of one member halts."""
 
@@ -138,7 +142,8 @@ class RobotSystem:
         self._machine.fire(SystemEvent.RETURN)
         self.rate = rate
         self._timeline.turn(backwards=rate < 0)
-        self._line.come_back(position)
+        self._timeline.place(position)
+        self._line.put()
         self.clock = PlaybackClock(now_ns, min(position, self.duration), 0.0)
         self.message = say.COORDINATOR_RESTARTED()
 
@@ -226,8 +231,15 @@ class RobotSystem:
         if playing:
             self._freeze(now_ns)
         self.rate = rate
+        ended = [m for m in self._timeline if m.done]
         self._timeline.turn(backwards=rate < 0)
+        self._line_up(now_ns)
         if playing:
+            # Their playbacks are ready for another run.
+            orders = [
+                Order(m.robot, Command.SEEK, position=m.position) for m in ended if not m.done
+            ]
+            self._orders.drive(now_ns, orders)
             self._start(now_ns)
         elif self.state is SystemState.READY:
             self._rewind(now_ns)
@@ -405,8 +417,9 @@ class RobotSystem:
         except Unreached:
             if self.state is not SystemState.READY:
                 self._timeline.seek(self.clock.position)
-                self._line.come_back(self.clock.position)
+                self._line.put()
             raise
+        self._line.put()
         self.clock = PlaybackClock(now_ns, position, 0.0)
         self._machine.fire(event)
         self.message = playback.AT_POSITION(position=position)
@@ -490,7 +503,7 @@ class RobotSystem:
         """Let the timeline stand where it was at `at_ns`, at the last joint states before that."""
         position = self._position(at_ns)
         if self.clock.rate:
-            self._line.stand(position, self.clock.rate, self._split_ordered(position)[0])
+            self._line.stand(position, self.clock.rate)
         for member in self._timeline:
             member.ordered = False
         self.clock = PlaybackClock(now_ns, position, 0.0)
@@ -500,7 +513,7 @@ class RobotSystem:
         if self.state is SystemState.STAGING:
             return
         position = self._line.position(self.clock.position)
-        if position != self.clock.position:
+        if abs(position - self.clock.position) > SAME_PLACE:
             self.clock = PlaybackClock(now_ns, position, 0.0)
 
     def _take_back(self, now_ns: int, member: Member) -> None:
@@ -577,10 +590,12 @@ class RobotSystem:
         self._line_up(now_ns)
 
     def _split_ordered(self, position: float) -> tuple[list[Member], list[Member]]:
-        """Return the ordered members whose share began by `position` (s), and the others."""
+        """Return the ordered members that have begun by `position` (s), and the others."""
         ordered = self._timeline.ordered
         begun = [
-            m.end >= position if self._timeline.backwards else m.start <= position for m in ordered
+            (m.start + m.position - position) * (-1 if self._timeline.backwards else 1)
+            <= SAME_PLACE
+            for m in ordered
         ]
         running = [m for m, here in zip(ordered, begun, strict=True) if here]
         return running, [m for m, here in zip(ordered, begun, strict=True) if not here]

@@ -1053,7 +1053,9 @@ def come_up(world: World, robots: str, behind: int = 0) -> None:
     world.frozen -= set(robots)
     for robot in robots:
         before = world.playbacks[robot]
-        position = max(before.stream.position - behind / before.stream.trajectory.frame_rate, 0.0)
+        position = before.stream.position
+        if before.stream.streamed is not None:
+            position = max(position - behind / before.stream.trajectory.frame_rate, 0.0)
         fresh = world.playbacks[robot] = Playback(make_model(), StraightPlanner(), 0.0)
         kept = keep(before)._replace(
             position=position, arm=before.stream.trajectory.sample(position)
@@ -1213,3 +1215,74 @@ def test_members_that_were_frozen_in_ready_are_claimed_when_their_process_runs_a
     assert {m.playback_state for m in world.system.members.values()} == {State.READY}
     world.play_to_the_end()
     assert world.frames("a") == list(range(101))
+
+
+fault = st.tuples(
+    st.sampled_from(
+        ["play", "play", "pause", "seek", "rate", "turn", "kill", "kill", "freeze", "wait", "wait"]
+    ),
+    st.sampled_from(["a", "b", "ab", "abc"]),
+    st.floats(0, 1),
+)
+
+
+def furthest_behind(world: World) -> float | None:
+    """Where the member stands that has not ended and is furthest behind, s; None: none is."""
+    choose = max if world.system.rate < 0 else min
+    found = []
+    for member in world.system.members.values():
+        playback = world.playbacks[member.robot]
+        # One that is ready for another run has its clock at the beginning of that.
+        ready = playback.state is State.READY
+        if not member.done:
+            found.append(member.start + (member.position if ready else playback.clock.position))
+    return choose(found, default=None)
+
+
+@settings(max_examples=15, deadline=None)
+@given(st.sampled_from(list(Mode)), st.lists(fault, max_size=20))
+def test_whatever_process_dies_or_freezes_a_system_stands_and_plays_in_one_place(mode, faults):
+    world = make({"a": 81, "b": 61, "c": 41}, mode, rates={"b": 50.0})
+    system = world.system
+    for name, robots, x in faults:
+        try:
+            if name == "play":
+                system.play(world.now)
+                world.run_until(SystemState.PLAYING, 5.0)
+            elif name == "pause":
+                system.pause(world.now)
+            elif name == "seek":
+                system.seek(world.now, x * system.duration)
+            elif name in ("rate", "turn"):
+                system.set_rate(world.now, (0.1 + 3.9 * x) * (-1 if name == "turn" else 1))
+            elif name == "kill":
+                moved = system.state is SystemState.PLAYING
+                go_down(world, robots, heard_after=0.01 * x)
+                world.advance(round(0.1 * x, 3))
+                # What moved may come back behind the place that it had reached.
+                come_up(world, robots, behind=round(8 * x) if moved else 0)
+            elif name == "freeze":
+                go_down(world, robots, frozen=True)
+                world.frozen -= set(robots)
+                for robot in robots:
+                    if world.playbacks[robot].state in (State.PLAYING, State.ADJUSTING):
+                        world.playbacks[robot].pause(world.now, by="cell")
+                        world.playbacks[robot].take_statuses()
+                system.members_run(world.now, list(robots))
+        except LabError:
+            pass
+        world.report()
+        if system.state is SystemState.PAUSED and (place := furthest_behind(world)) is not None:
+            assert system.clock.position == pytest.approx(place, abs=1e-9)
+        world.advance(round(x * 0.3, 3))
+        if system.state is SystemState.PLAYING:
+            for member in system.members.values():
+                playback = world.playbacks[member.robot]
+                if playback.state is State.PLAYING and world.now > playback.clock.stamp_ns:
+                    own = member.start + playback.clock.at(world.now)
+                    assert own == pytest.approx(system.clock.at(world.now), abs=1e-8)
+    system.stop(world.now)
+    system.set_rate(world.now, 1.0)
+    world.sent = {robot: [] for robot in world.sent}
+    world.play_to_the_end()
+    assert [world.frames(r) for r in "abc"] == [list(range(n)) for n in (81, 61, 41)]
