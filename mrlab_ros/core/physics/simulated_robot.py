@@ -61,9 +61,12 @@ class Playing:
         """Return whether `new` has another position than undisturbed playback would have."""
         if new.trajectory_id != self.trajectory_id or new.state not in COMMANDING:
             return False
-        expected = self.position(new.clock.stamp_ns)
-        frames = 2 / self.frame_rate if self.frame_rate else 0.0
-        return abs(new.clock.position - expected) > SEEK_TOLERANCE + frames
+        way = new.clock.position - self.position(new.clock.stamp_ns)
+        if self.state is State.PLAYING and new.state is not State.PLAYING and self.frame_rate:
+            # An arm stops at its last joint state, up to one step behind its clock.
+            step = self.clock.rate / self.frame_rate
+            way -= min(max(way, min(-step, 0.0)), max(-step, 0.0))
+        return abs(way) > SEEK_TOLERANCE
 
 
 @dataclass(frozen=True)
