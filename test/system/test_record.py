@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+import os
 import signal
 import subprocess
 import time
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +22,8 @@ from sensor_msgs.msg import JointState
 
 from mrlab_ros.adapters.bags.reader import Bag
 from mrlab_ros.messages import qos
+from mrlab_ros.processes.run_file import RunFile
+from mrlab_ros.ros.environment import domain_id
 from mrlab_ros.ros.graph_node import Graph
 
 MOTION = Path(__file__).parents[2] / "examples" / "quintic_ur5e.mat"
@@ -60,13 +64,22 @@ class Watcher:
         self._session.close()
 
 
-def record_a_play(bag: Path) -> None:
+@contextmanager
+def recording(bag: Path) -> Iterator[subprocess.Popen[str]]:
+    """Yield `mrlab record` once it records."""
     recorder = start_child(
         *MRLAB, "record", str(bag), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     )
     assert recorder.stdout is not None
     try:
         assert f"records into {bag}" in recorder.stdout.readline()
+        yield recorder
+    finally:
+        recorder.kill()
+
+
+def record_a_play(bag: Path) -> None:
+    with recording(bag) as recorder:
         # All of the motion is in the bag once the recorder listens to it.
         with Graph() as graph:
             wait_for(lambda: graph.node.count_subscribers(JOINTS) >= 2, "the recorder listening")
@@ -75,8 +88,33 @@ def record_a_play(bag: Path) -> None:
         said, trouble = recorder.communicate(timeout=DEADLINE)
         assert recorder.returncode == 0, trouble
         assert f"{bag} holds" in said
-    finally:
-        recorder.kill()
+
+
+def recorder_process() -> int:
+    """Return the process of the lab's recorder, once there is one."""
+
+    def find() -> int | None:
+        processes = (RunFile(domain_id()).read() or {})["processes"]
+        return next(each["pid"] for each in processes if each["name"] == "recorder")
+
+    return int(wait_for(find, "the recorder's process"))
+
+
+@pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGTERM])
+def test_a_recording_ends_as_asked_although_its_recorder_is_dead(
+    endpoint: str, tmp_path: Path, how: signal.Signals
+) -> None:
+    bag = tmp_path / "session"
+    with recording(bag) as recorder:
+        wait_for(lambda: Bag(bag).message_count, "messages on the disk")
+        os.kill(recorder_process(), how)
+        recorder.send_signal(signal.SIGINT)
+        _, trouble = recorder.communicate(timeout=DEADLINE)
+        assert recorder.returncode == 0, trouble
+    with Graph() as graph:
+        state = graph.watch(msg.RecorderState, "/recorder/state")
+        state.wait(lambda s: s.state == s.STOPPED, DEADLINE)
+    assert Bag(bag).message_count
 
 
 def test_what_a_student_did_comes_back(endpoint: str, tmp_path: Path) -> None:

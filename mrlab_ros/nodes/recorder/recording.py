@@ -203,7 +203,10 @@ class Recording:
                 self._write(message)
             self._closed = True
         self._leave()
-        self._writer.close()
+        try:
+            self._writer.close()
+        except Exception as error:
+            raise _named(error) from error
 
     def _follow(self, name: str, publishers: int) -> bool:
         ends = self._streams.get_publishers_info_by_topic(name)
