@@ -24,6 +24,7 @@ from mrlab_ros.adapters.trajectories.catalogue_writer import CatalogueWriter
 from mrlab_ros.core.base.diagnostics import NO_ROBOT_IN_SCENE
 from mrlab_ros.core.trajectory.trajectory import Channels, Source, Trajectory
 from mrlab_ros.messages import qos
+from mrlab_ros.processes.announcer import Announcer
 from mrlab_ros.processes.lab import PROCESSES, LabProcess, parameter_file
 from mrlab_ros.processes.options import LabOptions, new_lab_id
 from mrlab_ros.processes.supervisor import Supervisor
@@ -174,9 +175,12 @@ def running(
         p for p in processes if p.wanted(options) and (not only or p.name in only)
     ]
     specs = [process.spec(options) for process in chosen]
-    with Supervisor(specs, lambda name, line: None) as supervisor:
+    announcer = Announcer(options.lab_id)
+    with Supervisor(specs, lambda name, line: None, announcer.announce) as supervisor:
+        announcer.open()
         lab = Lab(supervisor, options.listen)
         try:
             yield lab
         finally:
             lab.close()
+            announcer.close()

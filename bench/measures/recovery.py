@@ -4,8 +4,10 @@ Pause and halt: from the call of /ROBOT/pause to its answer, and from publishing
 to the state COLLISION_HALT, while twelve robots play and the lab around them is busy or stopped.
 Mark: p99 < 10 ms in every case. A blow: each process is killed (kill -9), and frozen for 3 s; from
 then on, or from the end of the freeze, a client repeats the command that a person would give next,
-until it succeeds. Mark: 5 s each. Spawn: from the order until its answer, the first joint state,
-and the topics of physics, which has the robot's hulls then. Mark: 1 s each.
+until it succeeds. Mark: 5 s each. A death: from the kill of each process to its end, which
+includes the release of its memory, and from there to the event at another node. Mark: 10 ms to
+the event. Spawn: from the order until its answer, the first joint state, and the topics of
+physics, which has the robot's hulls then. Mark: 1 s each.
 """
 
 from __future__ import annotations
@@ -33,6 +35,7 @@ from size import Size
 from tf2_msgs.msg import TFMessage
 
 from mrlab_ros.core.base.diagnostics import ILLEGAL_EVENT
+from mrlab_ros.core.runtime.processes import Phase
 from mrlab_ros.messages import qos
 from mrlab_ros.processes.lab import LabProcess
 from mrlab_ros.ros.calls import NoAnswer, call
@@ -300,7 +303,56 @@ def spawns(size: Size) -> list[dict[str, Any]]:
     return rows
 
 
+def deaths(size: Size) -> list[dict[str, Any]]:
+    rounds, rows = size.of(1, 3, 10), []
+    with tempfile.TemporaryDirectory() as name, running(Path(name), robots=2) as lab:
+        heard: list[tuple[int, msg.LabProcess]] = []
+
+        def take(message: msg.LabProcesses) -> None:
+            arrived_ns = time.monotonic_ns()
+            heard.extend((arrived_ns, process) for process in message.processes)
+
+        lab.subscribe(msg.LabProcesses, "/processes", take, qos.LATCHED)
+        until(lambda: heard, "the processes")
+        for process in size.some(tuple(lab.processes())):
+            seen, event = [], []
+            for _ in range(rounds):
+                # Restarts follow each other the slower the sooner it dies again.
+                until(lambda process=process: runs(lab, process), f"{process} running")
+                heard.clear()
+                killed_ns = time.monotonic_ns()
+                kill(lab.processes()[process].pid)
+                arrived_ns, down = until(
+                    lambda process=process: first_death(heard, process), "the event"
+                )
+                seen.append((down.down_steady_ns - killed_ns) / 1e6)
+                event.append((arrived_ns - down.down_steady_ns) / 1e6)
+            rows.append(
+                {
+                    "process": process,
+                    "rounds": rounds,
+                    "kill to end, max ms": max(seen),
+                    "end to event, median ms": sorted(event)[len(event) // 2],
+                    "end to event, max ms": max(event),
+                }
+            )
+    return rows
+
+
+def runs(lab: Lab, process: str) -> bool:
+    phases = {state.name: state.phase for state in lab.supervisor.states}
+    return phases[process] == Phase.RUNNING.value
+
+
+def first_death(
+    heard: list[tuple[int, msg.LabProcess]], name: str
+) -> tuple[int, msg.LabProcess] | None:
+    waits = (one for one in list(heard) if one[1].state == msg.LabProcess.WAITING)
+    return next((one for one in waits if one[1].name == name), None)
+
+
 TABLES = {
+    "From a death to its event on /processes": deaths,
     "Safety path: what a client waits for": safety,
     "From a blow to the next command that works": blows,
     "From the order to a robot in the lab": spawns,
