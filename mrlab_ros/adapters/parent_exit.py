@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import select
 import signal
-import threading
 from pathlib import Path
 
 # The environment variable with the id of the process that starts others and may end before them.
@@ -48,11 +47,13 @@ def _end_with_ancestor(launcher: int) -> None:
         os.close(ended)
         return
 
+    from mrlab_ros.adapters import threads  # seldom needed
+
     def wait() -> None:
         select.select([ended], [], [])
         os.kill(os.getpid(), signal.SIGTERM)
 
-    threading.Thread(target=wait, name="launcher", daemon=True).start()
+    threads.loop("launcher", wait).start()
 
 
 def _is_ancestor(process: int) -> bool:

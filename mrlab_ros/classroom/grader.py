@@ -13,16 +13,17 @@ import shutil
 import signal
 import subprocess
 import tempfile
-import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures.process import BrokenProcessPool
+from functools import partial
 from multiprocessing.util import Finalize
 from pathlib import Path
 from typing import Any, TypeVar
 
 import orjson
 
+from mrlab_ros.adapters import threads
 from mrlab_ros.adapters.sandbox.warm_process import WarmProcess
 from mrlab_ros.adapters.workspaces.content import death
 from mrlab_ros.classroom import worker
@@ -234,8 +235,7 @@ def checked(setup: Setup, task: Task, scratch: str = "", owner: int = 0) -> dict
         if not _graders:
             Finalize(None, close_all, exitpriority=10)  # joblib's processes end without atexit
             if owner not in (0, os.getpid()):
-                watch = threading.Thread(target=_end_with_parent, args=(owner,), daemon=True)
-                watch.start()
+                threads.loop("parent", partial(_end_with_parent, owner)).start()
         close_all()
         grader = _graders[setup.packed] = Grader(setup, scratch)
     return grader.check(task)

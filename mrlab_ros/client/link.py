@@ -17,6 +17,7 @@ from mrlab_ros.adapters.zenoh.links import NoQueryable, Refusal, ZenohLink
 from mrlab_ros.core.bridge.links import key_of
 from mrlab_ros.messages.definitions import fitted
 from mrlab_ros.ros.calls import NoAnswer
+from mrlab_ros.ros.decoding import decoder
 from mrlab_ros.ros.graph import CALL_TIMEOUT_S, FIND_TIMEOUT_S, GraphClient
 
 BRIDGE = "/@mrlab/bridge"
@@ -53,13 +54,18 @@ class LinkGraph(GraphClient):
         key = key_of(topic, self._prefix)
         lock, live = threading.Lock(), threading.Event()
 
-        def receive(payload: bytes) -> None:
-            message = deserialize_message(payload, kind)
+        def receive(message: Any) -> None:
             with lock:
                 live.set()
                 callback(message)
 
-        unsubscribe = self._link.subscribe(key, receive)
+        def receive_newest(message: Any) -> None:
+            with lock:
+                # Messages that came meanwhile are newer.
+                if not live.is_set():
+                    callback(message)
+
+        unsubscribe = self._link.subscribe(key, decoder(kind, topic, receive))
         if quality.durability is not DurabilityPolicy.TRANSIENT_LOCAL:
             return
         newest = self._newest(key)
@@ -68,11 +74,7 @@ class LinkGraph(GraphClient):
                 unsubscribe()
                 self._whole_graph().subscribe(kind, topic, callback, quality)
             return
-        latest = deserialize_message(newest, kind)
-        with lock:
-            # Messages that came meanwhile are newer.
-            if not live.is_set():
-                callback(latest)
+        decoder(kind, topic, receive_newest)(newest)
 
     def call(
         self,

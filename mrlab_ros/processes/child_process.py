@@ -16,8 +16,10 @@ import threading
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from typing import IO
 
+from mrlab_ros.adapters import threads
 from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.runtime.bucket import RepeatedLines
 from mrlab_ros.core.runtime.processes import Phase, ProcessState
@@ -145,7 +147,10 @@ class Child:
         self, spec: ProcessSpec, policy: RestartPolicy, emit: Emit, changed: Callable[[], None]
     ) -> None:
         self.spec = spec
-        self._policy, self._emit, self._changed = policy, emit, changed
+        self._policy = policy
+        # A full disk, say, must not end the thread: the process would end with it.
+        self._emit = threads.guarded(spec.name, emit)
+        self._changed = threads.guarded(spec.name, changed)
         self._phase, self._since = Phase.STARTING, time.time()
         self._restarts, self._last_exit = 0, ""
         self._last_code: int | None = None
@@ -159,7 +164,7 @@ class Child:
         self._stop = threading.Event()
         # Set while there is no process: end the wait for the next start.
         self._start_now = threading.Event()
-        self._thread = threading.Thread(target=self._keep, name=spec.name, daemon=True)
+        self._thread = threads.loop(spec.name, self._keep)
 
     @property
     def state(self) -> ProcessState:
@@ -214,6 +219,7 @@ class Child:
     def _keep(self) -> None:
         # The child inherits this thread's mask, so it starts with SIGINT blocked.
         signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+        self._end_process()  # where an error began this anew
         while not self._stop.is_set():
             self._run_once()
             if self._stop.is_set():
@@ -277,16 +283,21 @@ class Child:
             return
         self._enter(Phase.RUNNING)
         assert process.stdout is not None
-        reader = threading.Thread(target=self._read, args=(process.stdout,), daemon=True)
+        reader = threads.task(f"{self.spec.name} output", partial(self._read, process.stdout))
         reader.start()
         code = self._until_its_end(process.pid)
         self._ended(code, describe_exit(code))
-        with self._lock:
-            _signal_group(process.pid, signal.SIGKILL)
-            self._process = None
-            process.wait()
+        self._end_process()
         # A process outside the group may still hold the pipe; its reader then runs on alone.
         reader.join(READ_TIMEOUT_S)
+
+    def _end_process(self) -> None:
+        """End what is left of the process and its group, and reap it."""
+        with self._lock:
+            process, self._process = self._process, None
+            if process is not None:
+                _signal_group(process.pid, signal.SIGKILL)
+                process.wait()
 
     def _until_its_end(self, pid: int) -> int:
         """Return the exit code of the process when it ends; it is not reaped.

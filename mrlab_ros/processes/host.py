@@ -52,7 +52,10 @@ def main(names: list[str] | None = None) -> None:
             f"host: found {'no node' if not names else ', '.join(unknown)}; expected one or more "
             f"of {', '.join(NODES)}, as in: host converter lab coordinator"
         )
+    from mrlab_ros.adapters import threads
     from mrlab_ros.processes.node_runner import run
+
+    threads.end_process_where_a_thread_fails()
 
     if "recorder" not in names:
         os.umask(0o077)  # what the lab keeps is its user's alone; bags are made for others, too

@@ -10,6 +10,7 @@ from rclpy.context import Context
 from rclpy.node import Node
 
 from mrlab_ros.messages import qos
+from mrlab_ros.ros.decoding import subscribe
 from mrlab_ros.ros.spinning import SpunNode
 
 TOPIC = "/recorder/state"
@@ -30,7 +31,7 @@ class StandAside:
             enable_rosout=False,
             use_global_arguments=False,
         )
-        node.create_subscription(RecorderState, TOPIC, self._on_state, qos.LATCHED)
+        subscribe(node, RecorderState, TOPIC, self._on_state, qos.LATCHED)
         self._spun = SpunNode(node)
 
     def wait_for_recorder(self, find_timeout: float) -> None:

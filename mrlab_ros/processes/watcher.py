@@ -17,6 +17,7 @@ from mrlab_ros.messages import qos
 from mrlab_ros.messages.status import living_in, signs_to_message
 from mrlab_ros.processes.child_process import LAST_EXIT, RESTARTS
 from mrlab_ros.ros.clock import every
+from mrlab_ros.ros.decoding import subscribe, undecoded
 from mrlab_ros.ros.spinning import SpunNode
 
 TOPIC = "/diagnostics"
@@ -60,7 +61,7 @@ class Watcher:
         )
         self._topic = self._node.create_publisher(DiagnosticArray, TOPIC, qos.LATCHED)
         # Not latched: diagnostics of other robots seldom are, and rclpy would warn of each.
-        self._node.create_subscription(DiagnosticArray, TOPIC, self._hear, qos.EVENTS)
+        subscribe(self._node, DiagnosticArray, TOPIC, self._hear, qos.EVENTS)
         every(self._node, PERIOD_S, self._give_sign)
         self._spun = SpunNode(self._node)
 
@@ -83,6 +84,7 @@ class Watcher:
             self._sign,
             lost=None if lost is None else tuple(lost),
             failed=tuple(self.failed),
+            noticed=tuple(undecoded()),
             freeze=freeze,
         )
         message = signs_to_message(

@@ -10,12 +10,12 @@ from __future__ import annotations
 import ctypes
 import os
 import select
-import threading
 from collections.abc import Callable
 from typing import Any
 
 from rclpy.subscription import Subscription
 
+from mrlab_ros.adapters import threads
 from mrlab_ros.core.base.errors import Unavailable
 from mrlab_ros.ros.diagnostics import NO_ARRIVALS
 
@@ -72,7 +72,7 @@ class Arrivals:
         self._epoll.register(self._wake, select.EPOLLIN)
         self._descriptors: dict[Subscription, int] = {}
         self._takers: dict[int, _Taker] = {}
-        self._thread = threading.Thread(target=self._run, name=name, daemon=True)
+        self._thread = threads.loop(name, self._run)
         self._thread.start()
 
     def add(
@@ -115,7 +115,8 @@ class Arrivals:
         os.close(self._wake)
 
     def _run(self) -> None:
-        unfinished: list[int] = []
+        # All are looked at first: after an error nobody knows which had messages.
+        unfinished = list(self._takers)
         while True:
             arrived = self._epoll.poll(0 if unfinished else None)
             if self._stopped:

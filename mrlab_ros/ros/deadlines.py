@@ -18,10 +18,10 @@ import os
 import sys
 import threading
 import time
-import traceback
 from collections.abc import Callable
 from typing import NamedTuple
 
+from mrlab_ros.adapters import threads
 from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.playback.execution import PlaybackStatus
 from mrlab_ros.core.playback.playback import Playback
@@ -132,7 +132,8 @@ class Scheduler:
 
     Use `with scheduler.command(player) as now_ns:` around every use of a playback. All times are
     instants of `clock`, which gives the stamps that messages carry. What a player
-    raises is printed while `connected()`: a failure after the shutdown of the context is expected.
+    raises is named in the log while `connected()`: a failure after the shutdown of the context is
+    expected.
 
     precedence: in words which priority the deadline thread got; empty before start().
     """
@@ -149,7 +150,7 @@ class Scheduler:
         self._running = True
         self.precedence = ""
         self._prepared = threading.Event()
-        self._thread = threading.Thread(target=self._run, name="deadlines", daemon=True)
+        self._thread = threads.loop("deadlines", self._run, connected)
 
     def start(self) -> None:
         sys.setswitchinterval(SWITCH_INTERVAL_S)
@@ -225,8 +226,8 @@ class Scheduler:
                 player.playback.announce_again()
                 try:
                     player.announce(now_ns)
-                except Exception:
-                    self._print_trouble()
+                except Exception as error:
+                    self._name_error(error)
         return now_ns, steady_ns
 
     def _serve(
@@ -243,8 +244,8 @@ class Scheduler:
         for due_ns, player in batch:
             try:
                 sample = player.prepare(due_ns, now_ns, simulated=simulated)
-            except Exception:
-                self._print_trouble()
+            except Exception as error:
+                self._name_error(error)
                 continue
             if sample is not None:
                 ready.append((due_ns - ahead_ns, player, sample))
@@ -253,19 +254,19 @@ class Scheduler:
                 pass
             try:
                 player.send(sample, ahead_ns)
-            except Exception:
-                self._print_trouble()
+            except Exception as error:
+                self._name_error(error)
         now_ns = steady_ns() + ahead_ns
         for _, player in batch:
             try:
                 player.announce(now_ns)
-            except Exception:
-                self._print_trouble()
+            except Exception as error:
+                self._name_error(error)
 
-    def _print_trouble(self) -> None:
-        """Print the current exception: one robot's failure must not stop the others."""
+    def _name_error(self, error: Exception) -> None:
+        """Name an error: one robot's failure must not stop the others."""
         if self._connected():
-            traceback.print_exc()
+            threads.name_error("deadlines", error)
 
 
 class Command:

@@ -7,7 +7,6 @@ takes 20 ms with the 130 services of thirteen robots.
 from __future__ import annotations
 
 import ctypes
-import threading
 from collections.abc import Callable
 from contextlib import ExitStack, suppress
 from typing import Any
@@ -15,6 +14,8 @@ from typing import Any
 from rclpy.guard_condition import GuardCondition
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
+
+from mrlab_ros.adapters import threads
 
 # The longest wait before the thread checks that the context still lives, s.
 MAX_WAIT_S = 0.2
@@ -37,7 +38,7 @@ class GraphChanges:
         self._turn = turn
         self._stopped = False
         self._guard = GuardCondition(None, None, context=node.context)
-        self._thread = threading.Thread(target=self._run, name=name, daemon=True)
+        self._thread = threads.loop(name, self._run, node.context.ok)
         self._thread.start()
 
     def wake(self) -> None:

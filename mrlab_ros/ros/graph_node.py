@@ -19,11 +19,13 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSPolicyKind, QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
 
+from mrlab_ros.adapters import threads
 from mrlab_ros.core.base.errors import Misuse
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.definitions import fitted
 from mrlab_ros.ros import environment
 from mrlab_ros.ros.calls import NoAnswer, call
+from mrlab_ros.ros.decoding import subscribe
 from mrlab_ros.ros.diagnostics import CLIENT_CLOSED, NOT_OFFERED
 from mrlab_ros.ros.environment import domain_id
 from mrlab_ros.ros.graph import CALL_TIMEOUT_S, FIND_TIMEOUT_S, GraphClient
@@ -54,7 +56,7 @@ class _Ear:
 
     def _subscribe(self) -> Any:
         events = SubscriptionEventCallbacks(incompatible_qos=self._weaken)
-        return self._node.create_subscription(*self._what, self._quality, event_callbacks=events)
+        return subscribe(self._node, *self._what, self._quality, event_callbacks=events)
 
     def _weaken(self, found: Any) -> None:
         with self._lock:
@@ -90,7 +92,7 @@ class Graph(GraphClient):
         self._closing = threading.Event()
         # The executor's own wake() builds its wait set anew and goes on; this ends spin_once().
         self._end = self.node.create_guard_condition(lambda: None)
-        self._thread = threading.Thread(target=self._spin, name="graph", daemon=True)
+        self._thread = threads.loop("graph", self._spin, self._context.ok)
         self._thread.start()
 
     def _spin(self) -> None:

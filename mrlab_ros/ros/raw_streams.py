@@ -24,6 +24,7 @@ from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.publisher import Publisher
 from rclpy.subscription import Subscription
 
+from mrlab_ros.adapters import threads
 from mrlab_ros.core.base.clock import SECOND
 
 # The longest wait before a WaitSetThread checks that the context still lives, ns.
@@ -49,7 +50,7 @@ class _RawThread(Generic[Kept]):
         self._subscriptions: dict[Subscription, Kept] = {}
         self._changed = True
         self._stopped = threading.Event()
-        self._thread = threading.Thread(target=self._run, name=name, daemon=True)
+        self._thread = threads.loop(name, self._run)
 
     def start(self) -> None:
         self._thread.start()

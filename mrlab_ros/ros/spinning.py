@@ -10,7 +10,6 @@ through a `Caller`.
 from __future__ import annotations
 
 import threading
-import traceback
 from collections.abc import Callable
 from contextlib import suppress
 
@@ -23,6 +22,7 @@ from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.task import Future
 
+from mrlab_ros.adapters import threads
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.ros import clock, environment
 from mrlab_ros.ros.diagnostics import BAD_ROS_ARGUMENTS
@@ -40,8 +40,9 @@ def make_executor(context: Context) -> Executor:
 def spin(executor: Executor, context: Context, stop: threading.Event | None = None) -> None:
     """Spin until the context is shut down, SIGINT arrives, or `stop` is set.
 
-    What a callback raises is printed: one robot's trouble must not stop the others. A callback
-    of something that another thread has just destroyed raises InvalidHandle and is forgotten.
+    What a callback raises is named in the log: one robot's trouble must not stop the others. A
+    callback of something that another thread has just destroyed raises InvalidHandle and is
+    forgotten.
     """
     never = Future()
     with clock.watching():
@@ -53,10 +54,10 @@ def spin(executor: Executor, context: Context, stop: threading.Event | None = No
                 return
             except rclpy_implementation.InvalidHandle:
                 continue
-            except Exception:
+            except Exception as error:
                 # A failure after the shutdown of the context is no mistake.
                 if context.ok():
-                    traceback.print_exc()
+                    threads.name_error(threading.current_thread().name, error)
 
 
 def start_up() -> None:
@@ -92,11 +93,7 @@ class SpunNode:
         self.executor.add_node(node)
         self._prepare = prepare
         self._stop = threading.Event()
-        self._thread = threading.Thread(
-            target=self._run,
-            name=node.get_name(),
-            daemon=True,
-        )
+        self._thread = threads.loop(node.get_name(), self._run, node.context.ok)
         self._thread.start()
 
     def _run(self) -> None:

@@ -7,9 +7,17 @@ import time
 from collections import deque
 from collections.abc import Callable
 from concurrent.futures import Future
-from typing import Any, NamedTuple
+from functools import partial
+from typing import Any, NamedTuple, TypeVar
 
+from mrlab_ros.adapters import threads
+
+Result = TypeVar("Result")
 Work = Callable[[], Any]
+
+
+# Pause before idle is called again after an error, s: the error may come again at once.
+RETRY_S = 0.1
 
 
 class _Task(NamedTuple):
@@ -25,7 +33,8 @@ class Worker:
 
     idle: called whenever no work came for `idle_after()` s; None of it: never. capacity: bytes
     of sent work that may wait; beyond it the oldest work is dropped, so that the newest state
-    still arrives. on_drop: called after that. on_error: gets what sent work raised.
+    still arrives. on_drop: called after that. on_error: gets what sent work and idle raised;
+    without it the error is named in the log.
     """
 
     def __init__(
@@ -36,15 +45,16 @@ class Worker:
         *,
         capacity: int | None = None,
         on_drop: Callable[[], None] = lambda: None,
-        on_error: Callable[[Exception], None] = lambda error: None,
+        on_error: Callable[[Exception], None] | None = None,
     ) -> None:
         self._idle, self._idle_after = idle, idle_after
-        self._capacity, self._on_drop, self._on_error = capacity, on_drop, on_error
+        self._capacity, self._on_drop = capacity, on_drop
+        self._on_error = on_error or partial(threads.name_error, name)
         self._changed = threading.Condition()
         self._tasks: deque[_Task] = deque()
         self._bytes = 0
         self._closed = False
-        self._thread = threading.Thread(target=self._run, name=name, daemon=True)
+        self._thread = threads.loop(name, self._run)
         self._thread.start()
 
     def do(self, work: Work) -> Any:
@@ -54,7 +64,8 @@ class Worker:
     def later(self, work: Work) -> Future[Any]:
         """Run `work` after what waits, unless the future is cancelled before its turn.
 
-        The worker cancels it where it is closed.
+        The worker cancels it where it is closed. An error is for the caller; where nobody reads
+        the future, send() is to be used.
         """
         future: Future[Any] = Future()
         if not self._put(_Task(work, 0, future)):
@@ -126,9 +137,11 @@ class Worker:
 
     def _next(self) -> _Task | None:
         """Wait for the next task, with a call of idle where it is due; None at the end."""
+        pause = 0.0
+        retry: float | None = RETRY_S
         while True:
-            wait = self._idle_after()
-            deadline = None if wait is None else time.monotonic() + wait
+            wait = self._attempt(self._idle_after, retry)
+            deadline = None if wait is None else time.monotonic() + max(wait, pause)
             with self._changed:
                 while not (self._tasks or self._closed):
                     left = None if deadline is None else deadline - time.monotonic()
@@ -141,4 +154,16 @@ class Worker:
                     return task
                 if self._closed:
                     return None
-            self._idle()
+            pause = 0.0 if self._attempt(self._idled, False) else RETRY_S
+
+    def _idled(self) -> bool:
+        self._idle()
+        return True
+
+    def _attempt(self, work: Callable[[], Result], failed: Result) -> Result:
+        """Return what `work` returns, or `failed` where it raises."""
+        try:
+            return work()
+        except Exception as error:
+            self._on_error(error)
+            return failed

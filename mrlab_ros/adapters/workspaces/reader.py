@@ -20,9 +20,11 @@ import weakref
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future
 from dataclasses import asdict, dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from typing import Any, BinaryIO, TypeVar
 
+from mrlab_ros.adapters import threads
 from mrlab_ros.adapters.sandbox.warm_process import WarmProcess
 from mrlab_ros.adapters.workspaces import content, results
 from mrlab_ros.adapters.workspaces.diagnostics import (
@@ -272,11 +274,10 @@ class ConversionPool:
         self._closed = False
         self._readers = [WorkspaceReader(limits) for _ in range(count + max(1, count - 1))]
         self._threads = [
-            threading.Thread(target=self._run, args=(reader, i < count), name=f"convert_{i}")
+            threads.loop(f"convert_{i}", partial(self._run, reader, i < count))
             for i, reader in enumerate(self._readers)
         ]
         for thread in self._threads:
-            thread.daemon = True
             thread.start()
 
     def submit(self, work: Work, size: int, held: int = 0) -> Future[Any]:

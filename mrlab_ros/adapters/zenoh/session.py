@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections import deque
 from collections.abc import Callable, Mapping
-from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from threading import Lock, Semaphore
 from typing import Any
@@ -13,6 +12,7 @@ from typing import Any
 import zenoh
 from zenoh import ext
 
+from mrlab_ros.adapters import threads
 from mrlab_ros.adapters.zenoh.configuration import first_line
 from mrlab_ros.adapters.zenoh.diagnostics import ENDPOINT_TAKEN, ZENOH_NOT_OPEN
 from mrlab_ros.adapters.zenoh.port import Declared, Publisher, Query
@@ -118,7 +118,7 @@ class _Answers:
     """Answers queries for latched topics: a thread a topic would be a hundred with ten robots."""
 
     def __init__(self) -> None:
-        self._threads = ThreadPoolExecutor(ANSWER_THREADS, thread_name_prefix="zenoh_answers")
+        self._threads = threads.Pool("zenoh_answers", ANSWER_THREADS)
         self._free = Semaphore(ANSWERS_WAITING)
 
     def give(self, answer: Callable[[zenoh.Query], None], query: zenoh.Query) -> None:
@@ -127,7 +127,7 @@ class _Answers:
             query.drop()
             return
         try:
-            self._threads.submit(answer, query).add_done_callback(lambda _: self._free.release())
+            self._threads.send(answer, query).add_done_callback(lambda _: self._free.release())
         except RuntimeError:  # closed meanwhile
             query.drop()
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import random
 import socket
-import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -13,6 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from mrlab_ros.adapters import threads
 from mrlab_ros.commands.diagnostics import NO_DOMAIN_LEFT, NO_PORT_LEFT
 from mrlab_ros.commands.up.speaker import Speaker
 from mrlab_ros.commands.up.surroundings import folder_for_state, stay_on_this_machine
@@ -61,7 +61,7 @@ class Stage:
                     return
                 time.sleep(SHOW_PERIOD_S)
 
-        threading.Thread(target=show, daemon=True).start()
+        threads.task("show", show).start()
 
 
 class Log:

@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, plain
-from mrlab_ros.core.runtime.watch import SILENT_AFTER_S
+from mrlab_ros.core.runtime.watch import SILENT_AFTER_S, joined
 from mrlab_ros.processes.lab import NODES, PROCESSES
 from mrlab_ros.processes.run_file import RunFile
 from mrlab_ros.processes.web import gateway_answers
@@ -322,9 +322,12 @@ class View:
         self._restarted = (self._restarted - found.keys()) | restarted_in(message)
 
     def troubles(self) -> dict[str, Diagnostic]:
-        """Return what is amiss with processes, by process."""
+        """Return what is amiss with processes, by process, and what this one cannot decode."""
+        from mrlab_ros.ros.decoding import undecoded
+
         now = time.monotonic()
-        return {
+        own = joined(undecoded())
+        return ({} if own is None else {"status": own}) | {
             name: said
             for name, (heard, said) in sorted(self._troubles.items())
             if said is not None and now - heard < SILENT_AFTER_S

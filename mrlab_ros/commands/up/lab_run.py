@@ -6,6 +6,7 @@ import threading
 import time
 from dataclasses import dataclass, field
 
+from mrlab_ros.adapters import threads
 from mrlab_ros.adapters.scenes.files import SCENE_FILE
 from mrlab_ros.commands.diagnostics import OPEN_TO_ALL, SCENE_COMES_BACK, WAITS_FOR_CLOCK
 from mrlab_ros.commands.up.keys import follow_keys, keys_changed_at, tell_when_keys_expire
@@ -132,7 +133,9 @@ class LabRun:
         if self._web and not self.stop.is_set():
             say_where(self._web, self.say)
         if missing:
-            threading.Thread(target=self._follow_late).start()
+            late = threads.loop("follow_late", self._follow_late)
+            late.daemon = False  # its node is closed before the interpreter ends
+            late.start()
 
     def _say_ready(self) -> None:
         if self.stop.is_set():

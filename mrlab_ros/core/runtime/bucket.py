@@ -1,5 +1,7 @@
 """Limits of rates: a bucket of tokens for what a client sends, and of repeated lines of a log.
 
+What goes wrong again and again is counted by its cause, and said once a minute.
+
 Time is an argument, s, monotonic.
 """
 
@@ -70,3 +72,48 @@ class RepeatedLines:
             return None
         left_out, kind.left_out = kind.left_out, 0
         return f"{line} ({left_out} lines like this one were left out)" if left_out else line
+
+
+# A cause that goes on is said once in this time, s.
+SAID_EVERY_S = 60.0
+# Names a cause: the source, and what went wrong there.
+Cause = tuple[str, ...]
+
+
+@dataclass
+class _Count:
+    total: int = 0
+    said: int = 0
+    said_at: float = 0.0
+    last: float = 0.0
+
+
+class Occurrences:
+    """Counts what goes wrong by its cause, of the newest KINDS causes; one thread at a time."""
+
+    def __init__(self) -> None:
+        self._counts: OrderedDict[Cause, _Count] = OrderedDict()
+
+    def again(self, cause: Cause, now: float) -> int | None:
+        """Count one; return how many came since this cause was said, None: it is not due.
+
+        A cause is due when it comes first, and then once in SAID_EVERY_S.
+        """
+        count = self._counts.setdefault(cause, _Count())
+        self._counts.move_to_end(cause)
+        if len(self._counts) > KINDS:
+            self._counts.popitem(last=False)
+        count.total += 1
+        count.last = now
+        if count.said and now - count.said_at < SAID_EVERY_S:
+            return None
+        since, count.said, count.said_at = count.total - count.said, count.total, now
+        return since
+
+    def lately(self, now: float) -> dict[Cause, int]:
+        """Return how often each cause came that came within the last SAID_EVERY_S."""
+        return {
+            cause: count.total
+            for cause, count in self._counts.items()
+            if now - count.last < SAID_EVERY_S
+        }

@@ -46,6 +46,30 @@ SHARED_SERVICE = Code(
     meaning="A call would move the robots of two labs.",
 )
 
+# threads
+
+THREAD_FAILED = Code(
+    "thread_failed",
+    "The thread {thread} failed: {error:problem}[; {again:integer} times since this was said].",
+    meaning="An error that the program did not expect. The thread goes on with its next work.",
+)
+THREAD_ENDS = Code(
+    "thread_ends",
+    "The thread {thread} failed {failures:integer} times in a row. Its process ends; the lab "
+    "starts it again.",
+    meaning="A process ends where one of its threads cannot go on.",
+)
+
+UNDECODABLE = Code(
+    "undecodable",
+    "{count:count message|messages} on {topic} could not be decoded as {type} and had no effect"
+    "[; publishers: {publishers:list}].",
+    "End the program that publishes them, or have it publish {type}.",
+    severity=WARNING,
+    meaning="Bytes that are no message of the topic's type: of a foreign program, or of another "
+    "version of the lab.",
+)
+
 # signs of life
 
 EXITED = Code(

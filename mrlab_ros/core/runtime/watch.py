@@ -34,7 +34,8 @@ class Sign:
     restarts: how often it was started again. last_exit: the signal that ended it before, such as
     SIGKILL, or its exit code.
     lost: what could not be brought back; None: that is not known yet. failed: what went wrong
-    since, newest first. freeze: the last one, of a minute.
+    since, newest first. noticed: what came from outside and had no effect. freeze: the last one,
+    of a minute.
     """
 
     process: str
@@ -42,6 +43,7 @@ class Sign:
     last_exit: str = ""
     lost: tuple[Diagnostic, ...] | None = ()
     failed: tuple[Diagnostic, ...] = ()
+    noticed: tuple[Diagnostic, ...] = ()
     freeze: Freeze | None = None
 
     def restarted(self, age: float) -> bool:
@@ -50,7 +52,7 @@ class Sign:
 
     def trouble(self, age: float) -> Diagnostic | None:
         """Return what to say of a process that runs for `age` s; None: nothing is amiss."""
-        said = [*self.failed]
+        said = [*self.failed, *self.noticed]
         if self.freeze is not None:
             frozen, ago = round(self.freeze.duration), round(self.freeze.ago)
             said.append(say.DID_NOT_RUN(frozen=frozen, ago=ago))

@@ -7,12 +7,12 @@ delays neither the graph nor services.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from concurrent.futures import ThreadPoolExecutor
 from functools import cache, cached_property, partial
 from pathlib import Path
 from threading import Semaphore
 from typing import TYPE_CHECKING
 
+from mrlab_ros.adapters import threads
 from mrlab_ros.adapters.zenoh.port import Query
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.assets import (
@@ -46,7 +46,7 @@ class AssetRoutes:
         self._bridge = bridge
         self._share = share
         self._definitions = cache(partial(schema, tuple(types)))
-        self._threads = ThreadPoolExecutor(THREADS, thread_name_prefix="bridge_assets")
+        self._threads = threads.Pool("bridge_assets", THREADS)
         self._free = Semaphore(WAITING)
         self._declared = [
             bridge.session.queryable(key, self._on_query(bridge.count(key, "", "asset")))
@@ -81,7 +81,7 @@ class AssetRoutes:
                 query.refuse(ASSETS_BUSY(waiting=WAITING))
                 return
             try:
-                self._threads.submit(self._reply, query, count)
+                self._threads.send(self._reply, query, count)
             except RuntimeError:  # stopped meanwhile
                 self._free.release()
 

@@ -52,6 +52,7 @@ from mrlab_ros.nodes.bridge.routes import BridgeContext, Kept
 from mrlab_ros.nodes.bridge.services import Services
 from mrlab_ros.nodes.parameters import AUTOMATIC, BridgeParameters
 from mrlab_ros.ros.clock import LabClock, every
+from mrlab_ros.ros.decoding import subscribe
 from mrlab_ros.ros.graph_changes import GraphChanges
 from mrlab_ros.ros.parameters import NodeArguments, ParameterNode
 from mrlab_ros.ros.spinning import SpunNode
@@ -159,7 +160,7 @@ class BridgeNode(
         self._neighbours = Neighbours(self.parameters.lab_id)
         if self.parameters.lab_id:
             for said, topic in ((Robots, "/robots"), (RobotSystems, "/systems")):
-                self.create_subscription(said, topic, self._on_lab, qos.LATCHED)
+                subscribe(self, said, topic, self._on_lab, qos.LATCHED)
         # By service: how many servers it had at the last check.
         self._servers: dict[str, int] = {}
         self._service_routes = Services(

@@ -17,6 +17,7 @@ from typing import Any, BinaryIO
 from mrlab_msgs import msg, srv
 from rclpy.node import Node
 
+from mrlab_ros.adapters import threads
 from mrlab_ros.adapters.store import keys
 from mrlab_ros.adapters.store.port import StoreFailure
 from mrlab_ros.adapters.trajectories import npz_file
@@ -92,7 +93,7 @@ class TrajectoryServices:
         self._publish_catalogue()
         if self._problem is not None:
             self._log.error(f"the catalogue is not there yet: {self._problem}")
-            threading.Thread(target=self._open_later, name="open_store", daemon=True).start()
+            threads.loop("open_store", self._open_later).start()
 
     def close(self) -> None:
         self._closed.set()

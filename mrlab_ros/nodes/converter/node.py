@@ -6,7 +6,7 @@ import contextlib
 import tempfile
 import time
 from collections.abc import Callable, Iterator
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Future
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 from mrlab_msgs import srv
 from rclpy.callback_groups import ReentrantCallbackGroup
 
-from mrlab_ros.adapters import private_folder, share
+from mrlab_ros.adapters import private_folder, share, threads
 from mrlab_ros.adapters.robots.diagnostics import NO_END_EFFECTOR
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.store import keys
@@ -80,7 +80,7 @@ class ConverterNode(
             TrajectoryFiles(self._store, folder / "fetched"),
         )
         self._pool = ConversionPool(self._limits())
-        self._reads = ThreadPoolExecutor(max_workers=2, thread_name_prefix="catalogue")
+        self._reads = threads.Pool("catalogue", 2)
         self._group = ReentrantCallbackGroup()
         self._serve(srv.ConvertTrajectory, "~/convert", self._begin_conversion)
         for kind, name, answer in (
@@ -106,7 +106,7 @@ class ConverterNode(
 
     def _sweep(self) -> None:
         values = self.parameters
-        self._reads.submit(self.trajectories.sweep, values.trash_time, values.upload_time)
+        self._reads.send(self.trajectories.sweep, values.trash_time, values.upload_time)
 
     def _limits(self) -> Limits:
         values = self.parameters

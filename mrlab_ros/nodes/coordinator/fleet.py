@@ -41,6 +41,7 @@ from mrlab_ros.messages.systems import (
 from mrlab_ros.messages.time import time_from_message
 from mrlab_ros.ros.calls import NoAnswer, call_all, call_each
 from mrlab_ros.ros.clock import LabClock
+from mrlab_ros.ros.decoding import subscribe
 
 # A playback loads a trajectory within this time, and publishes its state within this time, s.
 LOAD_TIMEOUT_S = 15.0
@@ -74,7 +75,7 @@ class MemberClient:
             srv.LoadTrajectory, f"/{robot}/load", qos_profile=qos.SERVICES
         )
         self._subscriptions = [
-            self._node.create_subscription(kind, f"/{robot}/{topic}", callback, qos.LATCHED_EVENTS)
+            subscribe(self._node, kind, f"/{robot}/{topic}", callback, qos.LATCHED_EVENTS)
             for kind, topic, callback in (
                 (msg.PlaybackState, "playback_state", self._on_state),
                 (msg.Grasp, "grasp", self._on_grasp),

@@ -14,11 +14,13 @@ from mrlab_msgs.srv import SetLoop, Trigger
 from rclpy.duration import Duration
 from rclpy.service import Service
 
+from mrlab_ros.adapters import threads
 from mrlab_ros.adapters.journal_file import Journal
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.errors import BadInput, LabError
 from mrlab_ros.core.playback import diagnostics as playback
 from mrlab_ros.core.playback.states import State
+from mrlab_ros.core.runtime.bucket import Occurrences
 from mrlab_ros.core.runtime.identity import Identity
 from mrlab_ros.core.runtime.processes import Deaths, ProcessState, Thaws
 from mrlab_ros.core.systems import diagnostics as say
@@ -41,6 +43,7 @@ from mrlab_ros.nodes.coordinator.fleet import Hosts, MemberChecks, MemberClient,
 from mrlab_ros.nodes.parameters import CoordinatorParameters
 from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.clock import LabClock, every
+from mrlab_ros.ros.decoding import subscribe
 from mrlab_ros.ros.parameters import NodeArguments, ParameterNode
 from mrlab_ros.ros.services import Turns
 from mrlab_ros.ros.spinning import Caller
@@ -80,6 +83,7 @@ class CoordinatorNode(
         self._members: dict[str, MemberClient] = {}
         self._fleets: dict[str, RosFleet] = {}
         self._publishing = threading.Lock()
+        self._failures = Occurrences()
         # Diagnostics of state that could not be brought back.
         self.lost: list[Diagnostic] = []
         self._offered: dict[str, list[Service]] = {}
@@ -89,11 +93,11 @@ class CoordinatorNode(
         self.worker = Worker("coordinator", self._poll, self._poll_period)
         self._turns = Turns(self, self.worker)
         self._topic = self.create_publisher(msg.RobotSystems, "/systems", qos.LATCHED)
-        self.create_subscription(msg.Robots, "/robots", self._on_robots, qos.LATCHED)
+        subscribe(self, msg.Robots, "/robots", self._on_robots, qos.LATCHED)
         self._deaths, self._thaws = Deaths(time.monotonic_ns()), Thaws()
         # Not in this node's thread either: what waits for a process that died must end.
-        self.caller.node.create_subscription(
-            msg.LabProcesses, "/processes", self._on_processes, qos.LATCHED
+        subscribe(
+            self.caller.node, msg.LabProcesses, "/processes", self._on_processes, qos.LATCHED
         )
         self._turns.offer(srv.CreateSystem, "~/create_system", self._create)
         self._turns.offer(srv.Remove, "~/dissolve_system", self._dissolve)
@@ -237,11 +241,11 @@ class CoordinatorNode(
 
     def on_state(self, client: MemberClient, message: msg.PlaybackState) -> None:
         """Pass a member's published state on to its system, in the worker's thread."""
-        self.worker.later(lambda: self._member_changed(client, message))
+        self.worker.send(lambda: self._member_changed(client, message))
 
     def on_grasp(self, robot: str, held: str | None) -> None:
         """Pass on what `robot` holds to every system: a wait may name another system's robot."""
-        self.worker.later(lambda: self._grasped(robot, held))
+        self.worker.send(lambda: self._grasped(robot, held))
 
     def _on_processes(self, message: msg.LabProcesses) -> None:
         """Take which processes ended or froze; calls that wait for one end at once."""
@@ -307,17 +311,21 @@ class CoordinatorNode(
         return POLL_PERIOD_S if any(system.active for system in self._systems) else None
 
     def _logged(self, work: Callable[[], None]) -> None:
-        """Do something without a caller: a failure is logged, and in the system's message."""
+        """Do something without a caller: no error of one system stops the others."""
         try:
             work()
         except LabError as error:
-            self.get_logger().warning(str(error))
+            # It is in the system's message too. Systems are polled many times a second.
+            if self._failures.again((str(error),), time.monotonic()) is not None:
+                self.get_logger().warning(str(error))
+        except Exception as error:
+            threads.name_error("coordinator", error)
 
     def _on_robots(self, message: msg.Robots) -> None:
         if not self._identity.obeys(message.lab):
             return
         robots = {robot.name: robot for robot in message.robots}
-        self.worker.later(lambda: self._set_robots(robots))
+        self.worker.send(lambda: self._set_robots(robots))
 
     def _set_robots(self, robots: dict[str, msg.Robot]) -> None:
         self._robots = robots

@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from mrlab_msgs import msg
 from rclpy.qos import QoSProfile
-from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
@@ -33,6 +32,7 @@ from mrlab_ros.nodes import parameters
 from mrlab_ros.nodes.frames.markers import MarkerPublishers
 from mrlab_ros.nodes.parameters import FramesParameters
 from mrlab_ros.ros.clock import LabClock
+from mrlab_ros.ros.decoding import decoder
 from mrlab_ros.ros.parameters import NodeArguments, ParameterNode
 from mrlab_ros.ros.raw_streams import Received, TopicPoll
 
@@ -179,7 +179,7 @@ class FramesNode(
     def _subscribe(self, kind: Any, topic: str, take: Callable[[Any], None], quality: Any) -> Any:
         """Give the messages of a topic to `take`; CDR where `kind` is taken raw."""
         subscription = self._streams.create_subscription(kind, topic, _unused, quality, raw=True)
-        self._takers[topic] = lambda data: take(deserialize_message(data, kind))
+        self._takers[topic] = decoder(kind, topic, take, self._streams)
         self._poll.add(subscription, topic)
         return subscription
 

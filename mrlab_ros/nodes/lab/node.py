@@ -47,6 +47,7 @@ from mrlab_ros.nodes.lab.restore import LabRestore, Return
 from mrlab_ros.nodes.lab.scenes import Scenes
 from mrlab_ros.nodes.parameters import LabParameters
 from mrlab_ros.ros.clock import LabClock, every
+from mrlab_ros.ros.decoding import subscribe
 from mrlab_ros.ros.parameters import NodeArguments, ParameterNode
 from mrlab_ros.ros.services import answered, create_service
 from mrlab_ros.ros.spinning import Caller
@@ -77,7 +78,7 @@ class LabNode(ParameterNode[LabParameters], name="lab", kind=LabParameters, othe
         self._caller = Caller(self)
         self._identity = Identity(self.parameters.lab_id, self._meet)
         self._lab_clock = LabClock(self)
-        self._caller.node.create_subscription(msg.Robots, "/robots", self._on_robots, qos.LATCHED)
+        subscribe(self._caller.node, msg.Robots, "/robots", self._on_robots, qos.LATCHED)
         self._observer = Observer(self._caller.node, self._identity)
         self._restore = LabRestore(self._caller.node, self._observer, self)
         folder = Path(state_dir) if state_dir else Path.home() / ".local" / "share" / "mrlab"

@@ -17,6 +17,7 @@ from mrlab_ros.core.runtime.identity import Identity
 from mrlab_ros.core.scene.placement import Support, Thing
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.physics import supports_from_message, things_from_message
+from mrlab_ros.ros.decoding import subscribe
 
 POLL_PERIOD_S = 0.02
 
@@ -38,11 +39,9 @@ class Observer:
         self._subscriptions: dict[str, Subscription] = {}
         # Counts what was received, so that a caller sees whether something changed.
         self.received = 0
-        node.create_subscription(
-            msg.RobotSystems, "/systems", self._on_systems, qos.LATCHED_EVENTS
-        )
+        subscribe(node, msg.RobotSystems, "/systems", self._on_systems, qos.LATCHED_EVENTS)
 
-        node.create_subscription(msg.Surfaces, "/surfaces", self._on_surfaces, qos.LATCHED)
+        subscribe(node, msg.Surfaces, "/surfaces", self._on_surfaces, qos.LATCHED)
         # Read only where it is asked for: it comes thirty times a second.
         self._objects = b""
         node.create_subscription(
@@ -69,7 +68,8 @@ class Observer:
             with self._lock:
                 self._states.pop(name, None)
         for name in set(robots) - self._subscriptions.keys():
-            self._subscriptions[name] = self._node.create_subscription(
+            self._subscriptions[name] = subscribe(
+                self._node,
                 msg.PlaybackState,
                 f"/{name}/playback_state",
                 partial(self._on_state, name),

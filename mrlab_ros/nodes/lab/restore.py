@@ -13,6 +13,7 @@ from mrlab_msgs.srv import SetLoop
 from rclpy.client import Client
 from rclpy.node import Node
 
+from mrlab_ros.adapters import threads
 from mrlab_ros.core.base.diagnostic import Code, Diagnostic, heard
 from mrlab_ros.core.base.errors import LabError, Misuse
 from mrlab_ros.core.scene.diagnostics import STEP_FAILED
@@ -41,6 +42,7 @@ from mrlab_ros.nodes.lab.diagnostics import (
 )
 from mrlab_ros.nodes.lab.observer import Observer
 from mrlab_ros.ros.calls import NoAnswer, call
+from mrlab_ros.ros.decoding import subscribe
 
 # A change reaches the other nodes after this, s, or something is wrong.
 ARRIVAL_TIMEOUT_S = 10.0
@@ -183,8 +185,8 @@ class LabRestore:
         def on_objects(message: msg.SceneObjects) -> None:
             held.update({thing.name: thing.held_by for thing in message.objects})
 
-        subscription = self._caller.create_subscription(
-            msg.SceneObjects, "/objects", on_objects, qos.LATCHED
+        subscription = subscribe(
+            self._caller, msg.SceneObjects, "/objects", on_objects, qos.LATCHED
         )
         try:
             self._wait_for(
@@ -223,7 +225,7 @@ class Return:
         self._log = log
         self._lose = lose
         self._cancelled = threading.Event()
-        self._thread = threading.Thread(target=self._run, name="return", daemon=True)
+        self._thread = threads.task("return", self._run)
 
     def start(self) -> None:
         if self.pending != SceneDocument():

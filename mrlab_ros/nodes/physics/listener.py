@@ -10,7 +10,6 @@ from typing import Any
 
 from mrlab_msgs import msg
 from rclpy.node import Node
-from rclpy.serialization import deserialize_message
 from rclpy.subscription import Subscription
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
@@ -32,6 +31,7 @@ from mrlab_ros.messages.poses import pose_from_message
 from mrlab_ros.messages.time import time_from_message
 from mrlab_ros.nodes.physics.publishers import WorldPublishers
 from mrlab_ros.ros.clock import LabClock
+from mrlab_ros.ros.decoding import decoder
 from mrlab_ros.ros.raw_streams import WaitSetThread
 
 
@@ -105,7 +105,7 @@ class GraphListener:
         self, kind: Any, topic: str, callback: Callable[[Any], None], quality: Any
     ) -> Subscription:
         subscription = self._node.create_subscription(kind, topic, _unused, quality, raw=True)
-        self._thread.add(subscription, lambda data: callback(deserialize_message(data, kind)))
+        self._thread.add(subscription, decoder(kind, topic, callback, self._node))
         return subscription
 
     def _subscribe_joints(self, name: str, joints: tuple[str, ...]) -> Subscription:

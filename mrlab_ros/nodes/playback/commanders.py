@@ -34,6 +34,7 @@ from mrlab_ros.ros import clock
 from mrlab_ros.ros.actions import GoalServer
 from mrlab_ros.ros.clock import LabClock, every
 from mrlab_ros.ros.deadlines import Command, Player
+from mrlab_ros.ros.decoding import subscribe
 
 # Refusals of one kind are logged so far apart, s: a stream of thousands must not fill /rosout.
 WARNING_PERIOD_S = 1.0
@@ -84,10 +85,8 @@ class Commanders:
             self._on_goal,
             self._on_cancel,
         )
-        node.create_subscription(
-            JointTrajectory, "joint_trajectory", self._on_trajectory, qos.EVENTS
-        )
-        node.create_subscription(JointState, "joint_command", self._on_set_point, COMMANDS)
+        subscribe(node, JointTrajectory, "joint_trajectory", self._on_trajectory, qos.EVENTS)
+        subscribe(node, JointState, "joint_command", self._on_set_point, COMMANDS)
 
     def close(self) -> None:
         """End the goal that is followed; call it before the node is destroyed."""

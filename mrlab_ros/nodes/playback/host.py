@@ -37,6 +37,7 @@ from mrlab_ros.nodes.parameters import PlaybackParameters
 from mrlab_ros.nodes.playback.node import PlaybackNode
 from mrlab_ros.ros.clock import LabClock, every
 from mrlab_ros.ros.deadlines import REALTIME, Scheduler, take_precedence
+from mrlab_ros.ros.decoding import subscribe
 from mrlab_ros.ros.parameters import NodeArguments, ParameterNode
 from mrlab_ros.ros.services import answered, create_service
 from mrlab_ros.ros.spinning import Caller, SpunNode
@@ -118,7 +119,7 @@ class PlaybackHostNode(
         self.lost: list[Diagnostic] = []
         self._leases = Leases()
         orders = self.hidden_node("orders", remapped=True)
-        self.create_subscription(msg.Robots, "/robots", self._on_robots, qos.LATCHED)
+        subscribe(self, msg.Robots, "/robots", self._on_robots, qos.LATCHED)
         # Named by the lab too: the coordinator of another one on the same domain must not drive
         # robots that happen to have the names of its own.
         self._host = f"{self.get_fully_qualified_name()}{self._identity.namespace}"
@@ -136,9 +137,9 @@ class PlaybackHostNode(
         every(self, STATE_PERIOD_S / STATE_TURNS, self._states)
         every(self, JOURNAL_PERIOD_S, self._write_journal)
         every(self, LEASE_CHECK_S, self._check_leases)
-        self.create_subscription(msg.RobotSystems, "/systems", self._on_systems, qos.LATCHED)
+        subscribe(self, msg.RobotSystems, "/systems", self._on_systems, qos.LATCHED)
         self._deaths = Deaths(time.monotonic_ns())
-        self.create_subscription(msg.LabProcesses, "/processes", self._on_processes, qos.LATCHED)
+        subscribe(self, msg.LabProcesses, "/processes", self._on_processes, qos.LATCHED)
         self.scheduler.start()
         self.get_logger().info(f"the deadline thread runs with {self.scheduler.precedence}")
         self._safety = SpunNode(orders, lambda: take_precedence(REALTIME - 1))

@@ -38,6 +38,7 @@ from mrlab_ros.messages.playback import (
 from mrlab_ros.nodes.playback.commanders import Commanders
 from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.deadlines import Command, Player, Scheduler
+from mrlab_ros.ros.decoding import subscribe
 from mrlab_ros.ros.raw_streams import raw_publish
 from mrlab_ros.ros.services import answered, create_deferred_service, create_service
 from mrlab_ros.ros.worker import Worker
@@ -120,8 +121,8 @@ class PlaybackNode(Node):
         )
         self._telemetry = self.create_publisher(msg.Telemetry, "telemetry", qos.STREAM)
         self._targets = self.create_publisher(msg.GraspTargets, "targets", qos.LATCHED)
-        self.create_subscription(msg.Collision, "collision", self._on_collision, qos.LATCHED)
-        self._grasps = self.create_subscription(msg.Grasp, "grasp", self._on_grasp, qos.LATCHED)
+        subscribe(self, msg.Collision, "collision", self._on_collision, qos.LATCHED)
+        self._grasps = subscribe(self, msg.Grasp, "grasp", self._on_grasp, qos.LATCHED)
         for kind, name, callback in (
             (Trigger, "play", self._play),
             (Trigger, "pause", self._pause),

@@ -9,7 +9,7 @@ import threading
 import time
 from collections import deque
 from collections.abc import Callable
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Future
 from typing import Any
 
 from mrlab_msgs import srv
@@ -17,6 +17,7 @@ from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 
+from mrlab_ros.adapters import threads
 from mrlab_ros.adapters.bags.mcap_file import Message
 from mrlab_ros.adapters.bags.migration import Convert, migration
 from mrlab_ros.adapters.bags.reader import Bag
@@ -57,7 +58,7 @@ class Feed:
 
     def __init__(self, bag: Bag, start_ns: int, topics: frozenset[str]) -> None:
         self._batches = bag.batches(start_ns, topics)
-        self._reader = ThreadPoolExecutor(1, thread_name_prefix="replay_feed")
+        self._reader = threads.Pool("replay_feed", 1)
         self._ahead = deque(self._read() for _ in range(AHEAD))
 
     def next(self) -> list[Message] | None:
@@ -115,7 +116,7 @@ class Replaying:
         self._ready: deque[Message] = deque()
         self._feed: Feed | None = None
         self._stopped = False
-        self._thread = threading.Thread(target=self._run, name="replay", daemon=True)
+        self._thread = threads.task("replay", self._run)
         self.messages = 0
 
     def _take(self, topic: Topic, recorded: str) -> None:

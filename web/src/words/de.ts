@@ -2924,6 +2924,16 @@ export const diagnostics: Templates = {
   process_silent: [
     'seit {silent:integer} s kein Lebenszeichen: abgebrochen oder hängen geblieben',
   ],
+  undecodable: [
+    '{count:count Nachricht|Nachrichten} auf {topic} ließen sich nicht als {type} lesen und blieben ohne Wirkung[; Sender: {publishers:list}].',
+    'Beende das Programm, das sie sendet, oder lass es {type} senden.',
+  ],
+  thread_failed: [
+    'Der Thread {thread} scheiterte: {error:problem}[; {again:integer}-mal, seit das gemeldet wurde].',
+  ],
+  thread_ends: [
+    'Der Thread {thread} scheiterte {failures:integer}-mal hintereinander. Sein Prozess endet, und das Labor startet ihn neu.',
+  ],
   provider_incomplete: ['{url} nennt nicht: {missing:list}.'],
   provider_other: [
     '{url} gehört zu einem anderen Anbieter[, {issuer},] und nicht zum eingestellten.',
