@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 import small_lab
@@ -22,6 +24,7 @@ from small_lab import (
 )
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
+from mrlab_ros.adapters.scenes.files import SCENE_FILE
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes.coordinator.node import CoordinatorNode
 from mrlab_ros.nodes.lab.node import LabNode
@@ -94,6 +97,19 @@ def test_a_restarted_host_keeps_a_collision_halt_until_the_arm_is_clear(graph, l
     assert not graph.call(Trigger, f"/{robot}/play").success
     collision.publish(msg.Collision(colliding=False))
     wait_for(lambda: states.last().label == "PAUSED", "the pause")
+
+
+def test_a_system_that_was_dissolved_does_not_come_back_with_the_lab(graph, folder, monkeypatch):
+    # It is written before the next time that all is.
+    monkeypatch.setattr("mrlab_ros.nodes.lab.node.SAVE_PERIOD_S", 600.0)
+    small_lab.start(graph, state_dir=folder)
+    robot = spawn(graph)
+    load(graph, robot, "wave")
+    file = Path(folder) / SCENE_FILE
+    assert make_system(graph, {robot: "wave"}).success
+    wait_for(lambda: "cell" in file.read_text(), "the system in the file")
+    assert graph.call(srv.Remove, "/coordinator/dissolve_system", name="cell").success
+    wait_for(lambda: "cell" not in file.read_text(), "the file without the system")
 
 
 def test_a_robot_that_had_not_begun_is_ready_again(graph, lab, folder):

@@ -57,6 +57,8 @@ if TYPE_CHECKING:
 
 # Period of writing changed loaded trajectories and places of robots, s.
 SAVE_PERIOD_S = 2.0
+# Which systems there are is written sooner: one that was dissolved must not come back, s.
+SYSTEMS_PERIOD_S = 0.1
 
 
 class LabNode(ParameterNode[LabParameters], name="lab", kind=LabParameters, others=parameters.ALL):
@@ -114,6 +116,7 @@ class LabNode(ParameterNode[LabParameters], name="lab", kind=LabParameters, othe
         ):
             create_service(self, kind, f"~/{name}", callback)
         every(self, SAVE_PERIOD_S, self._save)
+        every(self, SYSTEMS_PERIOD_S, self._save_systems)
         self._return.start()
 
     def destroy_node(self) -> None:
@@ -195,6 +198,11 @@ class LabNode(ParameterNode[LabParameters], name="lab", kind=LabParameters, othe
 
     def _save(self) -> None:
         self._file.save(self._document())
+
+    def _save_systems(self) -> None:
+        if self._observer.systems_changed.is_set():
+            self._observer.systems_changed.clear()
+            self._save()
 
     def _on_robots(self, message: msg.Robots) -> None:
         self._identity.obeys(message.lab)

@@ -37,6 +37,8 @@ class Observer:
         self._systems: msg.RobotSystems | None = None
         self._supports: tuple[Support, ...] = ()
         self._subscriptions: dict[str, Subscription] = {}
+        # Set where a system was made or dissolved, until somebody clears it.
+        self.systems_changed = threading.Event()
         # Counts what was received, so that a caller sees whether something changed.
         self.received = 0
         subscribe(node, msg.RobotSystems, "/systems", self._on_systems, qos.LATCHED_EVENTS)
@@ -125,5 +127,11 @@ class Observer:
         if not self._identity.accepts(message.lab):
             return
         with self._lock:
-            self._systems = message
+            before, self._systems = self._systems, message
             self.received += 1
+        if before is None or _names(before) != _names(message):
+            self.systems_changed.set()
+
+
+def _names(message: msg.RobotSystems) -> list[str]:
+    return [system.name for system in message.systems]
