@@ -281,6 +281,7 @@ function looksAlike(one: RobotView, other: RobotView): boolean {
   return (
     one.state === other.state &&
     one.holding === other.holding &&
+    one.down === other.down &&
     one.touching === other.touching &&
     one.targets === other.targets &&
     one.robot.model === other.robot.model &&

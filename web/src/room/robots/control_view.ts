@@ -34,7 +34,7 @@ export function drawStatus(
   pen: Pen,
   edge: number,
   { words }: Speech,
-  { robot, playback, state, touching, holding }: RobotView,
+  { robot, playback, state, touching, holding, down }: RobotView,
   { notice, loaded, beside }: ControlShown,
 ): void {
   const w = words.room
@@ -49,6 +49,8 @@ export function drawStatus(
     pen.text(edge + 16, 125, touching || w.cleared, TEXT.body, 550, ink, 700)
     const next = touching ? w.moveClear : w.playOn
     pen.text(edge + 16, 159, next, TEXT.small, 550, ink, 600)
+  } else if (down) {
+    pen.lines(edge, 122, words.lab.outages.robot, TEXT.small, width, PANEL_THEME.states.PAUSED, 3)
   } else if (notice !== '') {
     pen.lines(edge, 122, notice, TEXT.small, width, PANEL_THEME.states.PAUSED, 3)
   } else if (playback?.message) {
