@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 import tempfile
 import time
 from collections import deque
@@ -27,7 +28,7 @@ from mrlab_ros.adapters.workspaces.reader import (
     WorkspaceReader,
     opened,
 )
-from mrlab_ros.adapters.workspaces.results import Task, refused, unexpected
+from mrlab_ros.adapters.workspaces.results import Task, failed_here, refused, unexpected
 from mrlab_ros.adapters.yaml_files import close_file
 from mrlab_ros.app.diagnostics import ROBOT_NOT_NAMED
 from mrlab_ros.core.base.errors import BadInput, Misuse
@@ -127,15 +128,15 @@ def convert_file(
 
 
 def convert_files(wanted: Sequence[Wanted]) -> list[ConversionResult]:
-    """Convert files in sandboxed processes, in order; raise BadInput where one is missing."""
+    """Convert files in sandboxed processes, in order; raise BadInput where one is no file."""
     coefficients = load_coefficients(share.directory() / "config" / "torque_proxy.yaml")
     inputs, tasks = [], []
     for each in wanted:
         path = each.path
-        if not path.is_file():
-            raise BadInput(MISSING(file=str(path), close=close_file(path)))
         name = file_name(path.name)
         inputs.append(input_of(path))
+        with inputs[-1].open():
+            pass  # it is there
         tasks.append(
             Task(
                 file=name,
@@ -180,6 +181,8 @@ def _convert(source: Input, task: Task, path: Path, reader: WorkspaceReader) -> 
         raise  # the pool decides whether it has more time
     except BadInput as error:
         return refused(task.file, error.diagnostic)
+    except OSError as error:
+        return refused(task.file, failed_here(task.file, error, str(path.parent)))
     finally:
         path.unlink(missing_ok=True)
 
@@ -205,7 +208,7 @@ def input_of(path: Path) -> Input:
 @contextlib.contextmanager
 def _opened(path: Path) -> Iterator[int]:
     """Open a file; where there is none, name the one that may have been meant."""
-    if not path.exists():
+    if not os.path.exists(path):  # not Path.exists, which raises for a name that is too long
         raise BadInput(MISSING(file=str(path), close=close_file(path)))
     with opened(path) as source:
         yield source

@@ -1,6 +1,7 @@
 """The `mrlab convert` command as a student runs it."""
 
 import json
+import os
 
 import in_process
 import launched_lab
@@ -54,6 +55,26 @@ def test_one_json_object_a_file_and_the_exit_code_of_the_worst(folder, tmp_path)
     with open(good["trajectory"], "rb") as file:
         trajectory = parse(file.read(), "good.json")
     np.testing.assert_allclose(trajectory.positions, motion(), rtol=0, atol=1e-12)
+
+
+def test_bad_inputs_have_an_answer_each_and_end_no_batch(folder, tmp_path):
+    empty, long = tmp_path / "empty", "a" * 300 + ".mat"
+    empty.mkdir()
+    os.mkfifo(tmp_path / "fifo.mat")
+    scipy.io.savemat(tmp_path / "over.mat", {"q": motion() * 1e308, "fs": 50.0})
+    names = [tmp_path / "none.mat", empty, tmp_path / "fifo.mat", tmp_path / "over.mat", long]
+    done = run("--json", *names, folder / "good.mat")
+    answers = [json.loads(line) for line in done.stdout.splitlines()]
+    assert [a["said"]["code"] for a in answers] == [
+        "missing",
+        "folder_without_files",
+        "unsupported_format",
+        "joint_limit",
+        "missing",
+        "trajectory_taken",
+    ]
+    assert done.returncode == 1
+    assert done.stderr.count("There is no file") == 2
 
 
 def test_the_choice_is_a_table_and_exit_code_2(folder):

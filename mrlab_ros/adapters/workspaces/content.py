@@ -89,14 +89,29 @@ def batches(places: list[Place]) -> Iterator[list[Place]]:
         yield batch
 
 
-def compare(status: int | None, target: int, name: str, places: list[Place], limit: float) -> None:
+def too_slow(status: int | None, name: str, time: float, wall: float) -> Diagnostic | None:
+    """Return what is said of a file whose process ended at a limit; None where it did not.
+
+    status: how it ended; None: it was given up. time: s of a processor; wall: s on a clock.
+    """
+    if status in (-signal.SIGPROF, -signal.SIGXCPU):
+        return TOO_SLOW(file=name, limit=time, clock="processor")
+    if status is None or status == -signal.SIGALRM:
+        return TOO_SLOW(file=name, limit=wall)
+    return None
+
+
+def compare(
+    status: int | None, target: int, name: str, places: list[Place], time: float, wall: float
+) -> None:
     """Pass where the second reader found the same bits; raise BadInput otherwise.
 
-    status: how its process ended, None past the time limit of `limit` s. target: its answer.
+    status: how its process ended; time, wall: its limits, as for too_slow(). target: its answer.
     """
     variable = places[0][0]
-    if status is None or status == -signal.SIGALRM:
-        raise BadInput(TOO_SLOW(file=name, limit=limit))
+    slow = too_slow(status, name, time, wall)
+    if slow is not None:
+        raise BadInput(slow)
     why: Diagnostic | None = None
     if status:
         why = SECOND_READER_CRASHED(**death(status))

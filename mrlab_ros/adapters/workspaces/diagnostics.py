@@ -83,7 +83,8 @@ TOO_LARGE = Code(
 )
 TOO_SLOW = Code(
     "too_slow",
-    "'{file}' could not be read within {limit:time} and was stopped.",
+    "'{file}' could not be read within {limit:time}[ of {clock:choice processor=processor time}] "
+    "and was stopped.",
     "Save only the trajectory.",
     meaning="Reading the file passed the time limit and was stopped.",
     fixes=SAVE_AGAIN,
@@ -92,6 +93,11 @@ NO_ROOM = Code(
     "no_room_for_trajectory",
     "The lab has no room for '{file}' ({error}).",
     "Make room on the disk[ of {folder}], then convert the file again.",
+)
+LAB_FAILED = Code(
+    "lab_failed_on_file",
+    "The lab could not work on '{file}' ({error}); the file is not at fault.",
+    "Convert the file again; if this repeats, look at the memory and the limits of the machine.",
 )
 WAITING_FILES = Code(
     "waiting_files",

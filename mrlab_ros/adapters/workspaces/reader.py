@@ -13,7 +13,6 @@ import os
 import pickle
 import signal
 import stat
-import tempfile
 import threading
 import time
 import weakref
@@ -31,7 +30,6 @@ from mrlab_ros.adapters.workspaces.diagnostics import (
     MISSING,
     READER_DIED,
     TOO_LARGE,
-    TOO_SLOW,
     UNREADABLE,
     UNSUPPORTED_FORMAT,
     WAITING_FILES,
@@ -42,18 +40,27 @@ from mrlab_ros.core.conversion.workspace import Workspace
 
 Result = TypeVar("Result")
 MiB = 1 << 20
+WALL = 5.0
 START_LIMIT = 30.0  # s for the worker to import what it needs, on a busy machine
 
 
 @dataclass(frozen=True)
 class Limits:
-    """Bounds on one file. memory, output, file_size: bytes; time: s; rows: of a matrix."""
+    """Bounds on one file. memory, output, file_size: bytes; rows: of a matrix.
+
+    time: s of a processor. A file has WALL times as long on a clock, for a busy machine.
+    """
 
     memory: int = 1024 * MiB
     time: float = 20.0
     output: int = 1024 * MiB
     file_size: int = 1024 * MiB
     rows: int = MOST_ROWS
+
+    @property
+    def wall(self) -> float:
+        """The longest that a file may take on a clock, s."""
+        return WALL * self.time
 
 
 class TooSlow(BadInput):
@@ -132,7 +139,9 @@ class WorkspaceReader:
                 target = os.memfd_create("second", os.MFD_CLOEXEC)
                 try:
                     status = self._ask([source, target, numbers], name, again=batch)
-                    content.compare(status, target, name, batch, self.limits.time)
+                    content.compare(
+                        status, target, name, batch, self.limits.time, self.limits.wall
+                    )
                 finally:
                     os.close(target)
 
@@ -153,10 +162,8 @@ class WorkspaceReader:
             stored.seek(0)
             stored.truncate()
             target = os.memfd_create("result", os.MFD_CLOEXEC)
-            with os.fdopen(target, "w+b") as answer, tempfile.TemporaryFile() as asked:
-                pickle.dump(task, asked)
-                asked.seek(0)
-                descriptors = [source, target, asked.fileno(), stored.fileno()]
+            with os.fdopen(target, "w+b") as answer, in_memory(pickle.dumps(task)) as asked:
+                descriptors = [source, target, asked, stored.fileno()]
                 self._check_status(self._ask(descriptors, task.read_as or task.file), task.file)
                 answer.seek(0)
                 try:
@@ -181,8 +188,9 @@ class WorkspaceReader:
             return attempt()
 
     def _check_status(self, status: int | None, name: str) -> None:
-        if status is None or status == -signal.SIGALRM:
-            raise TooSlow(TOO_SLOW(file=name, limit=self.limits.time))
+        slow = content.too_slow(status, name, self.limits.time, self.limits.wall)
+        if slow is not None:
+            raise TooSlow(slow)
         if status:
             kind = _Killed if status == -signal.SIGKILL else BadInput
             raise kind(READER_DIED(file=name, **content.death(status)))
@@ -190,11 +198,12 @@ class WorkspaceReader:
     def _ask(self, descriptors: list[int], name: str, **more: Any) -> int | None:
         """Return the exit status of the process that did a request, None past the time limit."""
         limits = self.limits
-        message = json.dumps({**asdict(limits), **more, "name": name[-255:]}).encode()
+        bounds = asdict(limits) | {"wall": limits.wall}
+        message = json.dumps({**bounds, **more, "name": name[-255:]}).encode()
         with self._lock:
             self._worker.warm()
             # the kernel's own timer ends the reading process; this deadline is the last resort
-            return self._worker.ask(message, limits.time + 5, descriptors)
+            return self._worker.ask(message, limits.wall + 5, descriptors)
 
 
 @contextlib.contextmanager

@@ -6,6 +6,7 @@ The document is JSON and not a pickle: it comes from a process that touched a fi
 from __future__ import annotations
 
 import base64
+import errno
 import json
 import traceback
 from collections.abc import Callable
@@ -16,7 +17,12 @@ from typing import Any, BinaryIO
 import numpy as np
 
 from mrlab_ros.adapters.trajectories import npz_file
-from mrlab_ros.adapters.workspaces.diagnostics import CONVERTER_FAILED, NO_ROOM, TOO_LARGE
+from mrlab_ros.adapters.workspaces.diagnostics import (
+    CONVERTER_FAILED,
+    LAB_FAILED,
+    NO_ROOM,
+    TOO_LARGE,
+)
 from mrlab_ros.core.base.diagnostic import Diagnostic, from_plain, plain
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.conversion.candidates import Candidate, Preview
@@ -83,8 +89,7 @@ def run(
     except BadInput as error:
         return json.dumps({"bad_input": plain(error)}).encode()
     except OSError as error:
-        why = NO_ROOM(file=task.file, error=error.strerror)
-        return json.dumps({"bad_input": plain(why)}).encode()
+        return json.dumps({"bad_input": plain(failed_here(task.file, error))}).encode()
     except MemoryError:
         result = _too_large(task, memory)
     head = metadata(result.trajectory) if result.trajectory is not None else None
@@ -139,6 +144,19 @@ def unexpected(file: str, error: Exception) -> Diagnostic:
     """Return what is said of a file on which the converter itself fails."""
     said = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
     return CONVERTER_FAILED(file=file, error=said)
+
+
+def is_full(error: OSError) -> bool:
+    """Say whether a disk, or what a person may use of it, is full."""
+    return error.errno in (errno.ENOSPC, errno.EDQUOT)
+
+
+def failed_here(file: str, error: OSError, folder: str = "") -> Diagnostic:
+    """Return what is said where this machine fails, and not the file."""
+    why = error.strerror or str(error)
+    if is_full(error):
+        return NO_ROOM(file=file, error=why, folder=folder or None)
+    return LAB_FAILED(file=file, error=why)
 
 
 def refused(file: str, why: Diagnostic) -> ConversionResult:

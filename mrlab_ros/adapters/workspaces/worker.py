@@ -259,6 +259,10 @@ def serve(source: int, target: int, numbers: int | None, request: dict[str, Any]
             sink.finish(refused=plain(problem), variable=path)
     except MemoryError:
         sink.finish(refused=plain(TOO_LARGE(file=name, part="reading", limit=memory)))
+    except OSError as error:
+        full = results.is_full(error)
+        why = results.failed_here(name, error) if full else _refusal(name, error)
+        sink.finish(refused=plain(why))
     except Exception as error:
         sink.finish(refused=plain(_refusal(name, error)))
 
@@ -279,7 +283,7 @@ def _refusal(name: str, error: Exception) -> Diagnostic:
 
 def work(descriptors: list[int], request: dict[str, Any]) -> None:
     """Do what one request asks, in the forked process."""
-    signal.setitimer(signal.ITIMER_REAL, request["time"])
+    _limit_time(request["time"], request["wall"])
     source, target = descriptors[:2]
     changed: BadInput | None = None
     try:
@@ -310,6 +314,12 @@ def work(descriptors: list[int], request: dict[str, Any]) -> None:
         reply.write(results.run(asked, found, request["memory"], trajectory, request["rows"]))
 
 
+def _limit_time(processor: float, wall: float) -> None:
+    """Let the kernel end this process after s of a processor, or s on a clock."""
+    signal.setitimer(signal.ITIMER_PROF, processor)
+    signal.setitimer(signal.ITIMER_REAL, wall)
+
+
 def _task(descriptor: int) -> results.Task:
     """Return what is asked: a pickle from the lab, not from the file."""
     os.lseek(descriptor, 0, os.SEEK_SET)
@@ -329,7 +339,7 @@ def workspace(copy: int, request: dict[str, Any]) -> Workspace:
     def again(places: list[content.Place]) -> None:
         answer = os.memfd_create("second", os.MFD_CLOEXEC)
         status = forked(lambda: serve(copy, os.dup(answer), numbers, {**request, "again": places}))
-        content.compare(status, answer, name, places, request["time"])
+        content.compare(status, answer, name, places, request["time"], request["wall"])
 
     numbers = os.memfd_create("variables", os.MFD_CLOEXEC)
     serve(copy, os.dup(numbers), None, request)
@@ -341,12 +351,13 @@ def workspace(copy: int, request: dict[str, Any]) -> Workspace:
 
 def forked(do: Callable[[], None]) -> int:
     """Run `do` in a process of its own, which scipy may bring down; return its exit status."""
-    remaining = max(signal.getitimer(signal.ITIMER_REAL)[0], 0.001)
+    timers = (signal.ITIMER_PROF, signal.ITIMER_REAL)
+    processor, wall = (max(signal.getitimer(timer)[0], 0.001) for timer in timers)
     child = os.fork()
     if child == 0:
         try:
-            # a fork inherits the limits, but not the timer
-            signal.setitimer(signal.ITIMER_REAL, remaining)
+            # a fork inherits the limits, but not the timers
+            _limit_time(processor, wall)
             _, most = resource.getrlimit(resource.RLIMIT_AS)
             resource.setrlimit(resource.RLIMIT_AS, (most, most))
             do()
@@ -408,7 +419,7 @@ def warm_up() -> None:
 
         def again(places: list[content.Place]) -> None:
             serve(source.fileno(), os.dup(answer), numbers, {**request, "again": places})
-            content.compare(0, answer, "q.mat", places, 0.0)
+            content.compare(0, answer, "q.mat", places, 0.0, 0.0)
 
         def found() -> Workspace:
             serve(source.fileno(), os.dup(numbers), None, request)

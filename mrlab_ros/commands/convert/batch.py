@@ -14,7 +14,7 @@ import time
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 
@@ -25,6 +25,7 @@ from mrlab_ros.adapters import share
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.trajectories import formats
 from mrlab_ros.adapters.trajectories.files import load_coefficients
+from mrlab_ros.adapters.workspaces.diagnostics import MISSING
 from mrlab_ros.adapters.workspaces.reader import Limits, MiB, in_memory
 from mrlab_ros.adapters.workspaces.results import Task, refused, unexpected
 from mrlab_ros.app.convert import SUFFIXES, Input, convert_all, input_of
@@ -187,11 +188,12 @@ def run(request: Request) -> int:
                 if request.plot is not None:
                     plot(result, model, _plot_path(request.plot, task.trajectory_id))
                 _say(source, result, written, request)
-            except LabError:
+            except BrokenPipeError:
                 raise
             except Exception as error:
                 # one file does not end a batch
-                result = refused(task.file, unexpected(task.file, error))
+                why = error.diagnostic if isinstance(error, LabError) else None
+                result = refused(task.file, why or unexpected(task.file, error))
                 _say(source, result, None, request)
             results.append(result)
     if len(results) > 1 and not request.as_json:
@@ -205,6 +207,10 @@ def _say(source: Input, result: ConversionResult, written: Path | None, request:
     if request.as_json:
         line = orjson.dumps(report.record(file_name(source.given), result, written))
         print(line.decode(), flush=True)
+    if result.said.code == MISSING.code:
+        output.say_problem(result.said)
+        return
+    if request.as_json:
         return
     words = convert_words(source.given, request.robot, request.end_effector)
     report.show(result, written, words, request.options)
@@ -273,7 +279,7 @@ def _inputs(request: Request) -> list[Input]:
     if bool(request.files) is bool(request.topic):
         raise Misuse(FILES_OR_TOPIC())
     if not request.topic:
-        return [input_of(path) for path in _files(request.files)]
+        return [_input(path) for path in _files(request.files)]
     from mrlab_ros.commands.convert.topic import receive  # rclpy, which files do not need
 
     message = receive(request.topic, request.timeout)
@@ -281,18 +287,29 @@ def _inputs(request: Request) -> list[Input]:
     return [Input(request.topic, request.topic, read_as, partial(in_memory, message))]
 
 
+def _input(path: Path) -> Input:
+    if os.path.isdir(path):
+        return replace(input_of(path), open=partial(_without_files, path))
+    return input_of(path)
+
+
+@contextlib.contextmanager
+def _without_files(folder: Path) -> Iterator[int]:
+    """Refuse a folder, as an input that cannot be opened."""
+    raise BadInput(FOLDER_WITHOUT_FILES(folder=str(folder), suffixes=list(SUFFIXES)))
+    yield
+
+
 def _files(given: Iterable[Path]) -> list[Path]:
-    """Return the files that are given, and those in the folders that are given."""
-    return list(expanded(given))
+    """Return the files that are given, and those in the folders; a folder without any as it is."""
+    return [file for path in given for file in list(expanded([path])) or [path]]
 
 
 def expanded(files: Iterable[Path]) -> Iterable[Path]:
     """Yield the files; of a folder, the workspaces in it, in order."""
     for path in files:
-        if path.is_dir():
+        if os.path.isdir(path):  # not Path.is_dir, which raises for a name that is too long
             inside = [p for p in sorted(path.rglob("*")) if p.name.lower().endswith(SUFFIXES)]
-            if not inside:
-                raise BadInput(FOLDER_WITHOUT_FILES(folder=str(path), suffixes=list(SUFFIXES)))
             yield from inside
         else:
             yield path

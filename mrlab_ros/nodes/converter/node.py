@@ -22,7 +22,7 @@ from mrlab_ros.adapters.store import keys
 from mrlab_ros.adapters.store.objects import open_store
 from mrlab_ros.adapters.trajectories.catalogue_writer import CatalogueWriter
 from mrlab_ros.adapters.trajectories.files import TrajectoryFiles, load_coefficients
-from mrlab_ros.adapters.workspaces.diagnostics import NO_ROOM, TOO_LARGE
+from mrlab_ros.adapters.workspaces.diagnostics import TOO_LARGE
 from mrlab_ros.adapters.workspaces.reader import (
     ConversionPool,
     Limits,
@@ -32,7 +32,7 @@ from mrlab_ros.adapters.workspaces.reader import (
     in_memory,
     opened,
 )
-from mrlab_ros.adapters.workspaces.results import Converted, Task, refused
+from mrlab_ros.adapters.workspaces.results import Converted, Task, failed_here, refused
 from mrlab_ros.core.base.errors import BadInput, LabError
 from mrlab_ros.core.base.foreign_text import visible
 from mrlab_ros.core.base.names import close_to
@@ -218,9 +218,7 @@ class ConverterNode(
         except BadInput as error:
             return _refused(task, error)
         except OSError as error:
-            raise BadInput(
-                NO_ROOM(file=task.file, error=error.strerror, folder=str(self._work))
-            ) from None
+            raise BadInput(failed_here(task.file, error, str(self._work))) from None
 
     @contextlib.contextmanager
     def _opened(self, task: Task, request: Any, data: memoryview | None) -> Iterator[int]:

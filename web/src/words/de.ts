@@ -1754,6 +1754,10 @@ export const diagnostics: Templates = {
     "Der Roboter '{variable}'[ ({title})] in der Datei ist nicht {model}:[ Bei gleichen Gelenkwinkeln liegt sein Flansch bis zu {distance:length} und {angle:angle} daneben.][ Er hat {count:count Gelenk|Gelenke} und {model} {joints:integer}.] Die Bewegung kann für einen anderen Roboter gemacht sein, oder mit anderen Nullstellungen der Gelenke.",
     'Wähle den Roboter, für den die Datei gemacht wurde; oder vergleiche die Nullstellungen und die Drehrichtungen der Gelenke mit denen von {model}.',
   ],
+  lab_failed_on_file: [
+    "Das Labor konnte '{file}' nicht bearbeiten ({error}); an der Datei liegt es nicht.",
+    'Wandle die Datei noch einmal um; wiederholt es sich, prüfe Speicher und Grenzen des Rechners.',
+  ],
   lab_unconnected: [
     'Das Gateway hat keine Verbindung zum Labor.',
     'Prüfe, ob das Labor läuft, und den Endpunkt des Gateways.',
@@ -3602,7 +3606,7 @@ export const diagnostics: Templates = {
     'Verbinde dich neu, und hole, was fehlt.',
   ],
   too_slow: [
-    "'{file}' ließ sich nicht innerhalb von {limit:time} lesen; das Lesen wurde abgebrochen.",
+    "'{file}' ließ sich nicht innerhalb von {limit:time}[ {clock:choice processor=Prozessorzeit}] lesen; das Lesen wurde abgebrochen.",
     'Sichere nur die Trajektorie.',
   ],
   too_wide: ['{object} ist breiter, als der Greifer sich öffnet.'],

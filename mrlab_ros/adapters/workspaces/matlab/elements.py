@@ -30,6 +30,7 @@ ELEMENTS = {
 }
 # data types of the elements that hold text: bytes of a code unit
 TEXT_SIZES = {1: 1, 2: 1, 4: 2, 16: 1, 17: 2, 18: 4}
+MOST_SHOWN = 6  # axes in a sentence
 MOST_AXES = 32  # of an array, as HDF5 has it; NumPy has 64
 
 
@@ -79,7 +80,8 @@ def product(shape: tuple[int, ...]) -> int:
 
 
 def _misshapen(shape: tuple[int, ...]) -> Damaged:
-    size = "x".join(map(str, shape))
+    shown = [*map(str, shape[:MOST_SHOWN]), *(["..."] if len(shape) > MOST_SHOWN else [])]
+    size = "x".join(shown)
     return Damaged(BAD_DIMENSIONS(size=size, least=2, most=MOST_AXES))
 
 

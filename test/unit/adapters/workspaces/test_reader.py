@@ -17,6 +17,7 @@ import scipy.io
 from graph import wait_for
 from refusals import said_in
 
+from mrlab_ros.adapters.workspaces import content
 from mrlab_ros.adapters.workspaces.reader import Limits, MiB, WorkspaceReader
 from mrlab_ros.core.base.errors import BadInput
 
@@ -120,8 +121,17 @@ def test_time_is_kept_by_the_kernel():
     # The inflating alone takes longer than the limit.
     with WorkspaceReader(Limits(time=0.05)) as reader:
         many = bomb(300)
-        assert refusal(reader.read_bytes, many, "slow.mat").code == "too_slow"
+        slow = refusal(reader.read_bytes, many, "slow.mat")
+        assert (slow.code, slow.values["clock"]) == ("too_slow", "processor")
         assert reader.read_bytes(saved(q=Q), "traj.mat").find("q") is not None
+
+
+@pytest.mark.parametrize(
+    ("status", "limit"), [(-signal.SIGPROF, 20.0), (-signal.SIGALRM, 100.0), (None, 100.0)]
+)
+def test_a_file_that_passes_a_limit_is_told_which(status, limit):
+    found = content.too_slow(status, "a.mat", 20.0, 100.0)
+    assert (found.code, found.values["limit"]) == ("too_slow", limit)
 
 
 @pytest.mark.parametrize("number", [signal.SIGSEGV, signal.SIGABRT])

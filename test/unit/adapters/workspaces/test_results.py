@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import io
 import json
 from pathlib import Path
@@ -89,3 +90,24 @@ def test_a_fault_of_the_converter_refuses_the_one_file(monkeypatch):
     found = results.parse(data).result.diagnostics[0]
     assert found.code == "converter_failed"
     assert found.values["error"].startswith("OverflowError")
+
+
+@pytest.mark.parametrize(
+    ("number", "code"),
+    [
+        (errno.ENOSPC, "no_room_for_trajectory"),
+        (errno.EDQUOT, "no_room_for_trajectory"),
+        (errno.EMFILE, "lab_failed_on_file"),
+    ],
+)
+def test_a_failure_of_the_machine_is_no_fault_of_the_file(number, code):
+    class Full(io.BytesIO):
+        def write(self, _):
+            raise OSError(number, "no")
+
+    found = Workspace("v7", (Variable("q", "double", Q.shape, Q),), 0, "0" * 64)
+    task = results.Task("f.mat", Options(), ROBOT, COEFFICIENTS, None, "", 5, 100.0)
+    data = results.run(task, lambda: found, 1 << 30, Full())
+    with pytest.raises(BadInput) as caught:
+        results.parse(data)
+    assert caught.value.diagnostic.code == code
