@@ -133,6 +133,7 @@ class Playback(Execution):
         target = self.machine.check(Event.SEEK)
         checked_position(position, self.loaded().duration)
         if target is State.PLAYING:
+            self.stream.until = None
             self.follow(now_ns, position, Event.SEEK)
         else:
             self.jump(now_ns, Event.SEEK, position, say.AT_POSITION(position=position))
@@ -162,8 +163,7 @@ class Playback(Execution):
         self.require_owner(by)
         if until is not None:
             checked_position(until, self.loaded().duration)
-            streamed = self.stream.streamed
-            if streamed is not None and until <= streamed:
+            if self.stream.passed(until):
                 raise Misuse(say.PASSED_ALREADY(until=until))
         self.stream.end_at(until)
 

@@ -151,13 +151,15 @@ class Stream:
         Joint states that are late then leave as they were scheduled; a turn starts from the last
         one that was sent instead.
         """
+        turns = (rate < 0) != (self.rate < 0)
         before, self.rate = self.clock, rate
+        if turns:
+            self.until = None
         if before.rate == 0:
             return
         start_ns = max(since_ns, before.stamp_ns)
         position = min(max(before.at(start_ns), 0.0), self._loaded.duration)
         late = self._due_ns < start_ns
-        turns = (rate < 0) != (before.rate < 0)
         if late and turns:
             position = self.position
         clock = PlaybackClock(start_ns, position, rate)
@@ -214,6 +216,12 @@ class Stream:
     def frame(self) -> int:
         """The last source frame reached; 0 without a trajectory."""
         return 0 if self.trajectory is None else self.trajectory.frame_at(self.position)
+
+    def passed(self, position: float) -> bool:
+        """Return whether the next run, or this one, does not reach `position` (s) any more."""
+        furthest = max if self.rate > 0 else min
+        reached = furthest(self.position, self._clocks[0].position)
+        return (position - reached) * self.rate < 0 or position == self.streamed
 
     def is_at(self, position: float) -> bool:
         """Return whether the arm is on the trajectory at `position`, s."""
@@ -323,6 +331,9 @@ class Stream:
         furthest = max if clock.rate > 0 else min
         reached = furthest(clock.at(self._last.due_ns), self.streamed)
         self._schedule_from(min(max(reached, 0.0), self._loaded.duration), skip=True)
+        if self._due_ns <= self._last.due_ns:
+            # It turned at its end, which it says once more.
+            self._due_ns = self._last.due_ns + self.period_ns
 
     def _schedule_from(self, position: float, *, skip: bool) -> None:
         """Schedule the first joint state at (or, with skip, after) `position` (s)."""
@@ -351,8 +362,14 @@ class Stream:
         while len(self._clocks) > 1 and self._clocks[1].stamp_ns <= now_ns:
             if self._next_position == self._run_end:
                 return
+            clocks, tick = self._clocks.copy(), self._tick
+            self._schedule(tick + 1)
+            if self._due_ns > now_ns:
+                self._clocks = clocks
+                self._begin_run()
+                self._schedule(tick)
+                return
             self.lost += 1
-            self._schedule(self._tick + 1)
         clock = self._clocks[0]
         nearest = min if clock.rate > 0 else max
         reached = nearest(clock.at(now_ns), self._run_end)
