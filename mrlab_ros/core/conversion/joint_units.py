@@ -156,7 +156,11 @@ def _stated_factor(
         return float(2 * np.pi / counts)
     by_name = first.source == path and said_by_units(assessment.variable.units).unit is None
     if by_name and first.unit.factor != 1.0 and first.unit != spellings.DEGREES:
-        raise BadInput(UNIT_OF_NAME(variable=path, stated=first.unit.name))
+        refused = UNIT_OF_NAME(variable=path, stated=first.unit.name)
+        if assessment.name.unread:
+            # q_div_pi and q_mod_pi are not in half turns
+            refused = replace(refused, fixes=(Fix(matlab=f"plot({matlab_name(path)})"),))
+        raise BadInput(refused)
     return first.unit.factor
 
 

@@ -7,6 +7,7 @@ misleading ones are never accepted in silence, unless the motion is the right on
 from __future__ import annotations
 
 import io
+import json
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
@@ -249,6 +250,22 @@ def misleading(robot: str) -> Iterator[Case]:
     for unit in ("steps", "%", "a.u."):
         headings = ",".join(f"q{i} [{unit}]" for i in range(1, 7))
         yield case(f"heading_{unit}", csv(headings, s), "unit percent", suffix=".csv")
+    for key, words in {
+        "order": "reversed", "long_name": "joint velocity", "rotation_unit": "rev",
+        "unit_angle": "milli rad", "coordinate": "relative", "source": "human demonstration",
+    }.items():  # fmt: skip
+        yield case(f"said_{key}", mat(q=s, fs=50.0, **{key: words}), words)
+    for key, value in {"rad": "no", "is_deg": "yes", "deg_mode": True}.items():
+        yield case(f"deg_{key}", mat(q=s, fs=50.0, **{key: value}), "degree", degrees)
+    for key, number in {"enc_res": 8192.0, "lsb": 0.001, "gain_joint": 0.5}.items():
+        yield case(f"beside_{key}", mat(q=s, fs=50.0, **{key: number}), "factor")
+    yield case("comment_mirrored", b"# mirrored left arm\n" + csv("q1,q2,q3,q4,q5,q6", s),
+               "mirrored", suffix=".csv")  # fmt: skip
+    backwards = {"joint_names": model(robot).joint_names[::-1]}
+    yield case("order_json", json.dumps({"q": q[:, ::-1].tolist(), "meta": backwards}).encode(),
+               "order", q, suffix=".json")  # fmt: skip
+    for name in ("jointLabels", "q_from_home"):
+        yield case(name, mat(**{name: s, "fs": 50.0}), "understood")
     for name in ("log_q", "exp_q", "q_current", "q_unit"):
         yield case(name, mat(**{name: s, "fs": 50.0}), "understood current")
     yield case("robot_series", mat(q=q, fs=50.0, model="iiwa14"), "robot")
@@ -267,6 +284,7 @@ def misleading(robot: str) -> Iterator[Case]:
             rng.uniform(0.01, 0.03, 400)), "info": "recorded at 50 Hz", "note": "dt = 20 ms",
         "tvec": np.arange(200.0) / 50, "stamp": np.arange(401.0) / 50,
         "n_per_s": 50.0, "tau_s": 0.02, "speed_hz": 50.0, "logging_rate": 50.0,
+        "timing": np.array([0.02, 0, 0]), "moments": np.arange(400.0) / 50,
         "x_axis": np.arange(400.0) / 50, "remarque": "une mesure toutes les 20 ms",
         "force": np.column_stack([np.arange(400.0) / 50, v[:, :3]]),
         "hz": 50.0, "freqEch": 50.0, "seconds": 7.98, "duree_totale": 7.98, "meta": {"Te": 0.02},

@@ -18,6 +18,7 @@ from mrlab_ros.core.conversion.evidence.headings import GRIPPER
 from mrlab_ros.core.conversion.workspace import COMMENT
 
 MOST_COMMENTS = 200
+DEEPEST = 8  # objects of JSON inside one another
 TIME_HEADINGS = ("t", "time", "time_from_start")
 
 
@@ -88,13 +89,23 @@ def read_json(data: memoryview, sink: Sink) -> None:
     if "schema_version" in document and isinstance(frames, dict):
         _add_frames(document, frames, sink)
         return
-    for name, content in document.items():
-        if isinstance(content, str | bool):
+    _add_members(document, "", sink, DEEPEST)
+
+
+def _add_members(document: dict[str, Any], path: str, sink: Sink, deepest: int) -> None:
+    """Hand the members of an object to the sink, those of objects in it by their path."""
+    for key, content in document.items():
+        name = f"{path}{key}"
+        if isinstance(content, dict) and deepest:
+            _add_members(content, f"{name}.", sink, deepest - 1)
+        elif isinstance(content, str | bool):
             said = content if isinstance(content, str) else "true" if content else "false"
             kind = "string" if isinstance(content, str) else "logical"
-            sink.add(Found(str(name), kind, (1, 1), text=said[:LONGEST_TEXT]))
+            sink.add(Found(name, kind, (1, 1), text=said[:LONGEST_TEXT]))
+        elif isinstance(content, list) and content and all(isinstance(c, str) for c in content):
+            _add(sink, name, np.array(content[:MOST_COMMENTS]))
         elif (values := _numbers(content)) is not None:
-            _add(sink, str(name), values)
+            _add(sink, name, values)
 
 
 def _add_frames(document: dict[str, Any], frames: dict[str, Any], sink: Sink) -> None:

@@ -110,13 +110,13 @@ CLASSES = {
         registrata dataset signal signals ts timeseries col cols column columns row rows spalte
         frame frames sample part segment seg demo example beispiel ejemplo exemple
         esempio exemplo my mein mon mi his version ver v1 v2 tmp final the of der die das des de
-        du del della di la le les los las el et und and per von pro from to fuer for robot robots
+        du del della di la le les los las el et und and per von pro to fuer for robot robots
         roboter robota arm arms""",
     Class.ABOUT: """
         meta metadata info infos param params parameter parameters settings setup config cfg
         header options out simout yout ans struct field fields obj object content inhalt extra
         description desc beschreibung descripcion descrizione descricao comment comments kommentar
-        remark note notes notiz title titel name names label labels""",
+        remark note notes notiz """,
     Class.ARM: "arm arms robot robots roboter roboterarm bras brazo braccio braco ramie",
     Class.SIDE: """
         left right links rechts gauche droite izquierdo izquierda derecho derecha sinistro sinistra
@@ -160,6 +160,7 @@ CLASSES = {
         header headers titles columns columnas colonnes beschriftung legend legende""",
     Class.FACTOR: """
         per
+        encoder enc resolution aufloesung cpr ppr gain gains verstaerkung
         scale scaling factor factors faktor faktoren facteur facteurs fattore fator escala echelle
         skala skalierung massstab multiplier multiplikator scalefactor""",
     Class.GEAR: """
@@ -174,14 +175,14 @@ CLASSES = {
     Class.ADMIN: """
         author authors autor autores auteur autore auteurs ersteller bearbeiter created creator
         creation date datum datums fecha datas erstellt stand operator user benutzer student
-        studenten etudiant file filename datei dateiname fichier archivo bestand source quelle
+        studenten etudiant file filename datei dateiname fichier archivo bestand
         lab labor course kurs institute institut university licence license lizenz host software
         program programm script skript language sprache uuid topic path folder ordner url email
-        project projekt proyecto projet progetto projeto matlab toolbox toolversion title titel
-        version release place ort serial frame""",
+        project projekt proyecto projet progetto projeto matlab toolbox toolversion
+        version release serial""",
     Class.TABLE: """
         mass masse masa massa weight gewicht payload traglast charge carga carico length laenge
-        longueur largo lunghezza width breite height hoehe radius gain gains kp ki kd tol tolerance
+        longueur largo lunghezza width breite height hoehe radius kp ki kd tol tolerance
         toleranz eps limit limits seed id version number anzahl nombre numero num n count counts
         dof dofs ndof nq nj joints joint gravity g temperature index trial year month day date
         serial size points steps iterations iter maxiter damping friction stiffness inertia alpha

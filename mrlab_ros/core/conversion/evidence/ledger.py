@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mrlab_ros.core.conversion.evidence import rate_scalars, statements
+from mrlab_ros.core.conversion.evidence import rate_scalars, statements, units
 from mrlab_ros.core.conversion.evidence.glossary import PROSE, Class
 from mrlab_ros.core.conversion.evidence.joining import first_path
 from mrlab_ros.core.conversion.evidence.names import Hint, Word, described, hint, leaf, parts
@@ -26,6 +26,7 @@ from mrlab_ros.core.conversion.evidence.time_vectors import (
     SECONDS,
     UNIT_WORDS,
     counts_rows,
+    is_even,
     is_regular,
     snapped,
 )
@@ -219,7 +220,10 @@ def _number(s: Statement, matrix: _Matrix) -> Entry:
         settled = settled and not least <= rate <= most
     if number > 0 and matrix.assumed and (timed or (not settled and _may_be_time(number))):
         return Entry(v, End.TIME, rate=rate)
-    if _agrees(number, matrix):
+    touching = _touches(words, matrix) and not any(w.can_be(Class.ROLE) for w in words)
+    factor = any(w.can_be(Class.FACTOR) and not w.can_be(Class.TABLE) for w in words)
+    of_angles = any(w.unit is not None and w.unit.is_angle for w in words) and not settled
+    if _agrees(number, matrix, timed=timed) and not (touching or factor or of_angles):
         return Entry(v, End.EXPLAINED)
     if s.near > 2:
         return Entry(v, End.HARMLESS)
@@ -227,9 +231,7 @@ def _number(s: Statement, matrix: _Matrix) -> Entry:
         likely = rate_scalars.LIKELY_RATES[0] <= rate <= rate_scalars.LIKELY_RATES[1]
         rated = any(w.can_be(Class.PERIOD, Class.RATE) and len(w.text) > 1 for w in words)
         return Entry(v, End.TIME if likely and rated else End.HARMLESS, rate=rate)
-    touching = _touches(words, matrix) and not any(w.can_be(Class.ROLE) for w in words)
-    factor = any(w.can_be(Class.FACTOR) and not w.can_be(Class.TABLE) for w in words)
-    if touching or (not settled and (factor or _unread(words))):
+    if touching or factor or of_angles or (not settled and _unread(words)):
         return Entry(v, End.FACTOR, _unread(words))
     return Entry(v, End.HARMLESS)
 
@@ -249,14 +251,14 @@ def _rate_of(number: float, words: Sequence[Word]) -> float:
     return snapped(1 / number if number < 1 else number)
 
 
-def _agrees(number: float, matrix: _Matrix) -> bool:
-    """Say whether a number is the rate of the rows, their step or their duration, in any unit."""
-    lasting = (1.0, matrix.rows, matrix.rows - 1)
+def _agrees(number: float, matrix: _Matrix, *, timed: bool) -> bool:
+    """Say whether a number is the rate of the rows or their step; timed: or their duration."""
+    if matrix.assumed:
+        return False
+    lasting = (1.0, matrix.rows, matrix.rows - 1) if timed else (1.0,)
     values = [matrix.rate, *(n / matrix.rate for n in lasting)]
-    units = (1.0, 1e-3, 1e-6, 1e-9, 60.0)
-    return not matrix.assumed and any(
-        abs(number * k - value) <= SAME * value for k in units for value in values
-    )
+    units = (1.0, 1e-3, 1e-6, 1e-9, 60.0) if timed else (1.0,)
+    return any(abs(number * k - value) <= SAME * value for k in units for value in values)
 
 
 def _vector(s: Statement, matrix: _Matrix) -> Entry:
@@ -269,21 +271,24 @@ def _vector(s: Statement, matrix: _Matrix) -> Entry:
         numbers = sorted(values.tolist())
         permuted = numbers in ([float(n + i) for n in range(matrix.joints)] for i in (0, 1))
         away = any(w.quantity == "errors" for w in words)
-        open_to = away or (
-            bool(_unread(words) or any(w.unread for w in words))
-            and not any(w.can_be(*SETTLED[:3]) or w.quantity for w in words)
-        )
+        other = any(w.can_be(*SETTLED[:3]) or w.quantity not in ("", "parameters") for w in words)
+        open_to = away or (any(w.unread for w in words) and not other)
         return Entry(
             v, End.PER_JOINT if open_to and not permuted else End.EXPLAINED, _unread(words)
         )
     path_parameter = "".join(parts(leaf(v.path))) in PATH_PARAMETERS
     longer = [w for w in words if len(w.text) > 1]
     other = (any(w.quantity for w in words) or _is_settled(longer)) and not _is_timed(words)
-    if matrix.assumed and not (path_parameter or other) and len(values) >= ENOUGH:
-        steps = np.diff(values)
-        if (steps > 0).all() and not (steps == 1).all():
-            return Entry(v, End.TIME)
-    return Entry(v, End.HARMLESS)
+    if not matrix.assumed or path_parameter:
+        return Entry(v, End.HARMLESS)
+    if len(values) < ENOUGH:
+        least, most = rate_scalars.LIKELY_STEPS
+        near = any(least <= n <= most for n in values.tolist())
+        open_to = _is_timed(words) or (near and any(w.unread for w in words))
+        return Entry(v, End.TIME if open_to else End.HARMLESS)
+    steps = np.diff(values)
+    rises = (steps > 0).all() and not (steps == 1).all()
+    return Entry(v, End.TIME if rises and (not other or is_even(values)) else End.HARMLESS)
 
 
 def _has_clock(v: Variable, matrix: _Matrix) -> bool:
@@ -300,7 +305,8 @@ def _has_clock(v: Variable, matrix: _Matrix) -> bool:
 def _text(s: Statement, matrix: _Matrix) -> Entry:
     v, text = s.variable, s.text
     if v.kind == "logical":
-        return Entry(v, End.HARMLESS)
+        of_angles = tuple(w.text for w in s.words if w.unit is not None and w.unit.is_angle)
+        return Entry(v, End.TEXT if of_angles and s.near <= 2 else End.HARMLESS, of_angles)
     rate = rate_scalars.rate_in(text)
     if matrix.assumed:
         spoken = (*s.words, *statements.words_of_text(text))
@@ -309,10 +315,20 @@ def _text(s: Statement, matrix: _Matrix) -> Entry:
             return Entry(v, End.TIME)
     elif rate and s.near <= 2 and abs(rate - matrix.rate) > SAME * rate:
         return Entry(v, End.TIME, rate=rate)
-    if s.near > 2 or s.names(Class.ADMIN, Class.UNIT_KEY, Class.NAMES):
+    if s.near > 2 or s.names(Class.ADMIN):
         return Entry(v, End.HARMLESS)
+    if s.names(Class.UNIT_KEY):
+        return Entry(v, End.TEXT if _is_unit_of_angles(s) else End.HARMLESS, (text,))
     words = tuple(dict.fromkeys(_words_that_matter(s, matrix)))
     return Entry(v, End.TEXT if words else End.HARMLESS, words)
+
+
+def _is_unit_of_angles(s: Statement) -> bool:
+    """Say whether a text that is called a unit may be that of the matrix, and is not radians."""
+    if any(w.quantity or w.can_be(Class.TABLE, *OF_TIMES) for w in s.words):
+        return False
+    unit = units.parse(s.text)
+    return unit is None or (unit.is_angle and unit.factor != 1.0)
 
 
 def _words_that_matter(s: Statement, matrix: _Matrix) -> Iterator[str]:
@@ -323,9 +339,8 @@ def _words_that_matter(s: Statement, matrix: _Matrix) -> Iterator[str]:
     """
     spoken = statements.words_of_text(s.text)
     found = [w for w in spoken if w.text not in PROSE and w.text not in matrix.robot]
-    telling = any(w.can_be(*TELLING) or (w.unit and w.unit.is_angle) for w in found)
-    described_by = s.near == 0 or s.names(Class.ABOUT, Class.ARM) or len(spoken) > 1
-    reads_all = described_by and (telling or s.variable.kind != COMMENT)
+    reads_all = s.near == 0 or s.names(Class.ABOUT, Class.ARM, Class.ORDER, *TELLING)
+    reads_all = (reads_all or len(spoken) > 1) and not s.names(Class.NAMES)
     for w in found:
         other = w.quantity and not w.can_be(Class.ROLE, Class.KEPT, Class.PLACE)
         changes = w.can_be(*CHANGES) and not w.can_be(Class.KEPT, Class.SAMPLING, Class.TABLE)

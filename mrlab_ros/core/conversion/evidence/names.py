@@ -338,7 +338,8 @@ def _said_by(said: list[str], *, series: bool) -> Name:
         said = [bare]
     found = [word for p in said if not p.isdigit() for word in words_in(_bare(p))]
     if of_letter := _said_by_letter([w.text for w in found]):
-        return Name(Hint.AGAINST, of_letter)
+        # q_v2 may be the second version
+        return Name(Hint.DOUBTFUL if said[-1][-1].isdigit() else Hint.AGAINST, of_letter)
     return _said_by_words(found)
 
 
@@ -395,7 +396,7 @@ def _is_unread(word: Word, symbol: bool) -> bool:
         return False
     known = (
         *HARMLESS, Class.SYMBOL, Class.JOINT, Class.ANGLE, Class.CONFIGURATION, Class.PLACE,
-        Class.MOTION, Class.NAMES, Class.SAMPLING, Class.MOTOR,
+        Class.MOTION, Class.SAMPLING, Class.MOTOR,
     )  # fmt: skip
     return not word.can_be(*known)
 

@@ -20,6 +20,11 @@ ELEMENT = re.compile(r"[({][^.]*$")
 # words of a text: letters with the signs of units inside
 TOKEN = re.compile(r"[^\W\d_]+|°(?![cCfF])")
 QUOTIENT = re.compile(r"\s*(/|per\b|\*|·|\^|-?[²2]|s\b|pro\b)")
+# a unit behind one of these is another one
+PREFIXES = ("/", "milli", "micro", "mikro", "centi", "half", "halbe", "tenth", "hundredth")
+MODES = ("mode", "modus", "modo", "on", "in")
+TRUTHS = {"true": True, "yes": True, "on": True, "ja": True, "si": True, "oui": True,
+          "false": False, "no": False, "off": False, "nein": False, "non": False}  # fmt: skip
 SPOKEN = frozenset(("rad", "deg", "mrad", "gon", "urad"))
 AMBIGUOUS = frozenset(("grade", "grau", "graus", "du", "giro", "giri", "tour", "tours", "hudu"))
 OURS = (
@@ -115,10 +120,10 @@ def _is_other(unit: Unit | None) -> bool:
 
 
 def _units(s: Statement, matrix: str) -> Iterator[tuple[Unit, str]]:
-    if s.variable.kind == "logical" or not s.variable.text:
+    if not s.variable.text or s.text.lower() in TRUTHS:
         flagged = _flag(s)
         if flagged is not None and _is_ours(s, matrix):
-            yield flagged, "true" if s.variable.text != "false" else "false"
+            yield flagged, s.text or "true"
         return
     keyed = s.names(Class.UNIT_KEY) or all(w.can_be(Class.UNIT_FLAG, Class.ANGLE) for w in s.words)
     if keyed:
@@ -149,7 +154,10 @@ def _is_ours(s: Statement, matrix: str) -> bool:
     """Say whether the name of a statement names no other quantity than the matrix does."""
     own = {w.text for w in described(leaf(matrix))}
     return all(
-        w.text in own or w.unit is not None or (w.can_be(*OURS) and not w.quantity)
+        w.text in own
+        or w.text in MODES
+        or w.unit is not None
+        or (w.can_be(*OURS) and not w.quantity)
         for w in s.words
     )
 
@@ -161,9 +169,8 @@ def _spoken(text: str) -> Iterator[Unit]:
         unit = units.parse(word) if len(word) > 2 or word == "°" else None
         if unit is None or unit.name not in SPOKEN or word in AMBIGUOUS:
             continue
-        if not QUOTIENT.match(text, match.end()) and not text[: match.start()].rstrip().endswith(
-            "/"
-        ):
+        before = text[: match.start()].rstrip().lower()
+        if not QUOTIENT.match(text, match.end()) and not before.endswith(PREFIXES):
             yield unit
 
 
@@ -171,9 +178,8 @@ def _flag(s: Statement) -> Unit | None:
     """Return the unit of a flag such as is_degrees = true or use_radians = 0."""
     stated = [w.unit for w in s.words if w.unit is not None and w.unit.name in ("deg", "rad")]
     rest = [w for w in s.words if w.unit is None]
-    if len(stated) != 1 or not all(
-        w.can_be(Class.UNIT_FLAG, Class.ANGLE, Class.UNIT_KEY) for w in rest
-    ):
+    flags = (Class.UNIT_FLAG, Class.ANGLE, Class.UNIT_KEY)
+    if len(stated) != 1 or not all(w.can_be(*flags) or w.text in MODES for w in rest):
         return None
     true = _truth(s.variable)
     if true is None:
@@ -183,8 +189,8 @@ def _flag(s: Statement) -> Unit | None:
 
 
 def _truth(v: Variable) -> bool | None:
-    if v.text in ("true", "false"):
-        return v.text == "true"
+    if v.text.strip().lower() in TRUTHS:
+        return TRUTHS[v.text.strip().lower()]
     if v.values is not None and v.values.size == 1:
         number = float(np.asarray(v.values).reshape(-1)[0])
         return bool(number) if number in (0.0, 1.0) else None
