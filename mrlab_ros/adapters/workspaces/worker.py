@@ -352,7 +352,8 @@ def workspace(copy: int, request: dict[str, Any]) -> Workspace:
 def forked(do: Callable[[], None]) -> int:
     """Run `do` in a process of its own, which scipy may bring down; return its exit status."""
     timers = (signal.ITIMER_PROF, signal.ITIMER_REAL)
-    processor, wall = (max(signal.getitimer(timer)[0], 0.001) for timer in timers)
+    # 0 s: there is no such limit
+    processor, wall = (signal.getitimer(timer)[0] for timer in timers)
     child = os.fork()
     if child == 0:
         try:
