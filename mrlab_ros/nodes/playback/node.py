@@ -12,6 +12,7 @@ from mrlab_msgs import msg, srv
 from mrlab_msgs.srv import SetLoop, Trigger
 from rclpy.context import Context
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 from sensor_msgs.msg import JointState
 
 from mrlab_ros.adapters.pose_file import PoseFile
@@ -86,6 +87,8 @@ class PlaybackNode(Node):
             context=context,
             start_parameter_services=False,
             enable_rosout=False,
+            # rcl keeps 42 kB of each such service for ever, and robots come and go.
+            parameter_overrides=[Parameter("start_type_description_service", value=False)],
         )
         self.robot = robot
         self.model = model
