@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mrlab_ros.core.base.diagnostic import Code, Fix
+from mrlab_ros.core.base.diagnostic import WARNING, Code, Fix
 from mrlab_ros.gateway.diagnostics import ROLE
 
 NO_PERSON = Code("no_person", "There is nobody called '{name}'.")
@@ -36,6 +36,13 @@ USERS_UNUSABLE = Code(
     "users_unusable",
     "{path} cannot be used for people and sign-ins: {why:problem}.",
     "Expected a file that this user can write, or none.",
+)
+USERS_LOCKED = Code(
+    "users_locked",
+    "{path} cannot be read now: {why:problem}. Sign-ins that end meanwhile keep their pages open.",
+    "End the program that has the file open.",
+    severity=WARNING,
+    meaning="Another program holds a lock on the file of people and sign-ins.",
 )
 USERS_OTHER_VERSION = Code(
     "users_other_version",

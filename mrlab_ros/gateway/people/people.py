@@ -143,7 +143,7 @@ class People:
         """End the sockets of sign-ins that have ended, until cancelled."""
         while True:
             await asyncio.sleep(FOLLOW_PERIOD_S)
-            self.sign_ins.check(self.clock())
+            await self.sign_ins.check(self.clock())
 
 
 def token_of(authorization: str) -> str:

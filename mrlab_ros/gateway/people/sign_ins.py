@@ -11,6 +11,7 @@ from __future__ import annotations
 import asyncio
 import hashlib
 import hmac
+import logging
 import os
 import secrets
 import sqlite3
@@ -23,7 +24,12 @@ from typing import Any
 
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.rules import Role
-from mrlab_ros.gateway.people.diagnostics import USERS_OTHER_VERSION, USERS_UNUSABLE
+from mrlab_ros.core.runtime.bucket import Occurrences
+from mrlab_ros.gateway.people.diagnostics import (
+    USERS_LOCKED,
+    USERS_OTHER_VERSION,
+    USERS_UNUSABLE,
+)
 from mrlab_ros.gateway.people.person import LOCAL, Person
 
 FILE = "users.sqlite"
@@ -167,6 +173,7 @@ class SignIns:
         self._database = database
         # By id: for whom somebody waits for the end of the sign-in, and the role at that time.
         self._waiting: dict[str, list[tuple[Role, asyncio.Event]]] = {}
+        self._failures = Occurrences()
 
     def begin(
         self,
@@ -254,18 +261,30 @@ class SignIns:
             if not entries:
                 del self._waiting[person.sign_in]
 
-    def check(self, now: float) -> None:
-        """Set the events of sign-ins that have ended or have another role."""
+    async def check(self, now: float) -> None:
+        """Set the events of sign-ins that have ended or have another role.
+
+        The file is read in a thread: a program that has locked it stops no page. Where it stays
+        locked, the next check finds what has changed.
+        """
         if not self._waiting:
             return
-        roles = {each.id: each.role for each in self.all(now)}
-        for sign_in, entries in self._waiting.items():
+        try:
+            roles = await asyncio.to_thread(self._roles, now)
+        except sqlite3.OperationalError as error:
+            if self._failures.again((str(error),), now) is not None:
+                logging.warning("%s", USERS_LOCKED(path=str(self._database.path), why=str(error)))
+            return
+        for sign_in, entries in list(self._waiting.items()):
             # With --insecure nobody has a sign-in that could end.
             if not sign_in:
                 continue
             for role, event in entries:
                 if roles.get(sign_in) is not role:
                     event.set()
+
+    def _roles(self, now: float) -> dict[str, Role]:
+        return {each.id: each.role for each in self.all(now)}
 
 
 def _sign_in(row: sqlite3.Row) -> SignIn:

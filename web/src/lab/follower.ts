@@ -275,13 +275,26 @@ export class LabFollower {
 
   private takeRobots(robots: readonly Robot[]): void {
     this.order = robots.map(({ name }) => name)
-    for (const followed of this.kept.values()) followed.robot = null
+    const there = new Set(this.order)
+    for (const [name, followed] of this.kept) {
+      // One that was never in a list may be in the next: its other messages may come first.
+      if (followed.robot !== null && !there.has(name)) this.forget(name)
+    }
     for (const robot of robots) this.of(robot.name).enter(robot)
     this.known.value = true
     this.show()
   }
 
+  private forget(name: string): void {
+    this.kept.delete(name)
+    for (const key of this.activity.keys()) if (owner(key) === name) this.activity.delete(key)
+  }
+
   private takeSystems(systems: readonly RobotSystem[]): void {
+    const there = new Set(systems.map(({ name }) => name))
+    for (const name of this.systemPlayers.keys()) {
+      if (!there.has(name)) this.systemPlayers.delete(name)
+    }
     this.systems.value = systems.map((system) => {
       let player = this.systemPlayers.get(system.name)
       if (player === undefined) {

@@ -32,6 +32,9 @@ const TIMEOUT_S = 10
 /** s: the gateway answers a ping at once; this long without a frame means that the way is
  * broken. */
 const SILENCE_S = 4
+/** s: a handshake may take so long at most. The first attempt has SILENCE_S, and each further one
+ * twice the time of the one before: a slow network connects at last. */
+const LONGEST_HANDSHAKE_S = 60
 const PING_S = 1
 /** s: a message whose stamp is farther from the lab's time was stamped by another clock, or the
  * lab's clock was set. */
@@ -293,8 +296,11 @@ class SocketLink implements Link {
     // Messages that arrived while the page was frozen are read after this.
     if (now - this.beatAt > STALL_S) this.heardAt = now
     this.beatAt = now
-    if (!isHidden() && now - this.heardAt > SILENCE_S) {
-      this.lose(words.value.link.silent(SILENCE_S))
+    const patience = this.welcomed
+      ? SILENCE_S
+      : Math.min(SILENCE_S * 2 ** this.attempts, LONGEST_HANDSHAKE_S)
+    if (!isHidden() && now - this.heardAt > patience) {
+      this.lose(words.value.link.silent(patience))
     } else this.ping()
   }
 

@@ -2821,6 +2821,10 @@ export const diagnostics: Templates = {
     'Ein gekoppeltes Gerät kann kein anderes Gerät einlassen.',
     'Bestätige den Code in einem Browser, in dem du dich mit deinem Passwort angemeldet hast.',
   ],
+  users_locked: [
+    '{path} lässt sich gerade nicht lesen: {why:problem}. Seiten von Anmeldungen, die inzwischen enden, bleiben offen.',
+    'Beende das Programm, das die Datei geöffnet hat.',
+  ],
   users_other_version: [
     '{path} wurde von einer anderen Version dieses Programms geschrieben.',
     'Lege die Datei beiseite, und füge die Personen neu hinzu.',

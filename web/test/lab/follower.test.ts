@@ -66,6 +66,17 @@ test('a robot is drawn with its URDF, whichever comes first', () => {
   expect(follower.robots.value).toEqual([])
 })
 
+test('a robot that was removed is forgotten, and one of its name begins anew', () => {
+  const { link, scene, follower, robot } = lab()
+  link.deliver('robots', robotsReader, { robots: [robot] })
+  link.deliver('ur5e_1/robot_description', stringReader, { data: '<robot/>' })
+  expect([...follower.activity.keys()]).toContain('ur5e_1/robot_description')
+  link.deliver('robots', robotsReader, { robots: [] })
+  expect([...follower.activity.keys()]).not.toContain('ur5e_1/robot_description')
+  link.deliver('robots', robotsReader, { robots: [robot] })
+  expect(scene.setRobots.mock.lastCall?.[0]).toMatchObject([{ name: 'ur5e_1', urdf: '' }])
+})
+
 test('a state moves the timeline and the word above the robot', () => {
   const { link, scene, follower, robot } = lab()
   link.deliver('robots', robotsReader, { robots: [robot] })

@@ -234,6 +234,21 @@ describe('the connection', () => {
     expect(side.closedByPage).toBe(true)
   })
 
+  test('a handshake of 6 s connects at the second attempt', () => {
+    const shake = () => {
+      const side = GatewaySide.last
+      setTimeout(() => !side.closedByPage && side.open(), 6000)
+    }
+    shake()
+    vi.advanceTimersByTime(5250)
+    expect(GatewaySide.all).toHaveLength(2)
+    expect(link.status.phase).toBe('lost')
+    shake()
+    vi.advanceTimersByTime(6000)
+    expect(GatewaySide.all).toHaveLength(2)
+    expect(link.status.phase).toBe('open')
+  })
+
   test('a page that stood still itself does not take that for silence', () => {
     const side = GatewaySide.last.open()
     vi.advanceTimersByTime(3000)

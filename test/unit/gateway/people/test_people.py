@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import asyncio
+import sqlite3
+import threading
 
 import pytest
 from fastapi.requests import HTTPConnection
@@ -99,14 +101,43 @@ def test_the_end_of_a_sign_in_and_a_new_role_are_events(class_lab: Gateway) -> N
             sign_ins.ending(people["ben"]) as two,
             sign_ins.ending(people["carla"]) as three,
         ):
-            sign_ins.check(clock())
+            await sign_ins.check(clock())
             assert not any(event.is_set() for event in (one, two, three))
             sign_ins.end(people["anna"].sign_in)
             accounts.set_role("ben", Role.DISPLAY)
-            sign_ins.check(clock())
+            await sign_ins.check(clock())
             return [one.is_set(), two.is_set(), three.is_set()]
 
     assert asyncio.run(check()) == [True, True, False]
+
+
+def test_a_program_that_locks_the_file_stops_no_page(
+    class_lab: Gateway, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    sign_ins, clock = class_lab.people.sign_ins, class_lab.clock
+    class_lab.people.accounts.add("anna", Role.STUDENT)
+    person = sign_ins.person(sign_ins.begin("anna", Role.STUDENT, clock()), clock())
+    assert person is not None
+    asked, free = threading.Event(), threading.Event()
+
+    def locked(now: float) -> None:
+        asked.set()
+        free.wait(20)
+        raise sqlite3.OperationalError("database is locked")
+
+    monkeypatch.setattr(sign_ins, "_roles", locked)
+
+    async def check() -> bool:
+        with sign_ins.ending(person) as ended:
+            checking = asyncio.create_task(sign_ins.check(clock()))
+            # The loop goes on while the file is locked.
+            while not asked.is_set():
+                await asyncio.sleep(0.01)
+            free.set()
+            await checking
+            return ended.is_set()
+
+    assert asyncio.run(check()) is False
 
 
 def test_who_gets_a_removed_name_is_another_person(class_lab: Gateway) -> None:
