@@ -11,6 +11,13 @@ HALTED = Code(
     "place the robot elsewhere, or take away what it touches. Then play on.",
     meaning="A run ended in a collision halt.",
 )
+STILL_MOVES = Code(
+    "still_moves",
+    "{robot} moves: {why:problem}.",
+    "Stop it first, then play the other motion.",
+    meaning="A motion was to be loaded or played while the robot moves; it was left alone.",
+    commands=("mrlab stop {robot}",),
+)
 STILL_HALTED = Code(
     "still_halted",
     "{robot} is still in its collision halt[ ({why:problem})], which ends once its arm has been "

@@ -118,6 +118,9 @@ POLL_PERIOD_S = 0.02
 SILENCE_S = 10.0
 HALT = State.COLLISION_HALT.name
 MOVING = (msg.PlaybackState.ADJUSTING, msg.PlaybackState.PLAYING)
+# Commands that begin a motion, and states in which one goes on.
+STARTS = ("play", "load")
+GOES_ON = (State.ADJUSTING.name, State.PLAYING.name)
 
 
 @dataclass(frozen=True)
@@ -289,8 +292,10 @@ class LabRobot:
             return str(answer.message)
         why, state = heard(answer), self.follower.state
         in_halt = why.code == ILLEGAL_EVENT.code and why.values["state"] == HALT == state.label
-        if in_halt and verb in ("play", "load"):
+        if in_halt and verb in STARTS:
             raise Misuse(halted(self.name, heard(state), self._objects()))
+        if why.code == ILLEGAL_EVENT.code and why.values["state"] in GOES_ON and verb in STARTS:
+            raise Misuse(say.STILL_MOVES(robot=self.name, why=why))
         raise Misuse(OF_ROBOT(robot=self.name, why=why))
 
 

@@ -319,3 +319,10 @@ def test_robots_are_placed_apart_and_a_restarted_lab_has_them_back(graph, tmp_pa
     wait_for(lambda: robots[-1].header != seen, "the new lab's robots")
     assert [r.name for r in robots[-1].robots] == [a, b]
     assert robots[-1].robots == before
+
+
+def test_a_playback_has_no_service_whose_memory_rcl_never_frees(graph, lab):
+    robot = spawn(graph)
+    wait_for(lambda: graph.client.count_services(f"/{robot}/play"), "the playback")
+    names = [name for name, _ in graph.client.get_service_names_and_types()]
+    assert not [n for n in names if n.startswith(f"/{robot}/") and "type_description" in n]

@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 from mrlab_msgs import msg
+from mrlab_msgs.srv import LoadTrajectory
 from refusals import refused
 from sensor_msgs.msg import JointState
 
@@ -14,7 +15,10 @@ from mrlab_ros.client.diagnostics import RUN_SILENT
 from mrlab_ros.client.follow import Follower
 from mrlab_ros.client.robot import LabRobot, Run, halted
 from mrlab_ros.core.base.diagnostic import of_text
+from mrlab_ros.core.base.diagnostics import ILLEGAL_EVENT
+from mrlab_ros.core.base.errors import Misuse
 from mrlab_ros.core.playback.diagnostics import AT_POSITION, BACK_AT_BEGIN, HALTED_BY_CONTACT
+from mrlab_ros.messages.texts import tell
 from mrlab_ros.ros.calls import NoAnswer
 
 
@@ -113,3 +117,18 @@ def test_a_robot_or_a_surface_is_not_removed():
 
 def test_a_halt_of_which_nothing_is_known_is_one():
     assert halted("ur5e_1", of_text("")).code == "halted"
+
+
+def test_a_robot_that_moves_names_what_stops_it(graph) -> None:
+    answer = LoadTrajectory.Response()
+    why = ILLEGAL_EVENT(event="load", state="PLAYING", possible=["pause", "stop"])
+    tell(answer, False, why)
+    graph.call = lambda kind, service, request: answer
+    robot = LabRobot(graph, msg.Robot(name="ur5e_1"))
+    robot._follower = Follower(graph, "ur5e_1")
+    graph.callbacks["/ur5e_1/playback_state"](playing())
+    with pytest.raises(Misuse) as raised:
+        robot.load("quintic")
+    said = raised.value.diagnostic
+    assert said.code == "still_moves"
+    assert commands(said) == ["mrlab stop ur5e_1"]

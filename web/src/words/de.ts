@@ -3405,6 +3405,10 @@ export const diagnostics: Templates = {
   step_failed: ['{step:problem}: gescheitert, {why:problem}.'],
   step_of_zero: ['ein Schritt von 0 führt nirgendwohin'],
   still_collides: ['{robot} ist noch in Kollision'],
+  still_moves: [
+    '{robot} bewegt sich: {why:problem}.',
+    'Halte ihn erst an, dann spiele die andere Bewegung ab.',
+  ],
   still_halted: [
     '{robot} ist noch im Kollisionshalt[ ({why:problem})]; der endet, wenn der Arm kurze Zeit frei war.',
     'Wenn der Arm noch etwas berührt, nimm es weg, oder stelle den Roboter anderswohin. Dann spiele weiter ab.',
