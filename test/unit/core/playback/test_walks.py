@@ -82,7 +82,7 @@ class Walk:
         if name == "die":
             self.die(now_ns)
             return
-        before, due_ns = playback.status(), playback.due_ns()
+        before, due_ns, arm = playback.status(), playback.due_ns(), playback.arm
         try:
             self.call(name)(now_ns)
         except LabError:
@@ -95,8 +95,8 @@ class Walk:
         if event is Event.PLAY and playback.state is State.ADJUSTING:
             expected = TABLE.rows[before.state, Event.STAGE]
         assert playback.state is expected
-        if event is Event.PAUSE and before.state is State.PLAYING and self.last is not None:
-            assert np.array_equal(playback.arm, self.last.positions)
+        if event is Event.PAUSE:
+            assert np.array_equal(playback.arm, arm)
 
     def call(self, name: str) -> Callable[[int], object]:
         playback, chance = self.playback, self.chance
