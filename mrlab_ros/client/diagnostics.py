@@ -11,8 +11,8 @@ HALTED = Code(
     "place the robot elsewhere, or take away what it touches. Then play on.",
     meaning="A run ended in a collision halt.",
 )
-STILL_MOVES = Code(
-    "still_moves",
+MOVES_ALREADY = Code(
+    "moves_already",
     "{robot} moves: {why:problem}.",
     "Stop it first, then play the other motion.",
     meaning="A motion was to be loaded or played while the robot moves; it was left alone.",

@@ -295,7 +295,7 @@ class LabRobot:
         if in_halt and verb in STARTS:
             raise Misuse(halted(self.name, heard(state), self._objects()))
         if why.code == ILLEGAL_EVENT.code and why.values["state"] in GOES_ON and verb in STARTS:
-            raise Misuse(say.STILL_MOVES(robot=self.name, why=why))
+            raise Misuse(say.MOVES_ALREADY(robot=self.name, why=why))
         raise Misuse(OF_ROBOT(robot=self.name, why=why))
 
 

@@ -130,5 +130,5 @@ def test_a_robot_that_moves_names_what_stops_it(graph) -> None:
     with pytest.raises(Misuse) as raised:
         robot.load("quintic")
     said = raised.value.diagnostic
-    assert said.code == "still_moves"
+    assert said.code == "moves_already"
     assert commands(said) == ["mrlab stop ur5e_1"]

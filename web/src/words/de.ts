@@ -3405,7 +3405,7 @@ export const diagnostics: Templates = {
   step_failed: ['{step:problem}: gescheitert, {why:problem}.'],
   step_of_zero: ['ein Schritt von 0 führt nirgendwohin'],
   still_collides: ['{robot} ist noch in Kollision'],
-  still_moves: [
+  moves_already: [
     '{robot} bewegt sich: {why:problem}.',
     'Halte ihn erst an, dann spiele die andere Bewegung ab.',
   ],
