@@ -15,8 +15,7 @@ from mrlab_ros.core.playback.states import State
 from mrlab_ros.core.scene.document import MemberEntry, ObjectEntry, RobotEntry, SystemEntry
 from mrlab_ros.core.scene.robots import PlacedRobot
 from mrlab_ros.core.systems.members import Loaded
-from mrlab_ros.core.systems.robot_system import Policy
-from mrlab_ros.core.systems.states import SystemState
+from mrlab_ros.core.systems.states import Policy, SystemState
 from mrlab_ros.core.systems.timeline import Mode
 from mrlab_ros.messages.poses import pose_from_message, pose_to_message
 from mrlab_ros.messages.time import make_header, time_from_message

@@ -45,7 +45,7 @@ from mrlab_ros.core.base.diagnostics import ONE_OF
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.records import Record, entry_place, every
 from mrlab_ros.core.systems import diagnostics as say
-from mrlab_ros.core.systems.robot_system import Policy
+from mrlab_ros.core.systems.states import Policy
 from mrlab_ros.core.systems.timeline import Mode
 from mrlab_ros.core.systems.waits import parse
 

@@ -11,8 +11,8 @@ from mrlab_ros.core.base.names import checked_name, close_to
 from mrlab_ros.core.playback.diagnostics import MEMBER_OF_SYSTEM
 from mrlab_ros.core.systems import diagnostics as say
 from mrlab_ros.core.systems.members import Fleet
-from mrlab_ros.core.systems.robot_system import Policy, RobotSystem
-from mrlab_ros.core.systems.states import SystemState
+from mrlab_ros.core.systems.robot_system import RobotSystem
+from mrlab_ros.core.systems.states import Policy, SystemState
 from mrlab_ros.core.systems.timeline import Member, Mode
 from mrlab_ros.core.systems.waits import parse
 

@@ -129,3 +129,16 @@ def reason(state: SystemState, event: SystemEvent) -> Diagnostic | str:
     if event is SystemEvent.SET_MODE:
         return say.CLEAR_AND_STOP_FIRST() if halted else say.STOP_FIRST()
     return ""
+
+
+class Policy(Enum):
+    """Which members a collision of one member halts."""
+
+    HALT_ALL = 0
+    HALT_MEMBER = 1
+
+
+COLLISIONS = {
+    Policy.HALT_ALL: SystemEvent.COLLIDE,
+    Policy.HALT_MEMBER: SystemEvent.COLLIDE_ALONE,
+}

@@ -27,8 +27,8 @@ from mrlab_ros.core.systems import diagnostics as say
 from mrlab_ros.core.systems import registry
 from mrlab_ros.core.systems.members import Command, Order
 from mrlab_ros.core.systems.registry import Systems
-from mrlab_ros.core.systems.robot_system import Policy, RobotSystem
-from mrlab_ros.core.systems.states import SystemState
+from mrlab_ros.core.systems.robot_system import RobotSystem
+from mrlab_ros.core.systems.states import Policy, SystemState
 from mrlab_ros.core.systems.timeline import Mode
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.status import processes_from_message

@@ -35,7 +35,7 @@ from mrlab_ros.core.scene.document import (
     parse_intact,
     plain,
 )
-from mrlab_ros.core.systems.robot_system import Policy
+from mrlab_ros.core.systems.states import Policy
 from mrlab_ros.core.systems.timeline import Mode
 
 

@@ -14,7 +14,7 @@ from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.scene.document import parse_cell
 from mrlab_ros.core.systems.cell_file import MEMBER_FIELDS, SYSTEM_FIELDS, plain_system
 from mrlab_ros.core.systems.diagnostics import ENDLESS_HOLD
-from mrlab_ros.core.systems.robot_system import Policy
+from mrlab_ros.core.systems.states import Policy
 from mrlab_ros.core.systems.timeline import Mode
 
 

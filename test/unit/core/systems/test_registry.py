@@ -8,8 +8,8 @@ import pytest
 from fakes import SECOND
 
 from mrlab_ros.core.systems import registry
-from mrlab_ros.core.systems.robot_system import Policy, RobotSystem
-from mrlab_ros.core.systems.states import SystemState
+from mrlab_ros.core.systems.robot_system import RobotSystem
+from mrlab_ros.core.systems.states import Policy, SystemState
 from mrlab_ros.core.systems.timeline import Member, Mode
 from mrlab_ros.core.systems.waits import parse
 

@@ -31,8 +31,8 @@ from mrlab_ros.core.systems.members import (
     Reply,
 )
 from mrlab_ros.core.systems.registry import Systems
-from mrlab_ros.core.systems.robot_system import Policy, RobotSystem
-from mrlab_ros.core.systems.states import TABLE, SystemEvent, SystemState
+from mrlab_ros.core.systems.robot_system import RobotSystem
+from mrlab_ros.core.systems.states import TABLE, Policy, SystemEvent, SystemState
 from mrlab_ros.core.systems.timeline import Member, Mode
 from mrlab_ros.core.systems.waits import parse
 from mrlab_ros.core.trajectory.trajectory import Trajectory
