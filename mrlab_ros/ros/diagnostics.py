@@ -68,6 +68,12 @@ BAD_ROS_ARGUMENTS = Code(
     "file or a parameter lab:robots:='[[ur5e]]'.",
     meaning="The arguments of a node are not those that rcl knows.",
 )
+NO_LOG_FOLDER = Code(
+    "no_log_folder",
+    "ROS cannot write its log to {folder}: {why:problem}.",
+    "Make the folder writable for this user, or set ROS_LOG_DIR to one that is.",
+    meaning="Every program of ROS writes a log: below ROS_LOG_DIR, ROS_HOME or ~/.ros.",
+)
 NO_ARRIVALS = Code(
     "no_arrivals",
     "The middleware does not announce the messages of {topic} (error {error:integer}).",

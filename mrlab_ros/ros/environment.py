@@ -28,8 +28,8 @@ from types import ModuleType
 from typing import Any
 
 from mrlab_ros.adapters import share
-from mrlab_ros.core.base.errors import Misuse
-from mrlab_ros.ros.diagnostics import BAD_DOMAIN
+from mrlab_ros.core.base.errors import BadInput, Misuse
+from mrlab_ros.ros.diagnostics import BAD_DOMAIN, NO_LOG_FOLDER
 
 FOLDER = Path("/dev/shm")
 PORTS = "fastrtps_port*"
@@ -72,6 +72,21 @@ def prepare() -> None:
     """
     remove_abandoned()
     os.environ.update(settings(os.environ))
+
+
+def check_log_folder() -> None:
+    """Raise BadInput where rcl, as it says in no such words, cannot write its log."""
+    import tempfile  # seldom needed
+
+    home = os.environ.get("ROS_HOME") or "~/.ros"
+    folder = Path(os.environ.get("ROS_LOG_DIR") or f"{home}/log").expanduser()
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            pass
+    except OSError as error:
+        why = os.strerror(error.errno or 0)
+        raise BadInput(NO_LOG_FOLDER(folder=str(folder), why=why)) from error
 
 
 def settings(environment: Mapping[str, str]) -> dict[str, str]:

@@ -15,6 +15,7 @@ import rclpy
 from rclpy.context import Context
 from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSPolicyKind, QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
@@ -79,7 +80,13 @@ class Graph(GraphClient):
         self.domain = domain_id()
         environment.prepare()
         self._context = Context()
-        rclpy.init(args=[], context=self._context, signal_handler_options=SignalHandlerOptions.NO)
+        try:
+            rclpy.init(
+                args=[], context=self._context, signal_handler_options=SignalHandlerOptions.NO
+            )
+        except rclpy_implementation.RCLError:
+            environment.check_log_folder()
+            raise
         self.node: Node = rclpy.create_node(
             "_mrlab_command",
             context=self._context,

@@ -67,6 +67,7 @@ def start_up() -> None:
     try:
         rclpy.init()
     except (rclpy_implementation.RCLError, rclpy_implementation.UnknownROSArgsError) as error:
+        environment.check_log_folder()
         # After the reason rcl names lines of its own sources.
         reason = str(error).split(", at /")[0].removeprefix("failed to initialize rcl: ")
         raise BadInput(BAD_ROS_ARGUMENTS(why=reason)) from error

@@ -7,10 +7,12 @@ import subprocess
 import sys
 import time
 import xml.etree.ElementTree as ElementTree
+from pathlib import Path
 
 import pytest
 from own_domain import own_domain
 
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.ros import environment
 from mrlab_ros.ros.environment import LONGEST_S, remove_abandoned
 
@@ -201,3 +203,36 @@ def test_numpy_is_postponed(code):
         [sys.executable, "-c", start + code], capture_output=True, text=True, timeout=60
     )
     assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("variable", ["ROS_LOG_DIR", "ROS_HOME", "HOME"])
+def test_a_folder_without_room_for_the_log_of_ros_is_named(
+    variable: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    for name in ("ROS_LOG_DIR", "ROS_HOME"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setenv(variable, str(tmp_path))
+    environment.check_log_folder()
+    # Nobody can write here, not even root.
+    monkeypatch.setenv(variable, "/proc/nowhere")
+    with pytest.raises(BadInput) as raised:
+        environment.check_log_folder()
+    said = raised.value.diagnostic
+    assert said.code == "no_log_folder"
+    assert str(said.values["folder"]).startswith("/proc/nowhere")
+
+
+def test_a_client_of_the_graph_says_where_ros_cannot_write() -> None:
+    code = """
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.ros.graph_node import Graph
+try:
+    Graph()
+except BadInput as error:
+    print(error.diagnostic.code)
+"""
+    nowhere = {**os.environ, "ROS_LOG_DIR": "/proc/nowhere"}
+    done = subprocess.run(
+        (sys.executable, "-c", code), env=nowhere, capture_output=True, text=True
+    )
+    assert done.stdout == "no_log_folder\n", done.stderr

@@ -2086,6 +2086,10 @@ export const diagnostics: Templates = {
     "{file}: Bevor sich die Ketten am Glied '{link}' teilen, bewegt sich kein Gelenk, wie bei einem Greifer oder einem Fahrzeug.",
     'Importiere einen Arm, oder nenne sein letztes Glied.',
   ],
+  no_log_folder: [
+    'ROS kann sein Protokoll nicht nach {folder} schreiben: {why:problem}.',
+    'Mach den Ordner für diesen Benutzer beschreibbar, oder setze ROS_LOG_DIR auf einen, der es ist.',
+  ],
   no_arrivals: [
     'Die Middleware meldet nicht, wenn auf {topic} Nachrichten ankommen (Fehler {error:integer}).',
     'Setze RMW_IMPLEMENTATION auf eine, die das tut, etwa rmw_fastrtps_cpp.',
