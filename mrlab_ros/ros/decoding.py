@@ -9,16 +9,18 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from threading import Lock
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from rclpy.node import Node
-from rclpy.qos import QoSProfile
 from rclpy.serialization import deserialize_message
-from rclpy.subscription import Subscription
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.runtime.bucket import Occurrences
 from mrlab_ros.core.runtime.diagnostics import UNDECODABLE
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+    from rclpy.qos import QoSProfile
+    from rclpy.subscription import Subscription
 
 Callback = Callable[[Any], None]
 
