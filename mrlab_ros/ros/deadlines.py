@@ -26,6 +26,7 @@ from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.playback.execution import PlaybackStatus
 from mrlab_ros.core.playback.playback import Playback
 from mrlab_ros.core.playback.stream import LOST_AFTER_NS, Sample
+from mrlab_ros.core.runtime.freezes import Freezes
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.ros.clock import LabClock
 
@@ -185,9 +186,13 @@ class Scheduler:
         ctypes.CDLL(None).prctl(PR_SET_TIMERSLACK, 1, 0, 0, 0)
         self.precedence = take_precedence()
         self._prepared.set()
+        freezes = Freezes("playback", time.process_time)
+        freezes.begin()
         with self._changed:
             while self._running:
                 now_ns, steady_ns = self._reading()
+                if freezes.thawed(steady_ns / SECOND):
+                    self._thaw(now_ns)
                 simulated = self.clock.simulated
                 # Simulated time may advance late; do not busy-wait.
                 early_ns = 0 if simulated else WAKE_NS + PREPARE_NS * len(self._players)
@@ -229,6 +234,15 @@ class Scheduler:
                 except Exception as error:
                     self._name_error(error)
         return now_ns, steady_ns
+
+    def _thaw(self, now_ns: int) -> None:
+        """Let members of systems stand, before what is late is served."""
+        for player in self._players:
+            try:
+                player.playback.thaw(now_ns)
+                player.announce(now_ns)
+            except Exception as error:
+                self._name_error(error)
 
     def _serve(
         self, batch: list[tuple[int, Player]], now_ns: int, ahead_ns: int, *, simulated: bool

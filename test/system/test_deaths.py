@@ -3,6 +3,7 @@
 The end is published before anything follows from it, the system stands where its members stood,
 and plays on from that one place. Random faults in random states follow: MRLAB_DEATHS of them, two
 unless it says otherwise, by MRLAB_DEATHS_SEED. Each prints how long its steps took.
+MRLAB_DEATHS_FREEZE: how long a freeze lasts, s.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ from mrlab_ros.processes.run_file import RunFile
 from mrlab_ros.ros.graph_node import Graph
 
 MOTION = Path(__file__).parents[2] / "examples" / "quintic_ur5e.mat"
-FREEZE_S = 3.0
+FREEZE_S = float(os.environ.get("MRLAB_DEATHS_FREEZE", "3"))
 FAULTS = ("SIGKILL", "SIGTERM", "SIGSTOP")
 # Two clocks agree to the nanosecond where the rounding of their stamps is allowed for, s.
 NANOSECOND = 2e-9

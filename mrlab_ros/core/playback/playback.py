@@ -225,6 +225,14 @@ class Playback(Execution):
 
     # time -----------------------------------------------------------------------------------
 
+    def thaw(self, now_ns: int) -> None:
+        """Let a member of a system stand where its last joint state before a freeze left it.
+
+        Its system stands too; what has become late meanwhile must not be caught up.
+        """
+        if self.system and self.moving:
+            self.halt(now_ns, Event.PAUSE, say.PAUSED(position=self.stream.position))
+
     def due_ns(self) -> int | None:
         """Return when the next joint state leaves; None: not before something changes."""
         return self.stream.next_ns

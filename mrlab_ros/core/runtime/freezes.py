@@ -65,6 +65,11 @@ class Freezes:
                 self._from = before
             self._until = now
 
+    def thawed(self, now: float) -> bool:
+        """Note that this process runs; return whether a freeze ended just now."""
+        self.look(now)
+        return self._until == now
+
     def why_late(self, sent: float, now: float) -> Diagnostic | None:
         """Return why a request that was sent at `sent` is refused; None: it came in time.
 

@@ -18,7 +18,7 @@ from mrlab_ros.core.systems import diagnostics as say
 from mrlab_ros.core.systems.execution import SystemExecution
 from mrlab_ros.core.systems.members import Command, Order
 from mrlab_ros.core.systems.states import COLLISIONS, SystemEvent, SystemState
-from mrlab_ros.core.systems.timeline import Member, Mode
+from mrlab_ros.core.systems.timeline import SAME_INSTANT, Member, Mode
 
 
 class RobotSystem(SystemExecution):
@@ -175,6 +175,10 @@ class RobotSystem(SystemExecution):
                 member.position = position
                 self._line_up(now_ns)
             elif state is State.PAUSED:
+                if self.state is SystemState.PLAYING and _stopped_by_itself(member, position):
+                    self._machine.fire(SystemEvent.LOSE)
+                    self.message = say.MEMBERS_SILENT(robots=[robot])
+                    self._stand(now_ns)
                 member.position = position
                 member.ordered = False
                 self._line_up(now_ns)
@@ -322,3 +326,9 @@ class RobotSystem(SystemExecution):
         if state is State.COLLISION_HALT and self._machine.can(SystemEvent.RETURN_HALTED):
             self._machine.fire(SystemEvent.RETURN_HALTED)
             self.message = say.STILL_COLLIDES(robot=member.robot)
+
+
+def _stopped_by_itself(member: Member, position: float) -> bool:
+    """Return whether a member that plays stands at `position` (s) and no wait holds it there."""
+    holds = (member.wait_position(wait) for wait in member.waits)
+    return member.ordered and all(abs(position - hold) > SAME_INSTANT for hold in holds)

@@ -110,3 +110,12 @@ def test_the_last_pose_is_newer_than_the_journal_where_it_is_of_its_run(position
     found = saved_state.with_pose(kept, position, joints)
     expected = (position, joints) if taken else (0.3, [0.0, 0.0])
     assert (found.position, found.arm.tolist()) == expected
+
+
+def test_a_member_of_a_system_stands_after_a_freeze_and_an_independent_robot_goes_on():
+    alone, member = on_its_way(0.305), on_its_way(0.305)
+    member.system = "cell"
+    for playback in (alone, member):
+        playback.thaw(START + 30 * SECOND)
+    assert (alone.state, member.state) == (State.PLAYING, State.PAUSED)
+    assert member.clock.position == 0.3

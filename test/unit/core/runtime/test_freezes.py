@@ -105,3 +105,10 @@ def test_what_has_no_stamp_is_refused_for_a_moment_after_a_long_freeze(freezes):
     short = watched()
     short.look(0.0)
     assert short.why_doubtful(LONG_S - 0.1) is None
+
+
+def test_the_end_of_a_freeze_is_noted_by_the_look_that_ends_it():
+    noted = watched()
+    assert not noted.thawed(BEGAN)
+    assert noted.thawed(ENDED)
+    assert not noted.thawed(ENDED + LOOK_PERIOD_S)

@@ -1286,3 +1286,16 @@ def test_whatever_process_dies_or_freezes_a_system_stands_and_plays_in_one_place
     world.sent = {robot: [] for robot in world.sent}
     world.play_to_the_end()
     assert [world.frames(r) for r in "abc"] == [list(range(n)) for n in (81, 61, 41)]
+
+
+def test_a_member_that_stands_after_a_freeze_that_nobody_announced_stands_all_on_one_line():
+    world = playing(make(TWO), 0.3)
+    world.playbacks["a"].thaw(world.now)
+    world.report()
+    assert world.system.state is SystemState.PAUSED
+    assert said(world) == ("members_silent", {"robots": ["a"]})
+    assert world.playbacks["b"].state is State.PAUSED
+    assert world.system.clock.position == world.playbacks["a"].clock.position
+    world.play_to_the_end()
+    assert world.frames("a") == list(range(101))
+    assert world.frames("b") == list(range(51))
