@@ -8,7 +8,7 @@ import threading
 import time
 from collections.abc import Callable, Collection
 from contextlib import suppress
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.serialization import deserialize_message, serialize_message
@@ -18,7 +18,10 @@ from mrlab_ros.core.bridge.links import key_of
 from mrlab_ros.messages.definitions import fitted
 from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.decoding import decoder
-from mrlab_ros.ros.graph import CALL_TIMEOUT_S, FIND_TIMEOUT_S, GraphClient
+from mrlab_ros.ros.graph import CALL_TIMEOUT_S, FIND_TIMEOUT_S, GraphClient, Request, Response, T
+
+if TYPE_CHECKING:
+    from message_bases import Service
 
 BRIDGE = "/@mrlab/bridge"
 # How old what the bridge said of the graph may be, s.
@@ -49,7 +52,7 @@ class LinkGraph(GraphClient):
             self._graph.close()
 
     def subscribe(
-        self, kind: Any, topic: str, callback: Callable[[Any], None], quality: QoSProfile
+        self, kind: type[T], topic: str, callback: Callable[[T], None], quality: QoSProfile
     ) -> None:
         key = key_of(topic, self._prefix)
         lock, live = threading.Lock(), threading.Event()
@@ -78,19 +81,20 @@ class LinkGraph(GraphClient):
 
     def call(
         self,
-        kind: Any,
+        kind: type[Service[Request, Response]],
         service: str,
-        request: Any,
+        request: Request,
         timeout: float = CALL_TIMEOUT_S,
         find_timeout: float = FIND_TIMEOUT_S,
-    ) -> Any:
+    ) -> Response:
         key = key_of(service, self._prefix)
         payload = serialize_message(fitted(request))
         deadline = time.monotonic() + FOUND_S
         while True:
             try:
-                answer = self._link.query(key, payload, timeout)
-                return deserialize_message(answer, kind.Response)
+                data = self._link.query(key, payload, timeout)
+                answer: Response = deserialize_message(data, kind.Response)
+                return answer
             except Refusal as error:
                 raise NoAnswer(error.diagnostic) from None
             except NoQueryable:
@@ -112,7 +116,7 @@ class LinkGraph(GraphClient):
     def is_offered(self, service: str) -> bool:
         return self._carries(key_of(service, self._prefix))
 
-    def kept(self, kind: Any, topic: str) -> list[tuple[float, Any]]:
+    def kept(self, kind: type[T], topic: str) -> list[tuple[float, T]]:
         """Return what the bridge kept of a topic that it does not carry: age in s, message."""
         key = key_of(f"{BRIDGE}/kept{topic}", self._prefix)
         try:

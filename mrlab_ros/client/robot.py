@@ -12,7 +12,7 @@ import time
 import traceback
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, field
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from mrlab_msgs import msg, srv
 from mrlab_msgs.srv import SetLoop, Trigger
@@ -27,7 +27,10 @@ from mrlab_ros.core.playback.states import State
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.time import time_from_message
 from mrlab_ros.ros.calls import NoAnswer
-from mrlab_ros.ros.graph import GraphClient
+from mrlab_ros.ros.graph import GraphClient, Request, Said
+
+if TYPE_CHECKING:
+    from message_bases import Service
 
 
 @dataclass(frozen=True)
@@ -257,7 +260,7 @@ class LabRobot:
         What it raises is printed, and the next joint state comes all the same.
         """
         # It loads numpy, which no other command of a robot needs.
-        from sensor_msgs.msg import JointState  # type: ignore[import-untyped]
+        from sensor_msgs.msg import JointState
 
         surviving_callback = surviving(callback)
 
@@ -285,7 +288,7 @@ class LabRobot:
     def _trigger(self, verb: str) -> str:
         return self._say(Trigger, verb, Trigger.Request())
 
-    def _say(self, kind: Any, verb: str, request: Any) -> str:
+    def _say(self, kind: type[Service[Request, Said]], verb: str, request: Request) -> str:
         """Call a service of the robot; raise Misuse, with its name, where it refuses."""
         answer = self._graph.call(kind, f"/{self.name}/{verb}", request)
         if answer.success:

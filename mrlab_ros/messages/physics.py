@@ -115,8 +115,13 @@ def collision_to_message(event: CollisionChanged, shifted_ns: int) -> msg.Collis
     )
 
 
+# Of a gripper that holds nothing.
+NO_LOAD = Load(mass=0.0, payload=0.0, friction=0.0, friction_needed=0.0, wrist_moment=0.0)
+
+
 def grasp_to_message(event: GraspChanged, fingers: list[str], shifted_ns: int) -> msg.Grasp:
     """fingers: the finger joints, in the order of the event's positions."""
+    load = event.load or NO_LOAD
     return msg.Grasp(
         header=make_header(event.stamp_ns + shifted_ns, f"{event.robot}/tool0"),
         state=event.state.value,
@@ -126,21 +131,13 @@ def grasp_to_message(event: GraspChanged, fingers: list[str], shifted_ns: int) -
         finger_forces=event.forces,
         **told(event.reason, "reason"),
         severity=event.reason.severity if event.reason else msg.Diagnostic.INFO,
-        **_load(event.load),
+        mass=load.mass,
+        payload=load.payload,
+        friction=load.friction,
+        friction_needed=load.friction_needed,
+        slip_margin=load.slip_margin,
+        wrist_moment=load.wrist_moment,
     )
-
-
-def _load(load: Load | None) -> dict[str, float]:
-    if load is None:
-        return {}
-    return {
-        "mass": load.mass,
-        "payload": load.payload,
-        "friction": load.friction,
-        "friction_needed": load.friction_needed,
-        "slip_margin": load.slip_margin,
-        "wrist_moment": load.wrist_moment,
-    }
 
 
 def fingers_to_message(now_ns: int, robot: str, positions: Mapping[str, float]) -> JointState:

@@ -9,7 +9,7 @@ from dataclasses import fields
 from typing import Any
 
 import numpy as np
-from mrlab_msgs import msg
+from mrlab_msgs import msg, srv
 from numpy.typing import NDArray
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, of_record
@@ -161,7 +161,7 @@ def preview_to_message(preview: Preview) -> msg.Preview:
     )
 
 
-def options_from_request(request: Any) -> Options:
+def options_from_request(request: srv.ConvertTrajectory.Request) -> Options:
     """Return what a request of ConvertTrajectory asks for."""
     return Options(**{field.name: getattr(request, field.name) for field in fields(Options)})
 
@@ -210,7 +210,7 @@ def candidate_from_message(message: msg.Candidate) -> Candidate:
     )
 
 
-def result_from_response(file: str, response: Any) -> ConversionResult:
+def result_from_response(file: str, response: srv.ConvertTrajectory.Response) -> ConversionResult:
     """Return what a response of ConvertTrajectory says of a file that was not taken."""
     return ConversionResult(
         file,

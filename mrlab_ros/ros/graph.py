@@ -7,12 +7,12 @@ import time
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Collection
 from types import TracebackType
-from typing import Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Generic, TypeVar
 
 from mrlab_msgs import msg, srv
 from rclpy.qos import QoSProfile
 
-from mrlab_ros.core.base.diagnostic import Fix, heard
+from mrlab_ros.core.base.diagnostic import Answer, Fix, heard
 from mrlab_ros.core.base.diagnostics import NO_ROBOT_IN_SCENE
 from mrlab_ros.core.base.errors import Misuse
 from mrlab_ros.core.base.names import close_to
@@ -20,7 +20,13 @@ from mrlab_ros.messages import qos
 from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.diagnostics import NO_LAB_ANSWERS, NOT_AS_AWAITED, NOTHING_CAME
 
+if TYPE_CHECKING:
+    from message_bases import Service
+
 T = TypeVar("T")
+Request = TypeVar("Request")
+Response = TypeVar("Response")
+Said = TypeVar("Said", bound=Answer)
 C = TypeVar("C", bound="GraphClient")
 # How long a command waits for the lab to be found, s: discovery takes up to 3 s.
 FIND_TIMEOUT_S = 6.0
@@ -84,28 +90,28 @@ class GraphClient(ABC):
 
     @abstractmethod
     def subscribe(
-        self, kind: Any, topic: str, callback: Callable[[Any], None], quality: QoSProfile
+        self, kind: type[T], topic: str, callback: Callable[[T], None], quality: QoSProfile
     ) -> None:
         """Call `callback` with every message of `topic`, in a thread of the client's own.
 
         quality: what is asked for; a topic that offers less is heard as it is offered.
         """
 
-    def watch(self, kind: Any, topic: str, quality: QoSProfile = qos.LATCHED) -> Watch[Any]:
+    def watch(self, kind: type[T], topic: str, quality: QoSProfile = qos.LATCHED) -> Watch[T]:
         """Follow `topic`, latched unless `quality` says otherwise."""
-        watch: Watch[Any] = Watch(topic)
+        watch: Watch[T] = Watch(topic)
         self.subscribe(kind, topic, watch.set, quality)
         return watch
 
     @abstractmethod
     def call(
         self,
-        kind: Any,
+        kind: type[Service[Request, Response]],
         service: str,
-        request: Any,
+        request: Request,
         timeout: float = CALL_TIMEOUT_S,
         find_timeout: float = FIND_TIMEOUT_S,
-    ) -> Any:
+    ) -> Response:
         """Return the service's answer, whatever it says; raise NoAnswer where none comes."""
 
     @abstractmethod
@@ -120,27 +126,33 @@ class GraphClient(ABC):
     def is_offered(self, service: str) -> bool:
         """Return whether `service` has a server, after waiting for discovery where need be."""
 
-    def kept(self, kind: Any, topic: str) -> list[tuple[float, Any]]:
+    def kept(self, kind: type[T], topic: str) -> list[tuple[float, T]]:
         """Return the age in s, and the message, of each that a prompt client gets no stream of."""
         return []
 
-    def order(self, kind: Any, service: str, request: Any, timeout: float = CALL_TIMEOUT_S) -> Any:
+    def order(
+        self,
+        kind: type[Service[Request, Said]],
+        service: str,
+        request: Request,
+        timeout: float = CALL_TIMEOUT_S,
+    ) -> Said:
         """Call a service and return its answer; raise Misuse with its message where it refuses."""
         answer = self.call(kind, service, request, timeout)
         if not answer.success:
             raise Misuse(heard(answer))
         return answer
 
-    def robots(self, timeout: float = FIND_TIMEOUT_S) -> list[Any]:
+    def robots(self, timeout: float = FIND_TIMEOUT_S) -> list[msg.Robot]:
         """Return the robots of the scene; raise NoAnswer where no lab publishes any."""
         watch = self.watch(msg.Robots, "/robots")
         try:
-            robots: list[Any] = watch.wait(lambda _: True, timeout).robots
+            robots = watch.wait(lambda _: True, timeout).robots
         except NoAnswer:
             raise NoAnswer(NO_LAB_ANSWERS(domain=self.domain, fixes=self.advice())) from None
         return robots
 
-    def robot(self, name: str) -> Any:
+    def robot(self, name: str) -> msg.Robot:
         """Return the robot called `name`; raise Misuse that names the others."""
         robots = self.robots()
         for robot in robots:
@@ -156,13 +168,12 @@ class GraphClient(ABC):
             )
         )
 
-    def catalogue(self) -> list[Any]:
+    def catalogue(self) -> list[msg.TrajectoryInfo]:
         """Return what there is to load; raise Misuse where the store does not say it."""
         answer = self.order(
             srv.ListTrajectories, "/converter/list_any", srv.ListTrajectories.Request()
         )
-        infos: list[Any] = answer.trajectories
-        return infos
+        return answer.trajectories
 
     def advice(self) -> tuple[Fix, ...]:
         """Return what to do where a part of the lab does not answer."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable, Collection
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import rclpy
 from rclpy.context import Context
@@ -29,7 +29,10 @@ from mrlab_ros.ros.calls import NoAnswer, call
 from mrlab_ros.ros.decoding import subscribe
 from mrlab_ros.ros.diagnostics import CLIENT_CLOSED, NOT_OFFERED
 from mrlab_ros.ros.environment import domain_id
-from mrlab_ros.ros.graph import CALL_TIMEOUT_S, FIND_TIMEOUT_S, GraphClient
+from mrlab_ros.ros.graph import CALL_TIMEOUT_S, FIND_TIMEOUT_S, GraphClient, Request, Response, T
+
+if TYPE_CHECKING:
+    from message_bases import Service
 
 OFFER_PERIOD_S = 0.05
 # How long closing waits for a callback that runs, s.
@@ -42,9 +45,9 @@ class _Ear:
     def __init__(
         self,
         node: Node,
-        kind: Any,
+        kind: type[T],
         topic: str,
-        callback: Callable[[Any], None],
+        callback: Callable[[T], None],
         quality: QoSProfile,
     ) -> None:
         self._node = node
@@ -120,19 +123,19 @@ class Graph(GraphClient):
         self._context.try_shutdown()
 
     def subscribe(
-        self, kind: Any, topic: str, callback: Callable[[Any], None], quality: QoSProfile
+        self, kind: type[T], topic: str, callback: Callable[[T], None], quality: QoSProfile
     ) -> None:
         self._check_open()
         _Ear(self.node, kind, topic, callback, quality)
 
     def call(
         self,
-        kind: Any,
+        kind: type[Service[Request, Response]],
         service: str,
-        request: Any,
+        request: Request,
         timeout: float = CALL_TIMEOUT_S,
         find_timeout: float = FIND_TIMEOUT_S,
-    ) -> Any:
+    ) -> Response:
         self._check_open()
         fitted(request)
         client = self._clients.get(service)
@@ -142,7 +145,8 @@ class Graph(GraphClient):
             )
         if not client.wait_for_service(timeout_sec=find_timeout):
             raise NoAnswer(NOT_OFFERED(service=service, domain=self.domain, fixes=self.advice()))
-        return call(client, request, timeout)
+        answer: Response = call(client, request, timeout)
+        return answer
 
     def _check_open(self) -> None:
         if self._closing.is_set():

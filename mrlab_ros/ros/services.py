@@ -11,7 +11,7 @@ import time
 from collections import defaultdict
 from collections.abc import Callable
 from concurrent.futures import CancelledError, Future
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
@@ -31,8 +31,15 @@ from mrlab_ros.ros.moves import moves
 from mrlab_ros.ros.worker import Worker
 
 if TYPE_CHECKING:
-    pass
+    from message_bases import Service as TypeOfService
 
+Request = TypeVar("Request")
+Response = TypeVar("Response")
+# A service, its request and its response are of any type here.
+ServiceType: TypeAlias = "type[TypeOfService[Any, Any]]"
+ServiceCallback: TypeAlias = Callable[[Any, Any], Any]
+DeferredCallback: TypeAlias = "Callable[[Any, Any], Future[Any]]"
+Send: TypeAlias = Callable[[Any], None]
 
 # A request that waited longer for its turn is refused, s. A caller over zenoh gives up after 5 s,
 # and an order to a host of playbacks takes up to 2 s.
@@ -54,18 +61,19 @@ class Turns:
         # By name of the service.
         self._waiting: defaultdict[str, set[Future[Any]]] = defaultdict(set)
 
-    def offer(self, kind: Any, name: str, action: Callable[[Any, Any], Diagnostic]) -> Service:
+    def offer(self, kind: ServiceType, name: str, action: ServiceCallback) -> Service:
         """Create a service whose `action(request, response)` returns what to say."""
         may_be_late = not moves(self._node.resolve_service_name(name), kind)
 
         @answered
-        def in_turn(_: Node, call: tuple[Any, float], response: Any) -> Diagnostic:
+        def in_turn(_: Node, call: tuple[Request, float], response: Response) -> Diagnostic:
             request, came = call
             if not may_be_late:
                 _refuse_overdue(time.monotonic() - came)
-            return action(request, response)
+            said: Diagnostic = action(request, response)
+            return said
 
-        def begin(request: Any, response: Any) -> Future[Any]:
+        def begin(request: Request, response: Response) -> Future[Response]:
             call = request, time.monotonic()
             future = self._worker.later(lambda: in_turn(self._node, call, response))
             waiting = self._waiting[service.srv_name]
@@ -94,9 +102,6 @@ def _refuse_overdue(waited_s: float) -> None:
         raise Misuse(WAITED_TOO_LONG(waited=waited_s))
 
 
-Response = TypeVar("Response")
-
-
 def answered(callback: Callable[..., Diagnostic | str | None]) -> Callable[..., Any]:
     """Wrap `callback(self, request, response) -> what to say` as a rclpy service callback.
 
@@ -104,7 +109,7 @@ def answered(callback: Callable[..., Diagnostic | str | None]) -> Callable[..., 
     """
 
     @functools.wraps(callback)
-    def wrapped(self: Any, request: Any, response: Response) -> Response:
+    def wrapped(self: Node, request: object, response: Response) -> Response:
         try:
             tell(response, True, callback(self, request, response))
         except LabError as error:
@@ -144,9 +149,9 @@ def end_service(node: Node, service: Any, why: Diagnostic) -> None:
 
 def create_service(
     node: Node,
-    kind: Any,
+    kind: ServiceType,
     name: str,
-    callback: Callable[[Any, Any], Any],
+    callback: ServiceCallback,
     halts: Callable[[Any], bool] = lambda request: False,
 ) -> Service:
     """Create a service whose `callback(request, response)` returns the response.
@@ -157,14 +162,14 @@ def create_service(
     says so.
     """
 
-    def work(request: Any, response: Any, send: Callable[[Any], None]) -> None:
+    def work(request: Request, response: Response, send: Send) -> None:
         send(callback(request, response))
 
     return _offer(node, kind, name, work, halts)
 
 
 def create_deferred_service(
-    node: Node, kind: Any, name: str, begin: Callable[[Any, Any], Future[Any]], **options: Any
+    node: Node, kind: ServiceType, name: str, begin: DeferredCallback, **options: Any
 ) -> Service:
     """Create a service whose `begin(request, response)` returns a future of the response.
 
@@ -174,8 +179,8 @@ def create_deferred_service(
     callbacks of its thread. Late requests are refused as by create_service().
     """
 
-    def work(request: Any, response: Any, send: Callable[[Any], None]) -> None:
-        def forward(done: Future[Any]) -> None:
+    def work(request: Request, response: Response, send: Send) -> None:
+        def forward(done: Future[Response]) -> None:
             try:
                 answer = done.result()
             except CancelledError:
@@ -193,9 +198,9 @@ def create_deferred_service(
 
 def _offer(
     node: Node,
-    kind: Any,
+    kind: ServiceType,
     name: str,
-    work: Callable[[Any, Any, Callable[[Any], None]], None],
+    work: Callable[[Any, Any, Send], None],
     halts: Callable[[Any], bool],
     **options: Any,
 ) -> Service:

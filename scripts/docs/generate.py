@@ -15,6 +15,7 @@ sys.path.append(str(Path(__file__).resolve().parents[1] / "protocol"))
 import design_tokens
 import diagnostics_page
 import licences_page
+import message_stubs
 import parameters_page
 import playback_vectors
 import protocol_page
@@ -60,7 +61,11 @@ FILES: dict[str, Callable[[], str]] = {
     "web/test/playback/vectors.json": playback_vectors.current,
     "config/zenoh/roles.json5": lambda: roles_page.current(ROOT),
     protocol_vectors.FILE: lambda: protocol_vectors.current(ROOT),
-    **{path: partial(str, content) for path, content in typescript_protocol.files(ROOT).items()},
+    **{
+        path: partial(str, content)
+        for module in (typescript_protocol, message_stubs)
+        for path, content in module.files(ROOT).items()
+    },
 }
 
 
@@ -94,6 +99,7 @@ def main() -> int:
         if not path.is_file() or path.read_text() != text:
             stale.append(page)
             if not check:
+                path.parent.mkdir(parents=True, exist_ok=True)
                 path.write_text(text)
     if check and stale:
         print(f"out of date: {', '.join(stale)}; run make docs")

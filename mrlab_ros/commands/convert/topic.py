@@ -9,7 +9,7 @@ from collections.abc import Callable
 from rclpy.exceptions import InvalidTopicNameException
 from rclpy.qos import qos_profile_best_available
 from rclpy.validate_full_topic_name import validate_full_topic_name
-from trajectory_msgs.msg import JointTrajectory  # type: ignore[import-untyped]
+from trajectory_msgs.msg import JointTrajectory
 
 from mrlab_ros.commands.convert.diagnostics import (
     NO_MESSAGE,

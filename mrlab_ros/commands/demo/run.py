@@ -204,8 +204,8 @@ class Run:
             srv.CreateSystem, "/coordinator/create_system", create, timeout=RUN_TIMEOUT_S
         )
         self._say("load", answer.message)
-        answer = graph.order(Trigger, f"/{SYSTEM}/play", Trigger.Request(), timeout=RUN_TIMEOUT_S)
-        self._say("play", answer.message)
+        played = graph.order(Trigger, f"/{SYSTEM}/play", Trigger.Request(), timeout=RUN_TIMEOUT_S)
+        self._say("play", played.message)
         longest = max(trajectory.info.duration for trajectory in trajectories)
         deadline = time.monotonic() + longest + RUN_TIMEOUT_S
         course = SystemCourse(systems)

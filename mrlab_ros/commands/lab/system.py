@@ -19,8 +19,11 @@ from mrlab_ros.core.playback.diagnostics import MEMBER_OF_SYSTEM, PLAYED_TO_END
 from mrlab_ros.core.systems.diagnostics import NO_SYSTEM
 
 if TYPE_CHECKING:
+    from message_bases import Service
+    from mrlab_msgs import msg
+
     from mrlab_ros.core.systems.cell_file import MemberEntry, SystemEntry
-    from mrlab_ros.ros.graph import GraphClient
+    from mrlab_ros.ros.graph import GraphClient, Request, Said
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -171,10 +174,10 @@ def play(
 
     with open_graph() as graph:
         _system(graph, name)
-        seen: list[Any] = []
+        seen: list[msg.RobotSystem] = []
         watch = graph.watch(msg.RobotSystems, "/systems", qos.LATCHED_EVENTS)
 
-        def note(message: Any) -> bool:
+        def note(message: msg.RobotSystems) -> bool:
             state = next((s for s in message.systems if s.name == name), None)
             if state is None:
                 # The latched messages go back to before it was made; gone is what was there.
@@ -309,7 +312,9 @@ def dissolve(name: Name, as_json: AsJson = False) -> None:
     say(heard(answer), as_json=as_json, system=name)
 
 
-def _order(name: str, service: str, kind: Any, request: Any, *, as_json: bool) -> None:
+def _order(
+    name: str, service: str, kind: type[Service[Request, Said]], request: Request, *, as_json: bool
+) -> None:
     from mrlab_ros.client.connect import open_graph
 
     with open_graph() as graph:
@@ -318,7 +323,7 @@ def _order(name: str, service: str, kind: Any, request: Any, *, as_json: bool) -
     say(heard(answer), as_json=as_json, system=name)
 
 
-def _systems(graph: GraphClient, name: str = "") -> list[Any]:
+def _systems(graph: GraphClient, name: str = "") -> list[msg.RobotSystem]:
     """Return the systems as last published, or as soon as one called `name` is among them.
 
     The latched messages come oldest first, one soon after the other.
@@ -336,7 +341,7 @@ def _systems(graph: GraphClient, name: str = "") -> list[Any]:
     return list(watch.value.systems)
 
 
-def _system(graph: GraphClient, name: str) -> Any:
+def _system(graph: GraphClient, name: str) -> msg.RobotSystem:
     systems = _systems(graph, name)
     for system in systems:
         if system.name == name:
@@ -347,13 +352,13 @@ def _system(graph: GraphClient, name: str) -> Any:
     raise Misuse(NO_SYSTEM(system=name, known=known, close=close, fixes=fixes))
 
 
-def _mode(system: Any) -> str:
+def _mode(system: msg.RobotSystem) -> str:
     from mrlab_ros.core.systems.timeline import Mode
 
     return Mode(system.mode).name.lower()
 
 
-def _document(system: Any) -> dict[str, Any]:
+def _document(system: msg.RobotSystem) -> dict[str, Any]:
     return {
         "name": system.name,
         "state": system.label,

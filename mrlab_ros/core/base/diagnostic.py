@@ -15,11 +15,11 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import IntEnum
 from math import isfinite
-from typing import Any
+from typing import Any, Protocol
 
 from mrlab_ros.core.base.foreign_text import visible
 from mrlab_ros.core.base.phrase import Phrase, Value, phrase
@@ -329,7 +329,31 @@ def of_record(record: Any) -> Diagnostic:
     )
 
 
-def heard(answer: Any) -> Diagnostic:
+class NamedText(Protocol):
+    """A value of a diagnostic in a message, such as diagnostic_msgs/KeyValue."""
+
+    key: str
+    value: str
+
+
+class Said(Protocol):
+    """The fields of a message or a response that hold a diagnostic."""
+
+    message: str
+    code: str
+
+    @property
+    def values(self) -> Sequence[NamedText]:
+        """Return the values of the text."""
+
+
+class Answer(Said, Protocol):
+    """The response of a service."""
+
+    success: bool
+
+
+def heard(answer: Said) -> Diagnostic:
     """Return what a response or a state said; the texts of its values stay texts."""
     if not answer.code:
         return of_text(answer.message)

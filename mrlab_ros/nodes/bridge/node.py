@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import yaml
-from diagnostic_msgs.msg import DiagnosticArray  # type: ignore[import-untyped]
+from diagnostic_msgs.msg import DiagnosticArray
 from mrlab_msgs.msg import Latency, Robots, RobotSystems
 
 from mrlab_ros.adapters import share

@@ -104,7 +104,13 @@ class TrajectoryServices:
         if self._problem is not None:
             raise StoreFailure(self._problem.diagnostic)
 
-    def get(self, request: Any, response: Any, *, private: bool = False) -> None:
+    def get(
+        self,
+        request: srv.GetTrajectory.Request,
+        response: srv.GetTrajectory.Response,
+        *,
+        private: bool = False,
+    ) -> None:
         self.check_ready()
         record, version = self._find(request.id, private=private)
         with self._damage(record, version):
@@ -117,10 +123,18 @@ class TrajectoryServices:
             response.file = str(self.files.path(version))
         response.success = True
 
-    def get_any(self, request: Any, response: Any) -> None:
+    def get_any(
+        self, request: srv.GetTrajectory.Request, response: srv.GetTrajectory.Response
+    ) -> None:
         self.get(request, response, private=True)
 
-    def list_fitting(self, request: Any, response: Any, *, private: bool = False) -> None:
+    def list_fitting(
+        self,
+        request: srv.ListTrajectories.Request,
+        response: srv.ListTrajectories.Response,
+        *,
+        private: bool = False,
+    ) -> None:
         self.check_ready()
         fitting = [
             record
@@ -136,16 +150,20 @@ class TrajectoryServices:
         response.total = len(fitting)
         response.success = True
 
-    def list_any_fitting(self, request: Any, response: Any) -> None:
+    def list_any_fitting(
+        self, request: srv.ListTrajectories.Request, response: srv.ListTrajectories.Response
+    ) -> None:
         self.list_fitting(request, response, private=True)
 
-    def delete(self, request: Any, response: Any) -> None:
+    def delete(self, request: srv.Remove.Request, response: srv.Remove.Response) -> None:
         self.check_ready()
         self.catalogue.delete(request.name)
         self.announce()
         tell(response, True, TRAJECTORY_DELETED(id=request.name))
 
-    def publish(self, request: Any, response: Any) -> None:
+    def publish(
+        self, request: srv.PublishTrajectory.Request, response: srv.PublishTrajectory.Response
+    ) -> None:
         self.check_ready()
         user = keys.owner_of(request.draft, keys.DRAFT)
         if request.owner and keys.segment(request.owner) != user:
@@ -156,7 +174,9 @@ class TrajectoryServices:
         response.trajectory = info_from_head(head_of(record, version))
         tell(response, True, TRAJECTORY_PUBLISHED(id=record.id, version=version.number))
 
-    def share(self, request: Any, response: Any) -> None:
+    def share(
+        self, request: srv.ShareTrajectory.Request, response: srv.ShareTrajectory.Response
+    ) -> None:
         self.check_ready()
         record = self.catalogue.share(request.id, request.shared)
         self.announce()
@@ -165,7 +185,9 @@ class TrajectoryServices:
             said = TRAJECTORY_HIDDEN(id=record.id, owner=record.owner)
         tell(response, True, said)
 
-    def restore(self, request: Any, response: Any) -> None:
+    def restore(
+        self, request: srv.RestoreTrajectory.Request, response: srv.RestoreTrajectory.Response
+    ) -> None:
         self.check_ready()
         record = self.catalogue.restore(request.id, request.version)
         self.announce()
@@ -290,9 +312,11 @@ class TrajectoryServices:
         known = self._infos.get(record.id)
         if known is None or known[0] is not record:
             head = head_of(record, record.newest)
-            short = info_from_head(head | {"warnings": []})
-            known = self._infos[record.id] = record, info_from_head(head), short
-        return known[2 if short_one else 1]
+            bare = head | {"warnings": []}
+            known = record, info_from_head(head), info_from_head(bare)
+            self._infos[record.id] = known
+        _, whole, short = known
+        return short if short_one else whole
 
     def _publish_catalogue(self) -> None:
         if self._closed.is_set():

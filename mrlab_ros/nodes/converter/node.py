@@ -47,7 +47,12 @@ from mrlab_ros.nodes.parameters import ConverterParameters
 from mrlab_ros.ros.clock import every
 from mrlab_ros.ros.diagnostics import FAULT
 from mrlab_ros.ros.parameters import NodeArguments, ParameterNode
-from mrlab_ros.ros.services import create_deferred_service
+from mrlab_ros.ros.services import (
+    DeferredCallback,
+    Response,
+    ServiceCallback,
+    create_deferred_service,
+)
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -129,13 +134,13 @@ class ConverterNode(
     def _serve(self, kind: Any, name: str, begin: Callable[[Any, Any], Future[Any]]) -> None:
         create_deferred_service(self, kind, name, begin, callback_group=self._group)
 
-    def _on_threads(self, answer: Callable[[Any, Any], None]) -> Callable[[Any, Any], Future[Any]]:
+    def _on_threads(self, answer: ServiceCallback) -> DeferredCallback:
         """Return a callback that runs `answer` on one of the catalogue's threads."""
         return lambda request, response: self._reads.submit(
             self._answered, lambda: answer(request, response), response
         )
 
-    def _answered(self, answer: Callable[[], None], response: Any) -> Any:
+    def _answered(self, answer: Callable[[], None], response: Response) -> Response:
         try:
             answer()
         except Exception as error:
@@ -147,9 +152,11 @@ class ConverterNode(
             tell(response, False, why)
         return response
 
-    def _begin_conversion(self, request: Any, response: Any) -> Future[Any]:
+    def _begin_conversion(
+        self, request: srv.ConvertTrajectory.Request, response: srv.ConvertTrajectory.Response
+    ) -> Future[Any]:
         """Queue a conversion; the future has its answer, whatever becomes of it."""
-        answered: Future[Any] = Future()
+        answered: Future[srv.ConvertTrajectory.Response] = Future()
 
         def finish(done: Future[Converted]) -> None:
             if done.cancelled():
@@ -172,7 +179,7 @@ class ConverterNode(
             answered.set_result(response)
         return answered
 
-    def _task(self, request: Any) -> Task:
+    def _task(self, request: srv.ConvertTrajectory.Request) -> Task:
         known = self._library.end_effectors()
         if request.end_effector and request.end_effector not in known:
             close = close_to(request.end_effector, known)
@@ -201,7 +208,11 @@ class ConverterNode(
         )
 
     def _convert(
-        self, task: Task, request: Any, data: memoryview | None, reader: WorkspaceReader
+        self,
+        task: Task,
+        request: srv.ConvertTrajectory.Request,
+        data: memoryview | None,
+        reader: WorkspaceReader,
     ) -> Converted:
         """Convert in the sandbox; put an accepted trajectory into the store."""
         try:
@@ -221,7 +232,9 @@ class ConverterNode(
             raise BadInput(failed_here(task.file, error, str(self._work))) from None
 
     @contextlib.contextmanager
-    def _opened(self, task: Task, request: Any, data: memoryview | None) -> Iterator[int]:
+    def _opened(
+        self, task: Task, request: srv.ConvertTrajectory.Request, data: memoryview | None
+    ) -> Iterator[int]:
         """Yield the descriptor of the file that a request names or holds."""
         if data is not None:
             with in_memory(data) as source:
@@ -240,7 +253,9 @@ class ConverterNode(
             fetched.flush()
             yield fetched.fileno()
 
-    def _keep(self, head: dict[str, Any], file: Any, request: Any) -> dict[str, Any]:
+    def _keep(
+        self, head: dict[str, Any], file: Any, request: srv.ConvertTrajectory.Request
+    ) -> dict[str, Any]:
         """Leave a trajectory as a draft, or put it into the catalogue; return its head there."""
         if request.draft:
             self._store.put_file(request.draft, file)
@@ -251,7 +266,9 @@ class ConverterNode(
         )
         return head_of(record, version)
 
-    def _answer(self, done: Future[Converted], task: Task, response: Any) -> None:
+    def _answer(
+        self, done: Future[Converted], task: Task, response: srv.ConvertTrajectory.Response
+    ) -> None:
         try:
             converted = done.result()
         except TooSlow as error:

@@ -116,7 +116,9 @@ class CoordinatorNode(
 
     # services -------------------------------------------------------------------------------
 
-    def _create(self, request: Any, response: Any) -> Diagnostic:
+    def _create(
+        self, request: srv.CreateSystem.Request, response: srv.CreateSystem.Response
+    ) -> Diagnostic:
         mode = _mode(request.mode)
         try:
             policy = Policy(request.policy)
@@ -143,7 +145,7 @@ class CoordinatorNode(
             system=name, robots=robots, duration=system.duration, mode=mode.name.lower()
         )
 
-    def _dissolve(self, request: Any, response: Any) -> Diagnostic:
+    def _dissolve(self, request: srv.Remove.Request, response: srv.Remove.Response) -> Diagnostic:
         return self._do_dissolve(request.name, "dissolved")
 
     def _adopt(
@@ -171,7 +173,7 @@ class CoordinatorNode(
     def _callback(
         self, name: str, action: Callable[[RobotSystem, Any], Diagnostic]
     ) -> Callable[[Any, Any], Diagnostic]:
-        def callback(request: Any, response: Any) -> Diagnostic:
+        def callback(request: object, response: object) -> Diagnostic:
             try:
                 return action(self._systems.get(name), request)
             finally:
@@ -199,37 +201,37 @@ class CoordinatorNode(
             self.get_logger().info(f"system {name}: {why}")
         return say.DISSOLVED(system=name)
 
-    def _play(self, system: RobotSystem, request: Any) -> Diagnostic:
+    def _play(self, system: RobotSystem, request: Trigger.Request) -> Diagnostic:
         staging = system.play(self._now_ns())
         return say.STAGES(duration=staging) if staging else playback.PLAYS()
 
-    def _pause(self, system: RobotSystem, request: Any) -> Diagnostic:
+    def _pause(self, system: RobotSystem, request: Trigger.Request) -> Diagnostic:
         return system.pause(self._now_ns())
 
-    def _stop(self, system: RobotSystem, request: Any) -> Diagnostic:
+    def _stop(self, system: RobotSystem, request: Trigger.Request) -> Diagnostic:
         system.stop(self._now_ns())
         if system.state is SystemState.STOPPING and system.message is not None:
             raise NoAnswer(system.message)
         return playback.STOPPED()
 
-    def _seek(self, system: RobotSystem, request: Any) -> Diagnostic:
+    def _seek(self, system: RobotSystem, request: srv.Seek.Request) -> Diagnostic:
         system.seek(self._now_ns(), request.position)
         return playback.AT_POSITION(position=request.position)
 
-    def _step(self, system: RobotSystem, request: Any) -> Diagnostic:
+    def _step(self, system: RobotSystem, request: srv.Step.Request) -> Diagnostic:
         position = system.step(self._now_ns(), request.frames)
         return playback.AT_POSITION(position=position)
 
-    def _set_rate(self, system: RobotSystem, request: Any) -> Diagnostic:
+    def _set_rate(self, system: RobotSystem, request: srv.SetRate.Request) -> Diagnostic:
         system.set_rate(self._now_ns(), request.rate)
         return playback.RATE_SET(rate=request.rate)
 
-    def _set_mode(self, system: RobotSystem, request: Any) -> Diagnostic:
+    def _set_mode(self, system: RobotSystem, request: srv.SetMode.Request) -> Diagnostic:
         mode = _mode(request.mode)
         system.set_mode(mode)
         return say.MODE_SET(mode=mode.name.lower(), duration=system.duration)
 
-    def _set_loop(self, system: RobotSystem, request: Any) -> Diagnostic:
+    def _set_loop(self, system: RobotSystem, request: SetLoop.Request) -> Diagnostic:
         system.loop = request.loop
         return playback.LOOPS() if request.loop else playback.PLAYS_ONCE()
 

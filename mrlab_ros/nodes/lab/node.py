@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from mrlab_msgs import msg, srv
 from rclpy.publisher import Publisher
@@ -243,7 +243,9 @@ class LabNode(ParameterNode[LabParameters], name="lab", kind=LabParameters, othe
     # services ---------------------------------------------------------------------------------
 
     @answered
-    def _on_spawn(self, request: Any, response: Any) -> Diagnostic:
+    def _on_spawn(
+        self, request: srv.SpawnRobot.Request, response: srv.SpawnRobot.Response
+    ) -> Diagnostic:
         if request.automatic:
             pose = self._automatic_pose(request)
         else:
@@ -254,21 +256,25 @@ class LabNode(ParameterNode[LabParameters], name="lab", kind=LabParameters, othe
         response.robot = robot_to_message(robot)
         return ROBOT_SPAWNED(robot=robot.name, place=[*robot.pose.position])
 
-    def _automatic_pose(self, request: Any) -> Pose:
+    def _automatic_pose(self, request: srv.SpawnRobot.Request) -> Pose:
         reach = self._library.model(request.model).reach
         viewer = pose_from_message(request.viewer) if request.has_viewer else None
         seen = self._observer
         return self._scene.free_pose_on(reach, request.surface, viewer, seen.supports, seen.things)
 
     @answered
-    def _on_place(self, request: Any, response: Any) -> Diagnostic:
+    def _on_place(
+        self, request: srv.PlaceRobot.Request, response: srv.PlaceRobot.Response
+    ) -> Diagnostic:
         self._file.check_room()
         self._scene.place(request.robot, pose_from_message(request.pose))
         self._announce()
         return ROBOT_PLACED(robot=request.robot)
 
     @answered
-    def _on_end_effector(self, request: Any, response: Any) -> Diagnostic:
+    def _on_end_effector(
+        self, request: srv.SetEndEffector.Request, response: srv.SetEndEffector.Response
+    ) -> Diagnostic:
         robot = self._scene.robot(request.robot)
         end_effector = request.end_effector or None
         description = self._library.description(robot.model, end_effector)
@@ -281,20 +287,26 @@ class LabNode(ParameterNode[LabParameters], name="lab", kind=LabParameters, othe
         return END_EFFECTOR_SET(robot=robot.name, end_effector=end_effector)
 
     @answered
-    def _on_remove(self, request: Any, response: Any) -> Diagnostic:
+    def _on_remove(self, request: srv.Remove.Request, response: srv.Remove.Response) -> Diagnostic:
         self.remove([request.name])
         return ROBOT_REMOVED(robot=request.name)
 
     @answered
-    def _on_save_scene(self, request: Any, response: Any) -> Diagnostic:
+    def _on_save_scene(
+        self, request: srv.SceneFile.Request, response: srv.SceneFile.Response
+    ) -> Diagnostic:
         return self._scenes.save(request.name)
 
     @answered
-    def _on_load_scene(self, request: Any, response: Any) -> Diagnostic:
+    def _on_load_scene(
+        self, request: srv.SceneFile.Request, response: srv.SceneFile.Response
+    ) -> Diagnostic:
         self._file.check_room()
         self._return.finish()
         return self._scenes.load(request.name, [robot.name for robot in self._scene.robots])
 
-    def _on_list_scenes(self, request: Any, response: Any) -> Any:
-        response.scenes = self._scenes.names()
+    def _on_list_scenes(
+        self, request: srv.ListScenes.Request, response: srv.ListScenes.Response
+    ) -> srv.ListScenes.Response:
+        response.scenes = list(self._scenes.names())
         return response

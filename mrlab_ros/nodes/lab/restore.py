@@ -6,7 +6,7 @@ import threading
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from mrlab_msgs import msg, srv
 from mrlab_msgs.srv import SetLoop
@@ -43,6 +43,10 @@ from mrlab_ros.nodes.lab.diagnostics import (
 from mrlab_ros.nodes.lab.observer import Observer
 from mrlab_ros.ros.calls import NoAnswer, call
 from mrlab_ros.ros.decoding import subscribe
+from mrlab_ros.ros.graph import Request, Said
+
+if TYPE_CHECKING:
+    from message_bases import Service
 
 # A change reaches the other nodes after this, s, or something is wrong.
 ARRIVAL_TIMEOUT_S = 10.0
@@ -96,11 +100,11 @@ class LabRestore:
             case AwaitGrasps(objects):
                 self._await_grasps({thing.name: thing.held_by for thing in objects})
 
-    def order(self, kind: Any, service: str, request: Any) -> Any:
+    def order(self, kind: type[Service[Request, Said]], service: str, request: Request) -> Said:
         """Call a service; return its answer, raise Misuse where it refuses."""
         client: Client = self._caller.create_client(kind, service, qos_profile=qos.SERVICES)
         try:
-            answer = call(client, request, LOAD_TIMEOUT_S)
+            answer: Said = call(client, request, LOAD_TIMEOUT_S)
         finally:
             self._caller.destroy_client(client)
         if not answer.success:

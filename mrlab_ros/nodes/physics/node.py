@@ -7,7 +7,7 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from mrlab_msgs import srv
 from mrlab_msgs.srv import Trigger
@@ -171,7 +171,9 @@ class PhysicsNode(
     # services -------------------------------------------------------------------------------
 
     @answered
-    def _on_spawn(self, request: Any, response: Any) -> Diagnostic:
+    def _on_spawn(
+        self, request: srv.SpawnObject.Request, response: srv.SpawnObject.Response
+    ) -> Diagnostic:
         pose = pose_from_message(request.pose)
         with self._lock:
             thing = self._world.spawn(
@@ -182,7 +184,9 @@ class PhysicsNode(
         return OBJECT_SPAWNED(object=thing.name, place=[*motion.pose.position])
 
     @answered
-    def _on_move(self, request: Any, response: Any) -> Diagnostic:
+    def _on_move(
+        self, request: srv.MoveObject.Request, response: srv.MoveObject.Response
+    ) -> Diagnostic:
         with self._lock:
             self._world.move(
                 request.name,
@@ -194,41 +198,47 @@ class PhysicsNode(
         return OBJECT_MOVED(object=request.name, state="held" if request.held else "released")
 
     @answered
-    def _on_remove(self, request: Any, response: Any) -> Diagnostic:
+    def _on_remove(self, request: srv.Remove.Request, response: srv.Remove.Response) -> Diagnostic:
         with self._lock:
             self._world.remove(request.name)
         return OBJECT_REMOVED(object=request.name)
 
     @answered
-    def _on_clear(self, request: Any, response: Any) -> Diagnostic:
+    def _on_clear(self, request: Trigger.Request, response: Trigger.Response) -> Diagnostic:
         with self._lock:
             return OBJECTS_REMOVED(count=self._world.clear())
 
-    def _on_list(self, request: Any, response: Any) -> Any:
+    def _on_list(
+        self, request: srv.ListCatalogue.Request, response: srv.ListCatalogue.Response
+    ) -> srv.ListCatalogue.Response:
         response.types = [messages.type_to_message(self._types.get(i)) for i in self._types.ids]
         response.limit = self._settings.max_objects
         return response
 
     @answered
-    def _on_surfaces(self, request: Any, response: Any) -> Diagnostic:
+    def _on_surfaces(
+        self, request: srv.SetSurfaces.Request, response: srv.SetSurfaces.Response
+    ) -> Diagnostic:
         surfaces = [messages.surface_from_message(s) for s in request.surfaces]
         with self._lock:
             inside = self._world.set_surfaces(surfaces, request.source)
         return SURFACES_SET(count=self._publish_surfaces(), inside=[*inside])
 
     @answered
-    def _on_attach(self, request: Any, response: Any) -> Diagnostic:
+    def _on_attach(self, request: srv.Attach.Request, response: srv.Attach.Response) -> Diagnostic:
         with self._lock:
             self._world.attach(request.robot, request.object)
         return OBJECT_ATTACHED(robot=request.robot, object=request.object)
 
     @answered
-    def _on_detach(self, request: Any, response: Any) -> Diagnostic:
+    def _on_detach(self, request: srv.Detach.Request, response: srv.Detach.Response) -> Diagnostic:
         with self._lock:
             held = self._world.detach(request.robot)
         return OBJECT_DETACHED(robot=request.robot, object=held)
 
-    def _on_get(self, request: Any, response: Any) -> Any:
+    def _on_get(
+        self, request: srv.GetObjects.Request, response: srv.GetObjects.Response
+    ) -> srv.GetObjects.Response:
         with self._lock:
             scene = self._contents.document()
         response.objects = [placement_to_message(thing) for thing in scene.objects]
@@ -236,7 +246,9 @@ class PhysicsNode(
         return response
 
     @answered
-    def _on_set(self, request: Any, response: Any) -> Diagnostic:
+    def _on_set(
+        self, request: srv.SetObjects.Request, response: srv.SetObjects.Response
+    ) -> Diagnostic:
         objects = placements_from_messages(request.objects)
         surfaces = [messages.surface_from_message(s) for s in request.surfaces]
         if request.dry_run:

@@ -106,14 +106,14 @@ class WorldPublishers:
             self._removed.publish(messages.removed_to_message(event, shifted_ns))
         elif isinstance(event, CollisionChanged):
             if event.robot in self._collisions:
-                said = messages.collision_to_message(event, shifted_ns)
-                self._collisions[event.robot].publish(said)
+                collision = messages.collision_to_message(event, shifted_ns)
+                self._collisions[event.robot].publish(collision)
         elif isinstance(event, LoadChanged):
             self._publish_event(event.grasp)
         elif event.robot in self._grasps and event.robot in self._world.robots:
             fingers = [finger.joint for finger in self._world.robot(event.robot).arm.fingers]
-            said = messages.grasp_to_message(event, fingers, shifted_ns)
-            self._grasps[event.robot].publish(said)
+            grasp = messages.grasp_to_message(event, fingers, shifted_ns)
+            self._grasps[event.robot].publish(grasp)
 
     def _publish_fingers(self, now_ns: int) -> None:
         """Publish the fingers of each gripper where they moved; else once a second."""

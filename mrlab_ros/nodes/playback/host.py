@@ -182,16 +182,16 @@ class PlaybackHostNode(
         for robot, node in list(self.nodes.items()):
             if robot not in wanted or wanted[robot].model != node.model.id:
                 self._remove(robot)
-        for robot in wanted.values():
-            if robot.name not in self.nodes:
+        for name, entry in wanted.items():
+            if name not in self.nodes:
                 try:
-                    self._add(robot)
+                    self._add(entry)
                 except LabError as error:
-                    self.get_logger().error(f"{robot.name} has no playback: {error}")
+                    self.get_logger().error(f"{name} has no playback: {error}")
                 continue
-            node = self.nodes[robot.name]
+            node = self.nodes[name]
             with self.scheduler.command(node.player):
-                node.playback.end_effector = robot.end_effector
+                node.playback.end_effector = entry.end_effector
         for name in [name for name in self._kept if name in self.nodes]:
             del self._kept[name]
             self.nodes[name].come_back(self._came_back)
@@ -307,7 +307,9 @@ class PlaybackHostNode(
         node.close()
 
     @answered
-    def _command_members(self, request: Any, response: Any) -> None:
+    def _command_members(
+        self, request: srv.CommandMembers.Request, response: srv.CommandMembers.Response
+    ) -> None:
         with self.scheduler.command() as now_ns:
             response.stamp = time_to_message(self.scheduler.clock.stamp(now_ns))
             for order in request.orders:

@@ -288,9 +288,11 @@ class PlaybackNode(Node):
         stamp_ns = self._scheduler.clock.stamp(now_ns)
         self._targets.publish(targets_to_message(stamp_ns, self.robot, trajectory, tool0))
 
-    def _begin_load(self, request: Any, response: Any) -> Future[Any]:
+    def _begin_load(
+        self, request: srv.LoadTrajectory.Request, response: srv.LoadTrajectory.Response
+    ) -> Future[Any]:
         """Load in the robot's own thread for that: no halt, pause or stop waits for files."""
-        answer: Future[Any] = Future()
+        answer: Future[srv.LoadTrajectory.Response] = Future()
         self._loading.add(answer)
         answer.add_done_callback(self._loading.discard)
 
@@ -304,7 +306,9 @@ class PlaybackNode(Node):
         return answer
 
     @answered
-    def _load(self, request: Any, response: Any) -> Diagnostic | None:
+    def _load(
+        self, request: srv.LoadTrajectory.Request, response: srv.LoadTrajectory.Response
+    ) -> Diagnostic | None:
         trajectory = self._fetch(request.id) if request.id else None
         if self._loads.ended:
             raise Misuse(say.ROBOT_GONE(robot=self.robot))
@@ -319,43 +323,47 @@ class PlaybackNode(Node):
         return done
 
     @answered
-    def _play(self, request: Any, response: Any) -> Diagnostic:
+    def _play(self, request: Trigger.Request, response: Trigger.Response) -> Diagnostic:
         with self._command() as now_ns:
             self.playback.play(now_ns)
             return self.playback.status().message or say.PLAYS()
 
     @answered
-    def _pause(self, request: Any, response: Any) -> Diagnostic | None:
+    def _pause(self, request: Trigger.Request, response: Trigger.Response) -> Diagnostic | None:
         with self._command() as now_ns:
             self.playback.pause(now_ns)
             return self.playback.status().message
 
     @answered
-    def _stop(self, request: Any, response: Any) -> Diagnostic | None:
+    def _stop(self, request: Trigger.Request, response: Trigger.Response) -> Diagnostic | None:
         with self._command() as now_ns:
             self.playback.stop(now_ns)
             return self.playback.status().message
 
     @answered
-    def _seek(self, request: Any, response: Any) -> Diagnostic:
+    def _seek(self, request: srv.Seek.Request, response: srv.Seek.Response) -> Diagnostic:
         with self._command() as now_ns:
             self.playback.seek(now_ns, request.position)
         return say.AT_POSITION(position=request.position)
 
     @answered
-    def _set_rate(self, request: Any, response: Any) -> Diagnostic | None:
+    def _set_rate(
+        self, request: srv.SetRate.Request, response: srv.SetRate.Response
+    ) -> Diagnostic | None:
         with self._command() as now_ns:
             self.playback.set_rate(now_ns, request.rate)
             return self.playback.status().message
 
     @answered
-    def _set_loop(self, request: Any, response: Any) -> Diagnostic | None:
+    def _set_loop(self, request: SetLoop.Request, response: SetLoop.Response) -> Diagnostic | None:
         with self._command():
             self.playback.set_loop(request.loop)
             return self.playback.status().message
 
     @answered
-    def _clear_halt(self, request: Any, response: Any) -> Diagnostic | None:
+    def _clear_halt(
+        self, request: Trigger.Request, response: Trigger.Response
+    ) -> Diagnostic | None:
         with self._command() as now_ns:
             self.playback.clear_halt(now_ns)
             return self.playback.status().message

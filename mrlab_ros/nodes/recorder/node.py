@@ -133,12 +133,14 @@ class RecorderNode(
         answer.__name__ = name
         create_service(self, kind, f"~/{name}", partial(answered(answer), self))
 
-    def _start(self, request: Any, response: Any) -> Diagnostic:
+    def _start(
+        self, request: srv.StartRecording.Request, response: srv.StartRecording.Response
+    ) -> Diagnostic:
         said = self.recorder.start(request.bag, tuple(request.topics), request.split_duration)
         response.bag = str(said.values["folder"])
         return said
 
-    def _list_bags(self, request: Any, response: Any) -> None:
+    def _list_bags(self, request: ListBags.Request, response: ListBags.Response) -> None:
         response.bags = self.recorder.bags()
 
     # what the recorder needs ------------------------------------------------------------------

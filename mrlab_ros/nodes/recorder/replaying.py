@@ -330,7 +330,9 @@ class ReplayedTrajectories:
         return self._node.get_logger()
 
     @answered
-    def _get(self, request: Any, response: Any) -> Diagnostic:
+    def _get(
+        self, request: srv.GetTrajectory.Request, response: srv.GetTrajectory.Response
+    ) -> Diagnostic:
         name = trajectory_name(request.id)
         try:
             found = self._bag.attachment(name)

@@ -1,0 +1,12 @@
+# Generated from the message definitions by `make docs`.
+
+
+class Duration:
+    sec: int
+    nanosec: int
+    def __init__(self, *, sec: int = ..., nanosec: int = ...) -> None: ...
+
+class Time:
+    sec: int
+    nanosec: int
+    def __init__(self, *, sec: int = ..., nanosec: int = ...) -> None: ...

@@ -1,0 +1,18 @@
+# Generated from the message definitions by `make docs`.
+import builtin_interfaces.msg
+
+class ColorRGBA:
+    r: float
+    g: float
+    b: float
+    a: float
+    def __init__(self, *, r: float = ..., g: float = ..., b: float = ..., a: float = ...) -> None: ...
+
+class Header:
+    stamp: builtin_interfaces.msg.Time
+    frame_id: str
+    def __init__(self, *, stamp: builtin_interfaces.msg.Time = ..., frame_id: str = ...) -> None: ...
+
+class String:
+    data: str
+    def __init__(self, *, data: str = ...) -> None: ...
