@@ -97,7 +97,12 @@ class Inside:
             default_frame_rate=DEFAULT_FRAME_RATE,
         )
         limits = self.limits
-        request = {**vars(limits), "wall": limits.time, "name": file.name}
+        request = {
+            **vars(limits),
+            "wall": limits.time,
+            "name": file.name,
+            "joints": task.robot.joint_names,
+        }
         try:
             with opened(file) as source:
                 copy = content.copied(source, limits.file_size, file.name)

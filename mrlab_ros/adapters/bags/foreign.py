@@ -39,6 +39,7 @@ from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
 from mrlab_ros.core.base.errors import BadInput, Misuse
+from mrlab_ros.core.conversion.evidence.headings import prefixes
 from mrlab_ros.core.recording.diagnostics import (
     JOINTS_OF_TOPIC,
     LEFT_OUT,
@@ -289,15 +290,8 @@ def columns_of(joints: Sequence[str], names: Sequence[str]) -> list[int] | None:
     A name may have a prefix, such as left_elbow_joint or cell/elbow_joint, that is the same for
     all joints.
     """
-    prefixes = {
-        name.removesuffix(joints[0])
-        for name in names
-        if name.endswith(joints[0]) and name.removesuffix(joints[0])[-1:] in ("", "_", "/", ".")
-    }
-    for prefix in sorted(prefixes, key=len):
-        wanted = [prefix + joint for joint in joints]
-        if set(wanted) <= set(names):
-            return [names.index(name) for name in wanted]
+    for prefix in prefixes(joints, names):
+        return [names.index(prefix + joint) for joint in joints]
     return None
 
 

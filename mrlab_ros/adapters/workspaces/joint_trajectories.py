@@ -8,7 +8,7 @@ from __future__ import annotations
 import io
 import os
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -18,10 +18,11 @@ import numpy as np
 from mrlab_ros.adapters.sandbox.inflate import ZSTD, inflate_zstd
 from mrlab_ros.adapters.workspaces.diagnostics import LIBRARY_FAILED
 from mrlab_ros.adapters.workspaces.matlab.elements import Damaged, NotAWorkspace, TooLarge
+from mrlab_ros.adapters.workspaces.recorded_states import RecordedStates
 from mrlab_ros.adapters.workspaces.sinks import Found, Sink
 from mrlab_ros.core.conversion.diagnostics import SHORT_POINT
 from mrlab_ros.core.conversion.evidence.headings import GRIPPER
-from mrlab_ros.core.conversion.workspace import JOINT_TRAJECTORY
+from mrlab_ros.core.conversion.workspace import JOINT_STATE, JOINT_TRAJECTORY
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 
 TOPIC = "/joint_trajectory"
@@ -56,23 +57,51 @@ class _InMemory:
         return self
 
 
-def read_bag(data: memoryview, form: str, sink: Sink, limit: int) -> None:
+@cache
+def _reader() -> Any:
+    """Return the reader of bags in memory.
+
+    SQLite makes the name of a database absolute by asking for the current folder and for links,
+    which the sandbox forbids; a database in memory keeps its name.
+    """
+    from rosbags.rosbag2 import Reader, storage_sqlite3
+
+    files = storage_sqlite3.make_vfs
+
+    def in_memory(path: Any) -> Any:
+        class Named(type(files(path))):  # type: ignore[misc]
+            def xFullPathname(self, name: str) -> str:  # noqa: N802 - SQLite's name
+                return name
+
+        return Named()
+
+    storage_sqlite3.make_vfs = in_memory  # type: ignore[assignment]
+    return Reader
+
+
+def read_bag(
+    data: memoryview, form: str, sink: Sink, limit: int, joints: Sequence[str] = ()
+) -> None:
     """Hand every JointTrajectory of a bag to the sink, and the names of its other topics.
 
-    form: mcap or sqlite3. A topic with several of them gives topic(1), topic(2) and so on.
+    Joint states become a motion where they name the robot's `joints`. form: mcap or sqlite3.
+    A topic with several of them gives topic(1), topic(2) and so on.
     """
     if len(data) > limit:
         raise TooLarge("bag", limit, len(data))
-    from rosbags.rosbag2 import Reader
-
     types = _types()
     try:
         source: Any = _InMemory(data, SUFFIXES[form])
-        with Reader(source) as bag:
+        with _reader()(source) as bag:
             wanted = [c for c in bag.connections if c.msgtype == JOINT_TRAJECTORY]
+            recorded = [c for c in bag.connections if joints and c.msgtype == JOINT_STATE]
             for other in bag.connections:
-                if other.msgtype != JOINT_TRAJECTORY:
+                if other not in (*wanted, *recorded):
                     sink.add(Found(other.topic, other.msgtype, ()))
+            states = {c.topic: RecordedStates() for c in recorded}
+            for connection, time_ns, message in bag.messages(recorded) if recorded else ():
+                state = types.deserialize_cdr(_plain(message, limit), JOINT_STATE)
+                states[connection.topic].add(state, time_ns)
             found: dict[str, list[bytes]] = {c.topic: [] for c in wanted}
             for connection, _, message in bag.messages(wanted) if wanted else ():
                 found[connection.topic].append(_plain(message, limit))
@@ -83,6 +112,8 @@ def read_bag(data: memoryview, form: str, sink: Sink, limit: int) -> None:
         if form == "sqlite3":
             raise NotAWorkspace("sqlite", str(error)) from None
         raise Damaged(LIBRARY_FAILED(part="bag", error=str(error))) from None
+    for topic, recording in states.items():
+        recording.hand_over(topic, joints, sink)
     for topic, messages in found.items():
         if not messages:
             sink.add(Found(topic, JOINT_TRAJECTORY, ()))

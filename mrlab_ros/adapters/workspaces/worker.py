@@ -40,7 +40,7 @@ import traceback
 import warnings
 import weakref
 import zlib
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -164,9 +164,11 @@ def read(
     sink: Sink,
     limit: int,
     needs: Callable[[str], object] = importlib.import_module,
+    joints: Sequence[str] = (),
 ) -> str:
     """Hand the variables of a file of any known format to the sink; return the format's name.
 
+    joints: of the robot whose motion is wanted, by which it is found in recorded joint states.
     needs: is told the modules that this file needs beside those of all files.
     """
     form = recognise(data)
@@ -189,7 +191,7 @@ def read(
     if form in joint_trajectories.SUFFIXES or name.lower().endswith(".cdr"):
         needs("rosbags")
     if form in joint_trajectories.SUFFIXES:
-        joint_trajectories.read_bag(data, form, sink, limit)
+        joint_trajectories.read_bag(data, form, sink, limit, joints)
         return "rosbag2"
     if name.lower().endswith(".cdr"):
         joint_trajectories.read_cdr(data, name[: -len(".cdr")], sink)
@@ -249,7 +251,7 @@ def serve(source: int, target: int, numbers: int | None, request: dict[str, Any]
         data = memoryview(mmap.mmap(source, size, prot=mmap.PROT_READ) if size else b"")
         if numbers is None:
             with restrictions.nothing_opens():
-                form = read(data, name, sink, limit, imported)
+                form = read(data, name, sink, limit, imported, request.get("joints", ()))
             sink.finish(format=form, sha256=content.sha256(source))
         else:
             length = os.fstat(numbers).st_size
@@ -308,7 +310,7 @@ def work(descriptors: list[int], request: dict[str, Any]) -> None:
     def found() -> Workspace:
         if changed is not None:
             raise changed
-        return workspace(copy, request)
+        return workspace(copy, {**request, "joints": asked.robot.joint_names})
 
     with os.fdopen(target, "wb") as reply, os.fdopen(descriptors[3], "wb") as trajectory:
         reply.write(results.run(asked, found, request["memory"], trajectory, request["rows"]))

@@ -142,6 +142,8 @@ class Request:
 def run(request: Request) -> int:
     """Convert everything and return the exit code of the worst; raise BadInput or Misuse."""
     _check(request)
+    if request.files and request.topic:  # of the bags
+        request = replace(request, options=replace(request.options, variable=request.topic))
     library = RobotLibrary(share.directory() / "robots")
     model = library.model(request.robot)
     if request.end_effector:
@@ -276,9 +278,9 @@ def _with_progress(
 
 def _inputs(request: Request) -> list[Input]:
     """Return what is to be converted: the files, or the message that a topic brings."""
-    if bool(request.files) is bool(request.topic):
+    if not request.files and not request.topic:
         raise Misuse(FILES_OR_TOPIC())
-    if not request.topic:
+    if request.files:
         return [_input(path) for path in _files(request.files)]
     from mrlab_ros.commands.convert.topic import receive  # rclpy, which files do not need
 

@@ -26,7 +26,10 @@ def convert(
         list[Path] | None, typer.Argument(help="Workspace files, bags, or folders of them.")
     ] = None,
     topic: Annotated[
-        str, typer.Option(help="Take the next JointTrajectory of this topic instead of a file.")
+        str,
+        typer.Option(
+            help="Take the next JointTrajectory of this topic; with a bag, its messages there."
+        ),
     ] = "",
     timeout: Annotated[float, typer.Option(help="How long to wait for the topic, s.")] = 10.0,
     end_effector: Annotated[

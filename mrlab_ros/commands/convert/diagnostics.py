@@ -11,7 +11,7 @@ LIMIT_OUT_OF_RANGE = Code(
 )
 FILES_OR_TOPIC = Code(
     "files_or_topic",
-    "Expected files or --topic, one of them.",
+    "Expected files or --topic.",
     "For example: mrlab convert run.mat --robot ur5e.",
 )
 FOLDER_WITHOUT_FILES = Code(

@@ -96,7 +96,7 @@ def show_findings(
             console.print(f"      {visible(d.remedy)}")
         for fix in d.fixes if words else ():
             if fix.command:
-                _say_next(console, f"mrlab {fix.command}")
+                _say_next(console, fix.command)
             if fix.option:
                 command = command_with(words or [], options or Options(), fix.option, fix.value)
                 _say_next(console, command)

@@ -138,9 +138,10 @@ WRONG_SHAPE = Code(
 )
 RECORDED_STATES = Code(
     "recorded_states",
-    "'{variable}' holds joint states, one message an instant: a recording, no trajectory.",
-    "Replay the bag as it was recorded. To look at it, make a session of it.",
-    meaning="A bag holds joint states, one message an instant: a recording, no trajectory.",
+    "'{variable}' holds recorded joint states, but not those of all joints of {model}; it names "
+    "{found:list}.",
+    "Choose the robot that was recorded, or replay the bag as it was recorded.",
+    meaning="The joint states in a bag do not name all joints of the robot.",
 )
 TRANSFORMS = Code(
     "transforms",

@@ -139,8 +139,12 @@ def refusal(survey: Survey, file: str) -> Diagnostic:
 
 
 def _recorded(variable: Variable, survey: Survey) -> Diagnostic:
-    replay = Fix(command="mrlab replay BAG"), Fix(command="mrlab bag import BAG SESSION")
-    return RECORDED_STATES(variable=variable.path, fixes=replay)
+    return RECORDED_STATES(
+        variable=variable.path,
+        model=survey.robot.id,
+        found=shortened(list(variable.columns)),
+        fixes=(Fix(command="mrlab robots list"),),
+    )
 
 
 def _states(survey: Survey) -> Diagnostic | None:

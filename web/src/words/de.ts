@@ -3020,8 +3020,8 @@ export const diagnostics: Templates = {
   record_of_another: ["Es enthält '{id}'."],
   recorded: ['{folder} enthält {messages:count Nachricht|Nachrichten}'],
   recorded_states: [
-    "'{variable}' enthält Gelenkzustände, eine Nachricht je Zeitpunkt: eine Aufnahme und keine Trajektorie.",
-    'Gib das Bag wieder, wie es aufgenommen wurde. Willst du es ansehen, mach eine Sitzung daraus.',
+    "'{variable}' enthält aufgenommene Gelenkzustände, aber nicht die aller Gelenke von {model}; genannt sind {found:list}.",
+    'Wähle den Roboter, der aufgenommen wurde, oder gib das Bag wieder, wie es aufgenommen wurde.',
   ],
   recorder_fault: [
     'In der Aufnahme ist ein eigener Fehler aufgetreten ({error}).',

@@ -225,6 +225,20 @@ def said_by_units(given: tuple[str, ...]) -> Name:
 GRIPPER = "gripper"
 
 
+def prefixes(joints: Sequence[str], names: Sequence[str]) -> list[str]:
+    """Return what stands before the names of all joints of a robot, such as left_ or cell/.
+
+    Shortest first; empty where the joints are not among `names`.
+    """
+    ends = {
+        name.removesuffix(joints[0])
+        for name in names
+        if name.endswith(joints[0]) and name.removesuffix(joints[0])[-1:] in ("", "_", "/", ".")
+    }
+    found = [prefix for prefix in ends if {prefix + joint for joint in joints} <= set(names)]
+    return sorted(found, key=lambda prefix: (len(prefix), prefix))
+
+
 def names_joints(variable: Variable, robot: RobotModel) -> bool:
     """Say whether the columns are named as joints; headings of a table may be anything else."""
     return variable.is_message or not set(robot.joint_names).isdisjoint(variable.columns)

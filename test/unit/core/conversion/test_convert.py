@@ -310,12 +310,13 @@ def test_times_in_milliseconds_beside_the_joints_are_no_seconds(unit, turn):
 
 
 @pytest.mark.parametrize("named", ["", "/joint_states"])
-def test_recorded_joint_states_are_said_to_be_replayed(named):
-    states = Variable("/joint_states", "sensor_msgs/msg/JointState")
+def test_recorded_states_of_other_joints_are_named(named):
+    states = Variable("/joint_states", "sensor_msgs/msg/JointState", columns=("a", "b"))
     result = convert(var("/tf", kind="tf2_msgs/msg/TFMessage"), states, variable=named)
     assert result.diagnostics[0].code == "recorded_states"
     commands = [fix.command for fix in result.diagnostics[0].fixes]
-    assert commands == ["mrlab replay BAG", "mrlab bag import BAG SESSION"]
+    assert commands == ["mrlab robots list"]
+    assert list(result.diagnostics[0].values["found"]) == ["a", "b"]
 
 
 def test_unwrap_removes_full_turns():
