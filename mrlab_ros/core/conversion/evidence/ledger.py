@@ -123,7 +123,7 @@ class Ledger:
 
 @dataclass(frozen=True)
 class _Matrix:
-    """What the ledger is kept for. rate: Hz; assumed: nothing says it."""
+    """What the ledger is kept for. rate: Hz; assumed: nothing says it; ends: (2, C) rows."""
 
     path: str
     rows: int
@@ -131,6 +131,12 @@ class _Matrix:
     rate: float
     assumed: bool
     robot: frozenset[str]
+    ends: NDArray[Any]
+
+    def begins_or_ends_at(self, posture: NDArray[Any]) -> bool:
+        """Say whether one number a joint, such as q0, is its first or its last row."""
+        ends = self.ends[:, : self.joints]
+        return ends.shape[1] == len(posture) and bool((abs(ends - posture) < 1e-6).all(1).any())
 
 
 def read(
@@ -148,19 +154,21 @@ def read(
     """
     rate = next(c for c in claims if c.about is About.RATE)
     own = first_path(path)
-    matrix = _Matrix(
-        own, *size, float(rate.value), rate.standing is Standing.ASSUMED, frozenset(parts(robot))
-    )
+    held = workspace.find(path) or workspace.find(own)
+    values = None if held is None else held.values
+    ends = np.empty((2, 0)) if values is None or values.ndim != 2 else values[[0, -1]]
+    assumed = rate.standing is Standing.ASSUMED
+    matrix = _Matrix(own, *size, float(rate.value), assumed, frozenset(parts(robot)), ends)
     known = {c.source for c in claims} | set(told) | {own, path}
     near = {v.path: n for n, v in reversed(statements.nearby(workspace, own))}
-    held = [v for v in workspace.variables if v.path in near or matrix.assumed]
-    held.sort(key=lambda v: near.get(v.path, FAR))
+    listed = [v for v in workspace.variables if v.path in near or assumed]
+    listed.sort(key=lambda v: near.get(v.path, FAR))
     return Ledger(
         tuple(
             Entry(v, End.EXPLAINED)
             if v.path in known
             else _entry(v, near.get(v.path, FAR), matrix)
-            for v in held[:MOST_ENTRIES]
+            for v in listed[:MOST_ENTRIES]
             if not ELEMENT.search(leaf(v.path)) or v.kind == COMMENT
         )
     )
@@ -227,7 +235,7 @@ def _number(s: Statement, matrix: _Matrix) -> Entry:
         return Entry(v, End.EXPLAINED)
     if s.near > 2:
         return Entry(v, End.HARMLESS)
-    if timed:
+    if timed and (words[-1].text in TIME_UNITS or not factor):
         likely = rate_scalars.LIKELY_RATES[0] <= rate <= rate_scalars.LIKELY_RATES[1]
         rated = any(w.can_be(Class.PERIOD, Class.RATE) and len(w.text) > 1 for w in words)
         return Entry(v, End.TIME if likely and rated else End.HARMLESS, rate=rate)
@@ -272,7 +280,8 @@ def _vector(s: Statement, matrix: _Matrix) -> Entry:
         permuted = numbers in ([float(n + i) for n in range(matrix.joints)] for i in (0, 1))
         away = any(w.quantity == "errors" for w in words)
         other = any(w.can_be(*SETTLED[:3]) or w.quantity not in ("", "parameters") for w in words)
-        open_to = away or (any(w.unread for w in words) and not other)
+        plain = all(w.can_be(*OF_MATRIX) for w in words) and not matrix.begins_or_ends_at(values)
+        open_to = away or plain or (any(w.unread for w in words) and not other)
         return Entry(
             v, End.PER_JOINT if open_to and not permuted else End.EXPLAINED, _unread(words)
         )
@@ -340,7 +349,8 @@ def _words_that_matter(s: Statement, matrix: _Matrix) -> Iterator[str]:
     spoken = statements.words_of_text(s.text)
     found = [w for w in spoken if w.text not in PROSE and w.text not in matrix.robot]
     reads_all = s.near == 0 or s.names(Class.ABOUT, Class.ARM, Class.ORDER, *TELLING)
-    reads_all = (reads_all or len(spoken) > 1) and not s.names(Class.NAMES)
+    named = s.names(Class.NAMES) and not s.names(Class.ARM)
+    reads_all = (reads_all or len(spoken) > 1) and not named
     for w in found:
         other = w.quantity and not w.can_be(Class.ROLE, Class.KEPT, Class.PLACE)
         changes = w.can_be(*CHANGES) and not w.can_be(Class.KEPT, Class.SAMPLING, Class.TABLE)

@@ -53,6 +53,8 @@ def test_what_may_be_a_time_is_unread_where_nothing_states_the_rate(path, values
         ("cycle_time", 0.008, End.TIME),
         ("mass", 2.5, End.HARMLESS),
         ("q_offset", [0, 1.5, 0, 0, 0, 0], End.PER_JOINT),
+        ("ticks_per_turn", 4096.0, End.FACTOR),
+        ("q0", [0, 0, 0, 0, 0, 0.5], End.PER_JOINT),
         ("axes", [1, 2, 3, 4, 5, 6], End.EXPLAINED),
     ],
 )
