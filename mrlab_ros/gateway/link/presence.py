@@ -127,12 +127,17 @@ class Hands:
         else:
             self._held.pop(request.name, None)
 
-    def let_go(self, token: str) -> list[bytes]:
-        """Forget a client; return the calls, as CDR, by which its hands let go where they were."""
-        names = [name for name, (owner, _) in self._held.items() if owner == token]
-        calls = []
-        for name in names:
-            request = plain(self._definitions.decode(REQUEST, self._held.pop(name)[1]))
-            still = {"name": name, "pose": request["pose"], "held": False}
-            calls.append(self._definitions.encode(REQUEST, still))
+    def held_by(self, token: str) -> dict[str, bytes]:
+        """Return by object the call, as CDR, by which a client's hands let go where they were."""
+        calls = {}
+        for name, (owner, payload) in self._held.items():
+            if owner == token:
+                request = plain(self._definitions.decode(REQUEST, payload))
+                still = {"name": name, "pose": request["pose"], "held": False}
+                calls[name] = self._definitions.encode(REQUEST, still)
         return calls
+
+    def forget(self, token: str, name: str) -> None:
+        """Note that a client's hands let go of an object; another one may have it since."""
+        if self._held.get(name, ("",))[0] == token:
+            del self._held[name]

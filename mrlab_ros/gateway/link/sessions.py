@@ -96,7 +96,7 @@ class Sessions:
             client.socket = None
             client.left_at = now
             self._see_off(client.session)
-            task = asyncio.ensure_future(self._let_go(client))
+            task = asyncio.ensure_future(self._forget(client, now))
             self._letting_go.add(task)
             task.add_done_callback(self._letting_go.discard)
 
@@ -125,16 +125,35 @@ class Sessions:
         if gone is not None:
             self.lab.put(presence.KEY, gone)
 
-    async def _let_go(self, client: Client) -> None:
-        """Let go what a client held that does not come back at once."""
-        await asyncio.sleep(LET_GO_S)
-        if client.socket is not None:
-            return
-        for call in self.hands.let_go(client.session.token):
+    async def _forget(self, client: Client, left_at: float) -> None:
+        """Let go what a client held that does not come back at once; end it after RESUME_S.
+
+        A call that was under way when it left may take a thing still, and the lab may be away:
+        both are looked at again every LET_GO_S.
+        """
+        failed: dict[str, LabError] = {}
+        for _ in range(round(RESUME_S / LET_GO_S)):
+            await asyncio.sleep(LET_GO_S)
+            if client.socket is not None or client.left_at != left_at:
+                return
+            failed = await self._let_go(client.session)
+        for name, error in failed.items():
+            said = "%s, which %s held, stays in the air: %s"
+            log.warning(said, name, client.session.person.name, error)
+            self.hands.forget(client.session.token, name)
+        self.end(client)
+
+    async def _let_go(self, session: LinkSession) -> dict[str, LabError]:
+        """Let go what a client held; return by object why that failed."""
+        failed = {}
+        for name, call in self.hands.held_by(session.token).items():
             try:
                 await self.lab.query(presence.SERVICE, call)
             except LabError as error:
-                log.warning("what %s held stays in the air: %s", client.session.person.name, error)
+                failed[name] = error
+            else:
+                self.hands.forget(session.token, name)
+        return failed
 
     def expire(self, now: float) -> None:
         """Forget clients that did not come back."""

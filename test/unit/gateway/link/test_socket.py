@@ -640,7 +640,7 @@ async def test_a_revoked_sign_in_ends_the_socket_and_the_session(stage: Stage) -
     people = stage.gateway.people
     (row,) = people.sign_ins.all(people.clock(), "anna")
     people.sign_ins.end(row.id)
-    people.sign_ins.check(people.clock())
+    await people.sign_ins.check(people.clock())
     with pytest.raises(Closed, match="4003"):
         await side.until(lambda: False)
     assert side.of("closing")[0]["diagnostic"]["code"] == "sign_in_ended"
@@ -745,6 +745,37 @@ async def test_who_goes_lets_go_what_was_in_the_hand_and_nothing_else(stage: Sta
         assert (last.name, last.held, last.pose.position.z) == ("cube", False, 0.5)
     finally:
         sessions.LET_GO_S = before
+
+
+@scene
+async def test_the_last_page_is_forgotten_and_its_hands_let_go_once_the_lab_answers(
+    stage: Stage,
+) -> None:
+    before = sessions.LET_GO_S, sessions.RESUME_S
+    sessions.LET_GO_S, sessions.RESUME_S = 0.02, 0.2
+    lab, known = stage.lab, stage.gateway.app.state.link.sessions
+    away: list[str] = []
+
+    def move(request: Any) -> dict[str, bool]:
+        if not request.held and len(away) < 2:
+            away.append(request.name)
+            raise NoAnswer(NOBODY_ANSWERS(key="physics/move_object"))
+        return {"success": True}
+
+    lab.serve("physics/move_object", MOVE, move)
+    try:
+        side = stage.side()
+        side.hello()
+        await side.welcome()
+        side.call("physics/move_object", 1, carried(lab, "cube"))
+        await side.until(lambda: side.records)
+        (token,) = known._clients
+        side.leave()
+        await became(lambda: len(away) == 2 and not known.hands.held_by(token))
+        assert token in known._clients
+        await became(lambda: not known._clients)
+    finally:
+        sessions.LET_GO_S, sessions.RESUME_S = before
 
 
 @scene
