@@ -32,9 +32,10 @@ from mrlab_ros.core.conversion.diagnostics import (
 from mrlab_ros.core.conversion.evidence import other_columns as grippers
 from mrlab_ros.core.conversion.evidence import statements
 from mrlab_ros.core.conversion.evidence.assessment import Assessment, blocking_clocks
+from mrlab_ros.core.conversion.evidence.glossary import Class
 from mrlab_ros.core.conversion.evidence.headings import names_joints, order
 from mrlab_ros.core.conversion.evidence.joining import first_path, rows_of
-from mrlab_ros.core.conversion.evidence.names import parts, words
+from mrlab_ros.core.conversion.evidence.names import described
 from mrlab_ros.core.conversion.evidence.survey import Survey, fits
 from mrlab_ros.core.conversion.explain import clocks_of, near_miss, time_finding, wrong_shape
 from mrlab_ros.core.conversion.joint_units import in_radians
@@ -43,12 +44,6 @@ from mrlab_ros.core.conversion.picking import Chosen
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.trajectory import Array
-
-GRIPPER_NAMES = words(
-    "gripper greifer grip grippers gripperstate gripperpos hand finger fingers jaw jaws claw "
-    "schliessen greiferzustand greiferposition zange vacuum suction saugnapf sauger robotiq "
-    "closed geschlossen"
-)
 
 
 @dataclass(frozen=True, eq=False)
@@ -257,8 +252,7 @@ def _gripper_beside(workspace: Workspace, path: str, rows: int) -> list[Diagnost
     for v in workspace.variables:
         if v.values is None or v.values.size != rows or min(v.shape) != 1:
             continue
-        said = parts(v.label or v.path)
-        if GRIPPER_NAMES.intersection(said) or "".join(said) in GRIPPER_NAMES:
+        if any(word.can_be(Class.GRIPPER) for word in described(v.label or v.path)):
             column = matlab_name(v.path) + "(:)"
             line = f"q = [{matlab_name(path)} {column}]; save('traj.mat', 'q')"
             return [
