@@ -40,7 +40,7 @@ from mrlab_ros.core.trajectory.trajectory import Trajectory
 
 AHEAD = 64  # files that may be converted before the first of them is reported
 SUFFIXES = (
-    *(".mat", ".mat.gz", ".csv", ".lvm", ".npz", ".json", ".mcap", ".db3"),
+    *(".mat", ".mat.gz", ".csv", ".lvm", ".npz", ".npy", ".json", ".mcap", ".db3"),
     *(".mcap.zst", ".mcap.zstd", ".db3.zst", ".db3.zstd"),
 )
 

@@ -21,7 +21,7 @@ UNSUPPORTED_FORMAT = Code(
     "version=a MAT file of an unknown version|header=a MATLAB file whose header is damaged|"
     "zip=a ZIP archive (or an Office, .mlx or .slx file)|"
     "spreadsheet=a spreadsheet (save the sheet as CSV UTF-8 and convert that file)|"
-    "numpy=a NumPy array (save it so: np.savez('traj.npz', q=q, fs=100))|"
+    "numpy=a NumPy array|"
     "png=a PNG picture|jpeg=a JPEG picture|gif=a GIF picture|pdf=a PDF document|"
     "lfs=a Git LFS pointer (the file itself was not downloaded)|"
     "octave=an Octave file (save it with: save -7 traj.mat q)|"
@@ -133,6 +133,16 @@ LINES_DIFFER = Code(
     "lines_differ",
     "line {line:integer} has {count:count value|values} and the first {first:integer}",
 )
+HEADINGS_AGAIN = Code(
+    "headings_again",
+    "line {line:integer} has the headings {headings:list} again: several recordings stand in one "
+    "file; keep one of them",
+)
+MATLAB_COMPUTES = Code(
+    "matlab_computes",
+    "line {line:integer} computes ({found}); only numbers, texts and matrices of numbers are "
+    "read. Run the file in MATLAB, and save the workspace",
+)
 TWO_DATES = Code("two_dates", "it has dates in {count:integer} columns; keep one of them")
 COMMAS_TWICE = Code(
     "commas_twice",
@@ -216,7 +226,7 @@ NO_REFERENCES = Code("no_references", "'{variable}' holds no references to its e
 POINTS_NOWHERE = Code("points_nowhere", "'{variable}' points nowhere")
 LIBRARY_FAILED = Code(
     "library_failed",
-    "{part:choice hdf5=the HDF5 library|bag=the reader of bags|npz=the reader of npz archives|"
+    "{part:choice hdf5=the HDF5 library|bag=the reader of bags|npz=the reader of NumPy's files|"
     "json=the reader of JSON|variable=zlib|message=the reader of messages} cannot read it "
     "({error})",
 )

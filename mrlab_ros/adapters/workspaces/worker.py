@@ -196,12 +196,18 @@ def read(
     if name.lower().endswith(".cdr"):
         joint_trajectories.read_cdr(data, name[: -len(".cdr")], sink)
         return "CDR"
+    if form == "numpy":
+        table.read_npy(data, sink)
+        return "NumPy npy"
     if name.lower().endswith(".npz"):
         table.read_npz(data, sink, limit)
         return "NumPy npz"
     if name.lower().endswith(".json"):
         table.read_json(data, sink)
         return "JSON"
+    if form in TEXTS and name.lower().endswith(".m"):
+        table.read_matlab(data, sink)
+        return "MATLAB code"
     # save -ascii of MATLAB writes a table of numbers, and calls it .mat where it is told to.
     ascii_table = form == TEXTS[0] and bytes(data[:64]).lstrip()[:1] in NUMBER_BEGINS
     if form in TEXTS and (name.lower().endswith(TABLES) or ascii_table):

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 # Endings of file names, also of files that do not exist.
 ENDINGS = (
-    *(".mat", ".csv", ".txt", ".tsv", ".lvm", ".npz", ".json", ".mcap", ".db3"),
+    *(".mat", ".csv", ".txt", ".tsv", ".lvm", ".npz", ".npy", ".m", ".json", ".mcap", ".db3"),
     *(".gz", ".zst", ".zstd"),
 )
 

@@ -88,7 +88,7 @@ class ConversionResult:
 
 def id_from(file: str) -> str:
     """Return a name for the catalogue from a file's name: its letters, digits, '.', '_', '-'."""
-    endings = r"(\.(mat|csv|txt|tsv|lvm|npz|json|mcap|gz|zstd?|db3|cdr))+$"
+    endings = r"(\.(mat|csv|txt|tsv|lvm|npz|npy|m|json|mcap|gz|zstd?|db3|cdr))+$"
     stem = re.sub(endings, "", file, flags=re.I)
     cleaned = re.sub(r"[^A-Za-z0-9._-]+", "_", stem).strip("._-")[:128]
     return cleaned or "trajectory"

@@ -35,7 +35,7 @@ MiB = 1 << 20
 BLOCK = MiB  # bytes that are hashed and written at once
 # Endings of files that the converter reads; it finds the real kind in the file.
 ENDINGS = (
-    *(".mat", ".csv", ".txt", ".tsv", ".npz", ".json", ".mcap", ".db3", ".cdr"),
+    *(".mat", ".csv", ".txt", ".tsv", ".npz", ".npy", ".m", ".json", ".mcap", ".db3", ".cdr"),
     *(".gz", ".zst", ".zstd"),
 )
 LONGEST_NAME = 255

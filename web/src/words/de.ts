@@ -1627,6 +1627,9 @@ export const diagnostics: Templates = {
   ],
   has_multi_dof: ['Das Ziel enthält eine multi_dof_trajectory; erwartet wird keine.'],
   has_no_key: ['{name} hat in {folder} keinen Schlüssel[; einen haben: {known:list}].'],
+  headings_again: [
+    'in Zeile {line:integer} stehen die Überschriften {headings:list} noch einmal: Die Datei enthält mehrere Aufnahmen; behalte eine davon',
+  ],
   held: ['{object} wird von {since:time} bis {until:time} gehalten.'],
   held_by_another: ['{name} wird von einem anderen Roboter gehalten'],
   held_by_wait: ['wartet auf sein System'],
@@ -1794,7 +1797,7 @@ export const diagnostics: Templates = {
   ],
   let_go: ['{object} wurde losgelassen: {robot} bekam einen anderen Endeffektor.'],
   library_failed: [
-    '{part:choice hdf5=die HDF5-Bibliothek|bag=das Leseprogramm für Bags|npz=das Leseprogramm für npz-Archive|json=das Leseprogramm für JSON|variable=zlib|message=das Leseprogramm für Nachrichten} kann sie nicht lesen ({error})',
+    '{part:choice hdf5=die HDF5-Bibliothek|bag=das Leseprogramm für Bags|npz=das Leseprogramm für Dateien von NumPy|json=das Leseprogramm für JSON|variable=zlib|message=das Leseprogramm für Nachrichten} kann sie nicht lesen ({error})',
   ],
   lies_elsewhere: [
     '{object} liegt bei {point:position} und nicht {side:choice in=in|on=auf} {other}.',
@@ -1860,6 +1863,9 @@ export const diagnostics: Templates = {
   ],
   mass_or_fixed: [
     'eine Zahl {limits:problem} (kg), oder fixed: true für einen Gegenstand, der sich nie bewegt',
+  ],
+  matlab_computes: [
+    'Zeile {line:integer} rechnet ({found}); gelesen werden nur Zahlen, Texte und Matrizen aus Zahlen. Führe die Datei in MATLAB aus und sichere den Workspace',
   ],
   maximum_differs: [
     'Das Maximum in Moodle ist {found}, das Bewertungsschema hat {points:number} Punkte; die Punkte werden eingetragen, wie sie sind.',
@@ -3747,7 +3753,7 @@ export const diagnostics: Templates = {
     'Kopiere die Datei noch einmal, oder sichere sie in MATLAB noch einmal.',
   ],
   unsupported_format: [
-    "'{file}' ist {form:choice folder=ein Ordner|special=keine gewöhnliche Datei|empty=eine leere Datei|version=eine MAT-Datei einer unbekannten Version|header=eine MATLAB-Datei mit beschädigtem Kopf|zip=ein ZIP-Archiv (oder eine Datei aus Office, .mlx oder .slx)|spreadsheet=eine Tabellenkalkulation (sichere das Blatt als CSV UTF-8, und wandle diese Datei um)|numpy=ein NumPy-Array (sichere es so: np.savez('traj.npz', q=q, fs=100))|png=ein PNG-Bild|jpeg=ein JPEG-Bild|gif=ein GIF-Bild|pdf=ein PDF-Dokument|lfs=ein Platzhalter von Git LFS (die Datei selbst wurde nicht heruntergeladen)|octave=eine Octave-Datei (sichere sie mit: save -7 traj.mat q)|seven_zip=ein 7-Zip-Archiv|rar=ein RAR-Archiv|elf=ein Programm|exe=ein Windows-Programm|bzip=ein bzip2-Archiv|xz=ein xz-Archiv|sqlite=eine SQLite-Datenbank, aber kein vollständiges rosbag2-Bag|html=eine Webseite (wurde statt der Datei die Seite zum Herunterladen gesichert?)|text=eine Textdatei|unknown=eine Datei unbekannter Art}[ ({detail})] und kein MATLAB-Workspace.",
+    "'{file}' ist {form:choice folder=ein Ordner|special=keine gewöhnliche Datei|empty=eine leere Datei|version=eine MAT-Datei einer unbekannten Version|header=eine MATLAB-Datei mit beschädigtem Kopf|zip=ein ZIP-Archiv (oder eine Datei aus Office, .mlx oder .slx)|spreadsheet=eine Tabellenkalkulation (sichere das Blatt als CSV UTF-8, und wandle diese Datei um)|numpy=ein NumPy-Array|png=ein PNG-Bild|jpeg=ein JPEG-Bild|gif=ein GIF-Bild|pdf=ein PDF-Dokument|lfs=ein Platzhalter von Git LFS (die Datei selbst wurde nicht heruntergeladen)|octave=eine Octave-Datei (sichere sie mit: save -7 traj.mat q)|seven_zip=ein 7-Zip-Archiv|rar=ein RAR-Archiv|elf=ein Programm|exe=ein Windows-Programm|bzip=ein bzip2-Archiv|xz=ein xz-Archiv|sqlite=eine SQLite-Datenbank, aber kein vollständiges rosbag2-Bag|html=eine Webseite (wurde statt der Datei die Seite zum Herunterladen gesichert?)|text=eine Textdatei|unknown=eine Datei unbekannter Art}[ ({detail})] und kein MATLAB-Workspace.",
     'Sichere die Gelenkwinkel in MATLAB, und wandle diese Datei um.',
   ],
   unsupported_object: [

@@ -135,6 +135,14 @@ def is_value(cell: str, separator: str | None) -> bool:
     return is_number(number) or is_instant(cell)
 
 
+EXPONENT = re.compile(r"(?<![\w.])([-+]?(?:\d+[.,]?\d*|[.,]\d+))[dD]([-+]?\d+)(?![\w.])")
+
+
+def with_exponents(text: str) -> str:
+    """Return a text whose numbers have E for the exponent where Fortran writes D."""
+    return EXPONENT.sub(r"\1e\2", text)
+
+
 def is_number(text: str) -> bool:
     """Say whether a text is a number with a decimal point, nan and inf included."""
     try:

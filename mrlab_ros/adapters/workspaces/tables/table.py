@@ -13,12 +13,13 @@ from mrlab_ros.adapters.workspaces.diagnostics import LIBRARY_FAILED, NO_JSON_OB
 from mrlab_ros.adapters.workspaces.matlab.elements import Damaged, TooLarge, is_vector
 from mrlab_ros.adapters.workspaces.matlab.mat5 import INTEGERS, LONGEST_TEXT
 from mrlab_ros.adapters.workspaces.sinks import Found, Sink, View
-from mrlab_ros.adapters.workspaces.tables import text
+from mrlab_ros.adapters.workspaces.tables import matlab_text, text
 from mrlab_ros.core.conversion.evidence.headings import GRIPPER
 from mrlab_ros.core.conversion.workspace import COMMENT
 
 MOST_COMMENTS = 200
 DEEPEST = 8  # objects of JSON inside one another
+RECORDS = "records"
 TIME_HEADINGS = ("t", "time", "time_from_start")
 
 
@@ -73,6 +74,53 @@ def read_csv(data: memoryview, sink: Sink) -> None:
     _add(sink, "q", values, tuple(headings) if len(headings) == values.shape[1] else ())
 
 
+def read_matlab(data: memoryview, sink: Sink) -> None:
+    """Hand the numbers, texts and matrices of a file of MATLAB code to the sink."""
+    for name, value in matlab_text.statements(bytes(data)):
+        if isinstance(value, str):
+            sink.add(Found(name, "char", (1, len(value)), text=value[:LONGEST_TEXT]))
+        else:
+            _add(sink, name, value)
+
+
+def read_npy(data: memoryview, sink: Sink) -> None:
+    """Hand the array of a npy file to the sink as `q`; nothing pickled is opened."""
+    try:
+        values = np.lib.format.read_array(io.BytesIO(data), allow_pickle=False)
+    except MemoryError:
+        raise
+    except Exception as error:
+        raise Damaged(LIBRARY_FAILED(part="npz", error=str(error))) from None
+    _add(sink, "q", values)
+
+
+def _are_records(content: Any) -> bool:
+    return (
+        isinstance(content, list) and bool(content) and all(isinstance(c, dict) for c in content)
+    )
+
+
+def _add_records(records: list[Any], sink: Sink) -> None:
+    """Hand a list of objects to the sink, a row each: numbers as a table, lists as matrices.
+
+    A text that all of them have is a text of the file.
+    """
+    headings: dict[str, Any] = {}
+    for key in dict.fromkeys(name for record in records for name in record):
+        name, column = str(key), [record.get(key) for record in records]
+        if isinstance(column[0], str) and column.count(column[0]) == len(column):
+            sink.add(Found(name, "string", (1, 1), text=column[0][:LONGEST_TEXT]))
+        elif (values := _numbers(column)) is None:
+            sink.add(Found(name, "cell", (len(column), 1)))
+        elif values.ndim == 2 or name.lower() in TIME_HEADINGS:
+            _add(sink, name, values)
+        else:
+            headings[name] = values
+    if headings:
+        # no name that says more than the headings
+        _add(sink, RECORDS, np.column_stack(list(headings.values())), tuple(headings))
+
+
 def read_json(data: memoryview, sink: Sink) -> None:
     """Hand the arrays and numbers of a JSON object to the sink, each as the variable of its name.
 
@@ -83,6 +131,9 @@ def read_json(data: memoryview, sink: Sink) -> None:
         document = orjson.loads(data)
     except orjson.JSONDecodeError as error:
         raise Damaged(LIBRARY_FAILED(part="json", error=str(error))) from None
+    if _are_records(document):
+        _add_records(document, sink)
+        return
     if not isinstance(document, dict):
         raise Damaged(NO_JSON_OBJECT())
     frames = document.get("frames")
@@ -104,6 +155,8 @@ def _add_members(document: dict[str, Any], path: str, sink: Sink, deepest: int) 
             sink.add(Found(name, kind, (1, 1), text=said[:LONGEST_TEXT]))
         elif isinstance(content, list) and content and all(isinstance(c, str) for c in content):
             _add(sink, name, np.array(content[:MOST_COMMENTS]))
+        elif _are_records(content):
+            _add_records(content, sink)
         elif (values := _numbers(content)) is not None:
             _add(sink, name, values)
 

@@ -18,6 +18,7 @@ from mrlab_ros.adapters.workspaces.diagnostics import (
     CELLS_UNREADABLE,
     COMMAS_TWICE,
     EMPTY_CELLS,
+    HEADINGS_AGAIN,
     LABVIEW_SEGMENTS,
     LINES_DIFFER,
     NO_NUMBERS,
@@ -36,6 +37,7 @@ from mrlab_ros.adapters.workspaces.tables.cells import (
     is_value,
     seconds,
     separator_of,
+    with_exponents,
 )
 from mrlab_ros.core.conversion.evidence.units import foreign as against
 
@@ -159,7 +161,7 @@ def parsed(data: bytes) -> TextTable:
     The separator is a comma, semicolon, tab or blanks; decimals may be commas where the columns
     are separated by something else, or where the numbers are quoted.
     """
-    text = decoded(data).replace("\r\n", "\n").replace("\r", "\n")
+    text = with_exponents(decoded(data)).replace("\r\n", "\n").replace("\r", "\n")
     lines = text.split("\n")
     # A spreadsheet writes rows of empty cells below the table as far as it was ever edited.
     while len(lines) > 1 and not lines[-1].strip('\t ;,"'):
@@ -193,10 +195,21 @@ def parsed(data: bytes) -> TextTable:
         lines, headings = _without_comments(lines, separator, len(headings)), headings[:-1]
     if not any(line.strip() for line in lines):
         raise NotATable(NO_NUMBERS())
+    _refuse_repeated(lines, headings, separator, begin)
     values, instants = _numbers(lines, separator, begin + 1, len(headings))
     if len(headings) != values.shape[1]:
         headings = []
     return TextTable(values, tuple(headings), instants, stated, comments)
+
+
+def _refuse_repeated(
+    lines: list[str], headings: list[str], separator: str | None, begin: int
+) -> None:
+    """Refuse a table in which the headings stand again: several recordings in one file."""
+    if headings:
+        for number, line in enumerate(lines, begin + 1):
+            if headings[0] in line and cells_of(line, separator) == headings:
+                raise NotATable(HEADINGS_AGAIN(line=number, headings=headings[:8]))
 
 
 def _all_end_with(lines: list[str], separator: str) -> bool:

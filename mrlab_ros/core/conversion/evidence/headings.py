@@ -161,7 +161,7 @@ def split_tables(workspace: Workspace, robot: RobotModel) -> Workspace:
     return replace(workspace, variables=(*workspace.variables, *kept)) if kept else workspace
 
 
-UNNAMED = ("CSV",)  # formats whose matrix is called q by the reader
+UNNAMED = ("CSV", "NumPy npy")  # formats whose matrix is called q by the reader
 # Quantities that are angles as joint positions are: an angle as unit does not tell them apart.
 STAYS_DOUBTFUL = frozenset(("errors", "obstacles", "parameters"))
 KEYED = re.compile(r"\{:,.*\}$|\('[^']*'\)$")
