@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 
 Callback = Callable[[Any], None]
 
+# How rmw calls a node that it has not discovered yet.
+UNKNOWN = "_NODE_NAME_UNKNOWN_"
+
 _undecoded = Occurrences()
 _lock = Lock()
 
@@ -57,7 +60,11 @@ def decoder(
         # rmw's error is a RuntimeError, a text that is no UTF-8 a ValueError.
         except (RuntimeError, ValueError, MemoryError):
             ends = [] if node is None else node.get_publishers_info_by_topic(topic)
-            cause = (topic, type_name, *sorted(set(map(_name, ends))))
+            cause = (
+                topic,
+                type_name,
+                *sorted({_name(end) for end in ends if end.node_name != UNKNOWN}),
+            )
             with _lock:
                 count = _undecoded.again(cause, time.monotonic())
             if count is not None and node is not None:
