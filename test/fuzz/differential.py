@@ -24,7 +24,7 @@ import fuzz_matfile
 from found_matrices import matrix
 from numpy.typing import NDArray
 
-from mrlab_ros.adapters.workspaces import worker
+from mrlab_ros.adapters.workspaces import file_formats
 from mrlab_ros.adapters.workspaces.matlab import second_reader
 from mrlab_ros.adapters.workspaces.sinks import Found
 
@@ -64,7 +64,7 @@ def read(data: bytes) -> Matrices | None:
     """Return what our reader takes from a file, None where it refuses the file."""
     found = Matrices()
     try:
-        worker.read(memoryview(data), "fuzz.mat", found, fuzz_matfile.LIMIT)
+        file_formats.read(memoryview(data), "fuzz.mat", found, fuzz_matfile.LIMIT)
     except fuzz_matfile.EXPECTED:
         return None
     return found

@@ -28,7 +28,7 @@ from found_matrices import matrix
 from rosbags.rosbag2 import Writer
 from rosbags.typesys import Stores, get_typestore
 
-from mrlab_ros.adapters.workspaces import joint_trajectories, worker
+from mrlab_ros.adapters.workspaces import file_formats, joint_trajectories
 from mrlab_ros.adapters.workspaces.matlab import mat5, mat73
 from mrlab_ros.adapters.workspaces.matlab.elements import Damaged, NotAWorkspace, TooLarge
 from mrlab_ros.adapters.workspaces.sinks import Found
@@ -91,7 +91,7 @@ def seeds() -> list[tuple[str, bytes]]:
 def one(data: bytes, name: str = "fuzz.mat") -> bool:
     """Read `data`; return whether it was taken. Anything but a refusal is raised."""
     try:
-        worker.read(memoryview(data), name, Discard(), LIMIT)
+        file_formats.read(memoryview(data), name, Discard(), LIMIT)
     except EXPECTED:
         return False
     return True
@@ -142,7 +142,7 @@ def guided(corpus: Path, options: list[str]) -> None:
         kind = next((i for i, n in enumerate(NAMES) if Path(n).suffix == Path(name).suffix), 0)
         (corpus / f"seed-{number}").write_bytes(bytes([kind]) + data)
     # the rest of what is loaded would take minutes and teach the fuzzer nothing
-    for module in (joint_trajectories, mat5, mat73, worker, table):
+    for module in (joint_trajectories, mat5, mat73, file_formats, table):
         for name, member in vars(module).items():
             if inspect.isfunction(member) and member.__module__ == module.__name__:
                 setattr(module, name, atheris.instrument_func(member))

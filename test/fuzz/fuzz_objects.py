@@ -24,7 +24,7 @@ import numpy as np
 from differential import Matrices
 
 from mrlab_ros.adapters.sandbox import restrictions
-from mrlab_ros.adapters.workspaces import worker
+from mrlab_ros.adapters.workspaces import file_formats
 
 SECONDS = 10  # of processor time, for one small file
 MEMORY = 1 << 30  # bytes
@@ -78,7 +78,7 @@ def outcome(data: bytes, expected: Matrices | None) -> str:
 def _read(data: bytes, expected: Matrices | None) -> int:
     found = Matrices()
     try:
-        worker.read(memoryview(data), "fuzz.mat", found, fuzz_matfile.LIMIT)
+        file_formats.read(memoryview(data), "fuzz.mat", found, fuzz_matfile.LIMIT)
     except fuzz_matfile.EXPECTED:
         return REFUSED
     for path, values in found.items() if expected else ():
@@ -94,7 +94,7 @@ def compare(runs: int, seed: int) -> Counter[str]:
     whole = []
     for data in originals:
         found = Matrices()
-        worker.read(memoryview(data), "fuzz.mat", found, fuzz_matfile.LIMIT)
+        file_formats.read(memoryview(data), "fuzz.mat", found, fuzz_matfile.LIMIT)
         whole.append(found)
     ends: Counter[str] = Counter()
     for number in range(runs):

@@ -22,7 +22,6 @@ import codecs
 import contextlib
 import encodings
 import gc
-import gzip
 import importlib
 import io
 import json
@@ -39,35 +38,31 @@ import tempfile
 import traceback
 import warnings
 import weakref
-import zlib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from mrlab_ros.adapters.sandbox import restrictions
 from mrlab_ros.adapters.sandbox.inert_output import guard
-from mrlab_ros.adapters.sandbox.inflate import Incomplete, inflate_zstd
-from mrlab_ros.adapters.workspaces import content, joint_trajectories, results
+from mrlab_ros.adapters.workspaces import content, results
 from mrlab_ros.adapters.workspaces.diagnostics import (
     BAD_TABLE,
-    NOT_INFLATED,
     READER_FAILED,
     TOO_LARGE,
     UNREADABLE,
     UNSUPPORTED_FORMAT,
 )
-from mrlab_ros.adapters.workspaces.matlab import mat5, objects, second_reader
+from mrlab_ros.adapters.workspaces.file_formats import COMPRESSED, inflate, read
+from mrlab_ros.adapters.workspaces.matlab import second_reader
 from mrlab_ros.adapters.workspaces.matlab.elements import (
     Damaged,
     NotATable,
     NotAWorkspace,
     TooLarge,
 )
-from mrlab_ros.adapters.workspaces.matlab.mat73 import read_hdf5
 from mrlab_ros.adapters.workspaces.matlab.recognition import recognise
-from mrlab_ros.adapters.workspaces.sinks import Found, ObjectSink, Sink, View
-from mrlab_ros.adapters.workspaces.tables import table
+from mrlab_ros.adapters.workspaces.sinks import Found
 from mrlab_ros.core.base.diagnostic import Diagnostic, plain
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.conversion.options import Options
@@ -81,16 +76,10 @@ MOST_DIMENSIONS = 32  # of an array in numpy before 2.0
 MESSAGE_SIZE = 65_536
 # what the index says of a variable beside its numbers
 FACTS = ("note", "columns", "units", "time", "is_object", "label", "text")
-# how many bytes one byte of them can hold at most
-COMPRESSED = {"gzip": 1100, "zstd": 33_000}
-# what a table may look like before its rows are read
-TEXTS = ("text", "unknown")
 # packages that readers of seldom files need, and the exit status that asks for the first of them
 SELDOM = ("matio", "rosbags")
 ASKED = 64
 whole: set[str] = set()  # those of SELDOM that this process has imported
-TABLES = (".csv", ".txt", ".tsv", ".lvm")
-NUMBER_BEGINS = tuple(b"%c" % c for c in b"+-.0123456789")
 
 
 class OutputFile:
@@ -135,85 +124,6 @@ def _is_kept(shape: tuple[int, ...]) -> bool:
     return 2 <= len(shape) <= MOST_DIMENSIONS and (
         is_motion(shape) or (len(shape) == 3 and shape[:2] == (4, 4))
     )
-
-
-def inflate(data: memoryview, form: str, limit: int) -> memoryview:
-    """Return the contents of a gzip or zstd file.
-
-    Raises Damaged, or TooLarge above `limit` bytes.
-    """
-    inflated: bytes | bytearray | None
-    try:
-        if form == "zstd":
-            inflated = inflate_zstd(data, limit)
-        else:
-            with gzip.open(View(data)) as file:
-                inflated = file.read(limit + 1)
-    except (OSError, EOFError, zlib.error, ValueError) as error:
-        raise Damaged(NOT_INFLATED(form=form, why=str(error))) from error
-    except Incomplete as error:
-        raise Damaged(NOT_INFLATED(form=form, why=error)) from error
-    if inflated is None or len(inflated) > limit:
-        raise TooLarge("inflated", limit)
-    return memoryview(inflated)
-
-
-def read(
-    data: memoryview,
-    name: str,
-    sink: Sink,
-    limit: int,
-    needs: Callable[[str], object] = importlib.import_module,
-    joints: Sequence[str] = (),
-) -> str:
-    """Hand the variables of a file of any known format to the sink; return the format's name.
-
-    joints: of the robot whose motion is wanted, by which it is found in recorded joint states.
-    needs: is told the modules that this file needs beside those of all files.
-    """
-    form = recognise(data)
-    if form in COMPRESSED:
-        data = inflate(data, form, limit)
-        form = recognise(data)
-        for suffix in (".gz", ".zst", ".zstd"):
-            name = name.removesuffix(suffix)
-    if form in ("mat5", "hdf5"):
-        found = ObjectSink(sink)
-        if form == "mat5":
-            mat5.Mat5Reader(found, limit).read(data)
-        else:
-            read_hdf5(io.BufferedReader(View(data)), found, limit)
-        objects.open_objects(data, found, limit, needs)
-        return "MATLAB v5 to v7" if form == "mat5" else "MATLAB v7.3"
-    if form == "mat4":
-        mat5.read_mat4(data, sink)
-        return "MATLAB v4"
-    if form in joint_trajectories.SUFFIXES or name.lower().endswith(".cdr"):
-        needs("rosbags")
-    if form in joint_trajectories.SUFFIXES:
-        joint_trajectories.read_bag(data, form, sink, limit, joints)
-        return "rosbag2"
-    if name.lower().endswith(".cdr"):
-        joint_trajectories.read_cdr(data, name[: -len(".cdr")], sink)
-        return "CDR"
-    if form == "numpy":
-        table.read_npy(data, sink)
-        return "NumPy npy"
-    if name.lower().endswith(".npz"):
-        table.read_npz(data, sink, limit)
-        return "NumPy npz"
-    if name.lower().endswith(".json"):
-        table.read_json(data, sink)
-        return "JSON"
-    if form in TEXTS and name.lower().endswith(".m"):
-        table.read_matlab(data, sink)
-        return "MATLAB code"
-    # save -ascii of MATLAB writes a table of numbers, and calls it .mat where it is told to.
-    ascii_table = form == TEXTS[0] and bytes(data[:64]).lstrip()[:1] in NUMBER_BEGINS
-    if form in TEXTS and (name.lower().endswith(TABLES) or ascii_table):
-        table.read_csv(data, sink)
-        return "CSV"
-    raise NotAWorkspace(form)
 
 
 def read_again(

@@ -14,7 +14,7 @@ from rosbags.typesys import Stores, get_typestore
 
 from mrlab_ros.adapters.trajectories import formats
 from mrlab_ros.adapters.trajectories.files import load_coefficients
-from mrlab_ros.adapters.workspaces import worker
+from mrlab_ros.adapters.workspaces import file_formats
 from mrlab_ros.adapters.workspaces.joint_trajectories import serialized
 from mrlab_ros.adapters.workspaces.matlab.elements import Damaged, NotAWorkspace, TooLarge
 from mrlab_ros.core.conversion.convert import Outcome, convert
@@ -42,7 +42,7 @@ class Variables(list):
 
 def read(data, name="run.mcap", limit=1 << 24):
     sink = Variables()
-    form = worker.read(memoryview(data), name, sink, limit)
+    form = file_formats.read(memoryview(data), name, sink, limit)
     return Workspace(form, tuple(sink), 0, "0" * 64)
 
 

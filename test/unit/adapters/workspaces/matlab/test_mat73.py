@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from mrlab_ros.adapters.sandbox import restrictions
-from mrlab_ros.adapters.workspaces import worker
+from mrlab_ros.adapters.workspaces import file_formats, worker
 from mrlab_ros.adapters.workspaces.matlab import mat73
 from mrlab_ros.adapters.workspaces.matlab.elements import Damaged, TooLarge
 from mrlab_ros.adapters.workspaces.reader import WorkspaceReader
@@ -98,7 +98,7 @@ def test_its_own_reader_reads_no_bytes_that_lie_elsewhere(way, marker):
     """Outside the sandbox, too: bounds stand before every read."""
     data = hostile.workspace(lambda file: way(file, marker))
     with pytest.raises(Damaged):
-        worker.read(memoryview(data), "traj.mat", marker_free_sink(), 1 << 20)
+        file_formats.read(memoryview(data), "traj.mat", marker_free_sink(), 1 << 20)
 
 
 @pytest.mark.parametrize("way", WAYS, ids=lambda way: way.__name__)
@@ -108,7 +108,7 @@ def test_the_kernel_refuses_what_a_reader_would_open(way, marker, monkeypatch):
     monkeypatch.setattr(worker, "warm_up", lambda: None)
     data = hostile.workspace(lambda file: way(file, marker))
     with restrictions.nothing_opens(), pytest.raises((Damaged, TooLarge)):
-        worker.read(memoryview(data), "traj.mat", marker_free_sink(), 1 << 20)
+        file_formats.read(memoryview(data), "traj.mat", marker_free_sink(), 1 << 20)
 
 
 def test_an_object_whose_parts_lie_elsewhere_stays_closed(marker, reader):

@@ -8,7 +8,7 @@ from fakes import make_model
 from found_matrices import matrix
 
 from mrlab_ros.adapters.trajectories.files import load_coefficients
-from mrlab_ros.adapters.workspaces import worker
+from mrlab_ros.adapters.workspaces import file_formats
 from mrlab_ros.adapters.workspaces.diagnostics import CATEGORIES, NUMBERS_DIFFER, TOO_MANY_PARTS
 from mrlab_ros.adapters.workspaces.matlab import object_classes, objects
 from mrlab_ros.adapters.workspaces.matlab.elements import Damaged, TooLarge
@@ -44,7 +44,7 @@ class Collected(dict):
 
 def read(data, limit=LIMIT):
     sink = Collected()
-    worker.read(memoryview(data), "traj.mat", sink, limit)
+    file_formats.read(memoryview(data), "traj.mat", sink, limit)
     return sink
 
 

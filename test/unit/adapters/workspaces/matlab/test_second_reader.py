@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from mrlab_ros.adapters.workspaces import worker
+from mrlab_ros.adapters.workspaces import file_formats
 from mrlab_ros.adapters.workspaces.matlab import second_reader
 from mrlab_ros.adapters.workspaces.matlab.second_reader import difference, disagreement, steps
 from mrlab_ros.adapters.workspaces.sinks import View
@@ -92,7 +92,7 @@ FILES = {
 def test_every_matrix_at_every_path_agrees(version):
     data = memoryview(FILES[version])
     found = Collected()
-    worker.read(data, "traj.mat", found, LIMIT)
+    file_formats.read(data, "traj.mat", found, LIMIT)
     assert len(found) >= {"v4": 1, "v7.3": 8}.get(version, 17)
     for path, values in found.items():
         assert disagreement(data, path, values) is None
@@ -185,7 +185,7 @@ def test_arrays_of_three_dimensions_are_compared_too(form):
         buffer.write(b"MATLAB 7.3 MAT-file".ljust(124) + b"\x00\x02IM")
     data = memoryview(buffer.getvalue())
     found = Collected()
-    worker.read(data, "traj.mat", found, LIMIT)
+    file_formats.read(data, "traj.mat", found, LIMIT)
     np.testing.assert_array_equal(found["q"], values)
     assert disagreement(data, "q", found["q"]) is None
     other = values.copy()

@@ -6,7 +6,7 @@ import json
 import numpy as np
 import pytest
 
-from mrlab_ros.adapters.workspaces import worker
+from mrlab_ros.adapters.workspaces import file_formats
 from mrlab_ros.adapters.workspaces.matlab.elements import NotATable
 
 Q = np.arange(12.0).reshape(2, 6) / 7
@@ -20,7 +20,7 @@ class Sink(dict):
 
 def read(data, name):
     sink = Sink()
-    worker.read(memoryview(data), name, sink, 1 << 24)
+    file_formats.read(memoryview(data), name, sink, 1 << 24)
     return sink
 
 
