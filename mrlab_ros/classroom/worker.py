@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import contextlib
 import gc
+import importlib
 import json
 import os
 import pickle
@@ -71,6 +72,7 @@ class Inside:
     def __init__(self, limits: Limits) -> None:
         self.limits = limits
         worker.load_encodings()
+        importlib.import_module("scipy.io")  # of the second reader, which opens no file
         for module in worker.SELDOM:
             with contextlib.suppress(ImportError):  # mat-io is not there for every Python
                 worker.import_whole(module)

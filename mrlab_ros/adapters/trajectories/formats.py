@@ -13,7 +13,6 @@ from typing import Any
 import jsonschema
 import numpy as np
 import orjson
-import scipy.io
 from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
 
 from mrlab_ros.adapters.whole_file import replaced
@@ -146,6 +145,8 @@ def write_mat(trajectory: Trajectory, folder: Path) -> Path:
         "t": times(trajectory)[:, np.newaxis],
         "fs": trajectory.frame_rate,
     }
+    import scipy.io  # a tenth of a second, which other formats do not need
+
     scipy.io.savemat(path, content, do_compression=True)
     return path
 
