@@ -17,7 +17,7 @@ from mrlab_ros.adapters.zenoh.session import ZenohSession
 from mrlab_ros.core.bridge.rules import ServiceRule, TopicRule
 from mrlab_ros.nodes.bridge.inward import Inward
 from mrlab_ros.nodes.bridge.outward import Sender
-from mrlab_ros.nodes.bridge.routes import BridgeContext, Count
+from mrlab_ros.nodes.bridge.routes import MOST_CLOSED, BridgeContext, Count
 from mrlab_ros.nodes.bridge.services import Services
 
 PLAY = "/ur5e_1/play"
@@ -236,3 +236,18 @@ def test_a_publisher_that_has_just_gone_has_no_subscriber():
             assert publisher.has_subscriber() is False
     finally:
         session.close()
+
+
+def test_keys_that_are_gone_are_counted_as_a_sum():
+    bridge = BridgeContext(None, None, "", lambda _: None)
+    for number in range(MOST_CLOSED + 50):
+        bridge.count(f"robot_{number}/joint_states", "", "out").messages += 1
+        bridge.close(f"robot_{number}/joint_states")
+    assert len(bridge.counts) == MOST_CLOSED
+    assert bridge.gone.messages == 50
+    # One that came back is not among the closed ones.
+    back = bridge.count("robot_60/joint_states", "", "out")
+    for number in range(MOST_CLOSED):
+        bridge.count(f"other_{number}", "", "out")
+        bridge.close(f"other_{number}")
+    assert bridge.counts["robot_60/joint_states"] is back

@@ -140,7 +140,7 @@ def test_a_node_without_parameters_is_hidden() -> None:
 
 def test_type_checkers_find_the_types_of_the_python_api() -> None:
     assert (ROOT / "mrlab_ros" / "py.typed").is_file()
-    assert 'package_data={package_name: ["py.typed"]}' in (ROOT / "setup.py").read_text()
+    assert 'package_data={package_name: ["py.typed"]' in (ROOT / "setup.py").read_text()
 
 
 def test_the_python_api_is_imported_by_its_names() -> None:

@@ -66,6 +66,7 @@ class Inward(TopicRoutes[InRoute]):
         route.token.undeclare()
         route.subscriber.undeclare()
         self._bridge.streams.destroy_publisher(route.publisher)
+        self._bridge.close(self._bridge.key(name))
 
     def _admission(self, key: str, rule: TopicRule, count: Count) -> Callable[[int], bool]:
         """Return what says whether a message of so many bytes may be read.

@@ -269,14 +269,15 @@ class BridgeNode(
             key: {**vars(count), **({"heard": heard[key]} if key in heard else {})}
             for key, count in sorted(counts.items())
         }
+        every = [*counts.values(), self._bridge.gone]
         return {
             "zid": self._session.zid,
             "prefix": self._bridge.prefix,
             "uptime_s": round(time.monotonic() - self._started, 3),
-            "messages": sum(count.messages for count in counts.values()),
-            "bytes": sum(count.bytes for count in counts.values()),
-            "refused": sum(count.refused for count in counts.values()),
-            "lost": sum(count.lost for count in counts.values()),
+            "messages": sum(count.messages for count in every),
+            "bytes": sum(count.bytes for count in every),
+            "refused": sum(count.refused for count in every),
+            "lost": sum(count.lost for count in every),
             "keys": keys,
         }
 

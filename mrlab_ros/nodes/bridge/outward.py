@@ -268,6 +268,7 @@ class Outward(TopicRoutes[OutRoute]):
         route.token.undeclare()
         route.publisher.undeclare()
         self._ledger.forget(name)
+        self._bridge.close(self._bridge.key(name))
 
     def _emitter(self, name: str, publisher: Publisher, count: Count) -> OnMessage:
         """Return a callback that publishes a message and records its delay.

@@ -68,6 +68,17 @@ class Count:
     refused: int = 0
     lost: int = 0
 
+    def add(self, other: Count) -> None:
+        """Add the traffic of another key."""
+        self.messages += other.messages
+        self.bytes += other.bytes
+        self.refused += other.refused
+        self.lost += other.lost
+
+
+# Keys without a route whose traffic is known apart; that of older ones is known as a sum.
+MOST_CLOSED = 200
+
 
 @dataclass
 class BridgeContext:
@@ -75,7 +86,7 @@ class BridgeContext:
 
     streams: the node of the forwarding publishers, subscriptions and clients; it is spun in a
     thread of its own. prefix: what every key begins with. warn_once: logs a text, each text once.
-    counts: by key.
+    counts: by key. gone: of all keys whose routes were closed long ago.
     """
 
     session: Session
@@ -83,12 +94,24 @@ class BridgeContext:
     prefix: str
     warn_once: Callable[[str], None]
     counts: dict[str, Count] = field(default_factory=dict)
+    gone: Count = field(default_factory=lambda: Count("", ""))
+    _closed: dict[str, None] = field(default_factory=dict)
 
     def key(self, name: str) -> str:
         return key_of(name, self.prefix)
 
     def count(self, key: str, type_name: str, direction: str) -> Count:
+        """Return the count of a key that gets a route."""
+        self._closed.pop(key, None)
         return self.counts.setdefault(key, Count(type_name, direction))
+
+    def close(self, key: str) -> None:
+        """Note that a key has no route any more."""
+        self._closed[key] = None
+        if len(self._closed) > MOST_CLOSED:
+            oldest = next(iter(self._closed))
+            del self._closed[oldest]
+            self.gone.add(self.counts.pop(oldest))
 
     def kind(self, name: str, type_name: str) -> Any:
         """Return the class of a type such as mrlab_msgs/srv/Trigger.

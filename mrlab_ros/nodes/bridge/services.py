@@ -122,6 +122,7 @@ class Services:
             route.in_flight.clear()
             route.waiting.clear()
             self._bridge.streams.destroy_client(route.client)
+        self._bridge.close(self._bridge.key(name))
         for call in calls:
             self._refuse(route, call.query, say.SERVICE_GONE(service=name))
 
