@@ -43,6 +43,7 @@ class WarmProcess:
         self._start_limit, self._folder, self._errors = start_limit, folder, errors
         self._process: subprocess.Popen[bytes] | None = None
         self._connection: socket.socket | None = None
+        self._ready = False
 
     @property
     def pid(self) -> int | None:
@@ -54,8 +55,24 @@ class WarmProcess:
 
         Raises RuntimeError where it does not start.
         """
-        if self._process and self._process.poll() is None and self._connection:
+        self.begin()
+        if self._ready or self._connection is None:
             return b""
+        self._connection.settimeout(self._start_limit)
+        try:
+            ready = self._connection.recv(MESSAGE_SIZE)
+        except OSError:
+            ready = b""
+        if not ready:
+            self.stop()
+            raise RuntimeError(f"the process of {self._module} did not start")
+        self._ready = True
+        return ready
+
+    def begin(self) -> None:
+        """Start it unless it runs, and do not wait until it is ready."""
+        if self._process and self._process.poll() is None and self._connection:
+            return
         self.stop()
         ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         environment = os.environ | python_process.ONE_THREAD
@@ -66,16 +83,7 @@ class WarmProcess:
             stderr=self._errors, env=environment, cwd=self._folder, start_new_session=True,
         )  # fmt: skip
         theirs.close()
-        ours.settimeout(self._start_limit)
-        self._connection = ours
-        try:
-            ready = ours.recv(MESSAGE_SIZE)
-        except OSError:
-            ready = b""
-        if not ready:
-            self.stop()
-            raise RuntimeError(f"the process of {self._module} did not start")
-        return ready
+        self._connection, self._ready = ours, False
 
     def ask(
         self, request: bytes, time_limit: float, descriptors: Sequence[int] = ()

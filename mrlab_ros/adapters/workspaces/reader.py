@@ -24,8 +24,7 @@ from pathlib import Path
 from typing import Any, BinaryIO, TypeVar
 
 from mrlab_ros.adapters import threads
-from mrlab_ros.adapters.sandbox.warm_process import WarmProcess
-from mrlab_ros.adapters.workspaces import content, results
+from mrlab_ros.adapters.workspaces import content, results, workers
 from mrlab_ros.adapters.workspaces.diagnostics import (
     MISSING,
     READER_DIED,
@@ -41,7 +40,6 @@ from mrlab_ros.core.conversion.workspace import Workspace
 Result = TypeVar("Result")
 MiB = 1 << 20
 WALL = 5.0
-START_LIMIT = 30.0  # s for the worker to import what it needs, on a busy machine
 
 
 @dataclass(frozen=True)
@@ -82,9 +80,7 @@ class WorkspaceReader:
         self.limits = limits or Limits()
         self._lock = threading.Lock()
         self._closed = False
-        self._worker = WarmProcess(
-            "mrlab_ros.adapters.workspaces.worker", start_limit=START_LIMIT, folder=Path("/")
-        )
+        self._worker = workers.take()
 
     def start(self) -> None:
         """Start the worker where there is none, so that the first file need not wait for it."""

@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from mrlab_ros.adapters.workspaces import workers
 from mrlab_ros.commands import completion
 from mrlab_ros.commands.convert.options import with_options
 from mrlab_ros.core.conversion.options import Options
@@ -54,7 +55,9 @@ def convert(
 
     Ends with 0 when every file was accepted, 2 when you must choose, 1 when one was rejected.
     """
-    from mrlab_ros.commands.convert import batch  # scipy and others; not for a mere --help
+    if files:
+        workers.begin()
+    from mrlab_ros.commands.convert import batch  # numpy and others; not for a mere --help
 
     request = batch.Request(
         files=files or [],
