@@ -39,7 +39,7 @@ from mrlab_ros.core.conversion.workspace import Workspace
 
 Result = TypeVar("Result")
 MiB = 1 << 20
-WALL = 5.0
+WALL = 10.0
 
 
 @dataclass(frozen=True)
