@@ -104,7 +104,7 @@ def text_of(document: Mapping[str, Any]) -> str:
     rows = [
         (
             one["name"], f"{one['points']:g}", *(f"{mark['points']:g}" for mark in one["marks"]),
-            "" if one["marked"] else still_text.sentence(one["said"]),
+            *(() if one["marked"] else (still_text.sentence(one["said"]),)),
         )
         for one in document["students"]
     ]  # fmt: skip

@@ -37,7 +37,7 @@ def report(facts: Iterable[str], findings: Sequence[Json], tables: Iterable[Tabl
     for table in tables:
         if table.rows:
             heading = f"{table.heading} ({', '.join(table.columns)})"
-            rows = map(dotted, table.rows[:MOST_ROWS])
+            rows = (" · ".join(cell or "\u2013" for cell in row) for row in table.rows[:MOST_ROWS])
             parts.append([heading if table.columns else table.heading, *rows])
     return "\n\n".join("\n".join(part) for part in parts)
 

@@ -25,6 +25,7 @@ from mrlab_ros.core.conversion.layout import Layout
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.conversion.picking import Chosen
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
+from mrlab_ros.core.trajectory import gripper_states
 from mrlab_ros.core.trajectory.trajectory import Array
 
 MOST_FRAMES = 2_000_000  # of a message that is sampled: five hours and a half at 100 Hz
@@ -101,7 +102,7 @@ def resample(
 
 def hold(times_ns: Nanoseconds, states: NDArray[np.bool_], rate: float) -> NDArray[np.bool_]:
     """Return the states, (N,), at every 1 / rate s: each stays until the next point."""
-    return states[_segments(times_ns, rate)[0]]
+    return gripper_states.states_at(states, _segments(times_ns, rate)[0])
 
 
 def at_a_rate(

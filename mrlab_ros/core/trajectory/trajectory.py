@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.trajectory import gripper_states
 from mrlab_ros.core.trajectory.diagnostics import (
     CHANNEL_SHAPE,
     FRAME_RATE_NOT_POSITIVE,
@@ -143,21 +144,14 @@ class Trajectory:
 
     def gripper_at(self, position: float) -> bool | None:
         """Return the gripper state at `position` (s): the last frame's, never interpolated."""
-        return None if self.gripper is None else bool(self.gripper[self.frame_at(position)])
+        if self.gripper is None:
+            return None
+        return gripper_states.state_at(self.gripper, self.frame_at(position))
 
     @cached_property
     def grasp_frames(self) -> tuple[tuple[int, bool], ...]:
-        """Return (frame, closed) for each frame at which the gripper changes its state.
-
-        A gripper that is closed from the first frame on closes at frame 0.
-        """
-        if self.gripper is None:
-            return ()
-        changes = np.flatnonzero(np.diff(self.gripper.astype(np.int8))) + 1
-        frames = [int(f) for f in changes]
-        if self.gripper[0]:
-            frames.insert(0, 0)
-        return tuple((f, bool(self.gripper[f])) for f in frames)
+        """Return (frame, closed) for each frame at which the gripper changes its state."""
+        return () if self.gripper is None else gripper_states.changes(self.gripper)
 
 
 def size_of(shape: tuple[int, ...]) -> str:
