@@ -35,7 +35,7 @@ from size import Size
 from tf2_msgs.msg import TFMessage
 
 from mrlab_ros.core.base.diagnostics import ILLEGAL_EVENT
-from mrlab_ros.core.runtime.processes import Phase
+from mrlab_ros.core.runtime.process_states import Phase
 from mrlab_ros.messages import qos
 from mrlab_ros.processes.lab import LabProcess
 from mrlab_ros.ros.calls import NoAnswer, call

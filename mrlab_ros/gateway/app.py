@@ -14,7 +14,7 @@ from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.share import directory
 from mrlab_ros.adapters.store.objects import open_store
 from mrlab_ros.extensions import extensions, named
-from mrlab_ros.gateway import authority, errors, pages
+from mrlab_ros.gateway import certificate_authority, errors, pages
 from mrlab_ros.gateway.assets import routes as asset_routes
 from mrlab_ros.gateway.assets.cache import AssetCache
 from mrlab_ros.gateway.assets.routes import Robots
@@ -42,7 +42,7 @@ ROUTERS: tuple[APIRouter, ...] = (
     people_routes.router,
     pairing_routes.router,
     oidc_routes.router,
-    authority.router,
+    certificate_authority.router,
     asset_routes.router,
     upload_routes.router,
     trajectory_routes.router,

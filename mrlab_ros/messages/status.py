@@ -11,7 +11,7 @@ from mrlab_msgs.msg import Latency, LatencyHop
 from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.base.diagnostic import Diagnostic, Severity, to_texts
 from mrlab_ros.core.bridge.latency import Delays
-from mrlab_ros.core.runtime.processes import Phase, ProcessState
+from mrlab_ros.core.runtime.process_states import Phase, ProcessState
 from mrlab_ros.core.runtime.watch import Sign, silence
 from mrlab_ros.messages.texts import told
 from mrlab_ros.messages.time import make_header, time_from_message, time_to_message

@@ -12,7 +12,7 @@ import time
 from collections.abc import Sequence
 from typing import Any
 
-from mrlab_ros.core.runtime.processes import ProcessState
+from mrlab_ros.core.runtime.process_states import ProcessState
 
 
 class Announcer:

@@ -22,7 +22,7 @@ from typing import IO
 from mrlab_ros.adapters import threads
 from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.runtime.bucket import RepeatedLines
-from mrlab_ros.core.runtime.processes import Phase, ProcessState
+from mrlab_ros.core.runtime.process_states import Phase, ProcessState
 
 FIRST_DELAY_S = 0.1
 LONGEST_DELAY_S = 10.0

@@ -16,7 +16,7 @@ from mrlab_ros.adapters import private_folder
 from mrlab_ros.adapters.whole_file import replaced
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
 from mrlab_ros.core.base.errors import Misuse, Unavailable
-from mrlab_ros.core.runtime.processes import ProcessState
+from mrlab_ros.core.runtime.process_states import ProcessState
 from mrlab_ros.processes.diagnostics import DOMAIN_TAKEN, LABS_ELSEWHERE, NO_PRIVATE_FOLDER
 from mrlab_ros.ros.diagnostics import NO_LAB_ANSWERS
 

@@ -12,7 +12,7 @@ import time
 from collections.abc import Callable, Iterable
 from types import TracebackType
 
-from mrlab_ros.core.runtime.processes import ProcessState
+from mrlab_ros.core.runtime.process_states import ProcessState
 from mrlab_ros.processes.child_process import Child, Emit, ProcessSpec, RestartPolicy
 
 # From SIGINT to SIGKILL, s; a clean stop of a process takes well under 1 s.

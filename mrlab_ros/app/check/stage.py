@@ -18,7 +18,7 @@ from mrlab_ros.adapters.scenes.object_meshes import ObjectMeshes
 from mrlab_ros.adapters.yaml_files import read_yaml
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.geometry import Pose, compose
-from mrlab_ros.core.checking.joints import StatedLimits
+from mrlab_ros.core.checking.joint_limits import StatedLimits
 from mrlab_ros.core.checking.motion import CheckedRobot
 from mrlab_ros.core.checking.rehearsal import DISTANCE_PERIOD, FARTHEST, Actor, Rehearsal
 from mrlab_ros.core.checking.rehearsal_record import Rehearsed

@@ -15,7 +15,7 @@ from rich.text import Text
 
 from mrlab_ros.client.follow import milliseconds
 from mrlab_ros.core.runtime.colours import OUTCOME_STYLES, SEVERITY_STYLES, STATE_STYLES
-from mrlab_ros.core.runtime.processes import Phase
+from mrlab_ros.core.runtime.process_states import Phase
 
 if TYPE_CHECKING:
     from rich.console import RenderableType

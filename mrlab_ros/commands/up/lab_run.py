@@ -15,7 +15,7 @@ from mrlab_ros.commands.up.speaker import Speaker
 from mrlab_ros.commands.up.web import run_facts, say_where
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.runtime.identity import Identity
-from mrlab_ros.core.runtime.processes import ProcessState
+from mrlab_ros.core.runtime.process_states import ProcessState
 from mrlab_ros.processes.announcer import Announcer
 from mrlab_ros.processes.child_process import SELF
 from mrlab_ros.processes.lab import lab_nodes, lab_processes

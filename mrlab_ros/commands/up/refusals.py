@@ -7,7 +7,7 @@ from collections.abc import Iterable
 
 from mrlab_ros.commands.diagnostics import PROCESSES_REFUSE
 from mrlab_ros.core.base.errors import BadInput
-from mrlab_ros.core.runtime.processes import Phase, ProcessState
+from mrlab_ros.core.runtime.process_states import Phase, ProcessState
 
 
 class Refusals:

@@ -10,9 +10,9 @@ import numpy as np
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, Severity
 from mrlab_ros.core.base.geometry import Array, Pose, Vector, rotate
-from mrlab_ros.core.checking import evidence, joints, tool, waypoints
+from mrlab_ros.core.checking import evidence, joint_limits, tool, waypoints
 from mrlab_ros.core.checking.evidence import CLOSE, NO_ADVICE, Advice
-from mrlab_ros.core.checking.joints import JointFigures, StatedLimits, spectral_arc_length
+from mrlab_ros.core.checking.joint_limits import JointFigures, StatedLimits, spectral_arc_length
 from mrlab_ros.core.checking.rehearsal_record import Rehearsed
 from mrlab_ros.core.checking.report import (
     RANGES,
@@ -82,7 +82,7 @@ def figures_of(trajectory: Trajectory, robot: CheckedRobot) -> MotionFigures:
     moving = np.abs(np.diff(positions, axis=0)).max(axis=1) * rate > STANDS
     frames = np.flatnonzero(moving)
     return MotionFigures(
-        joints.figures_of(positions, rate, robot.model.joints, robot.stated),
+        joint_limits.figures_of(positions, rate, robot.model.joints, robot.stated),
         tool.dexterity_of(chain, positions, rate, robot.model.reach),
         times,
         in_world(local, robot.pose),
@@ -103,7 +103,7 @@ def in_world(points: Array, pose: Pose) -> Array:
 def motion_findings(figures: MotionFigures, robot: str) -> list[Diagnostic]:
     """Return what the figures of a motion say."""
     return [
-        *joints.findings_of(figures.joints, robot, float(figures.times[-1])),
+        *joint_limits.findings_of(figures.joints, robot, float(figures.times[-1])),
         *tool.findings_of(figures.dexterity, robot),
     ]
 

@@ -47,7 +47,7 @@ from mrlab_ros.core.checking.diagnostics import (
     SPEEDS_IN_LIMITS,
 )
 from mrlab_ros.core.checking.evidence import Clearance
-from mrlab_ros.core.checking.joints import JointFigures
+from mrlab_ros.core.checking.joint_limits import JointFigures
 from mrlab_ros.core.checking.rehearsal_record import GraspChange
 from mrlab_ros.core.checking.waypoints import Passed
 

@@ -13,7 +13,7 @@ from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.conversion import (
     discovery,
     kinematics_match,
-    limits,
+    motion_checks,
     picking,
     questions,
     resampling,
@@ -297,10 +297,10 @@ def _against_robot(
     layout: Layout, rate: float, path: str, robot: RobotModel, notes: list[Diagnostic]
 ) -> list[Diagnostic]:
     """Return what is said of the frames, at `rate` Hz, against what the robot can do."""
-    why = limits.fault(layout.arm, rate, robot)
+    why = motion_checks.fault(layout.arm, rate, robot)
     if why:
         return [NO_MOTION(variable=path, why=why)]
-    found = limits.against_robot(layout.arm, rate, robot.joints, path, robot.id)
+    found = motion_checks.against_robot(layout.arm, rate, robot.joints, path, robot.id)
     if any(n.code == WAYPOINTS.code for n in notes):
         # the time between waypoints is not known, so their speed is not either
         return [f for f in found if f.code != "velocity_limit"]

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
 from mrlab_ros.core.base.errors import BadInput
-from mrlab_ros.core.conversion import limits as conversion_limits
+from mrlab_ros.core.conversion import motion_checks
 from mrlab_ros.core.conversion.candidates import matlab_name
 from mrlab_ros.core.conversion.diagnostics import (
     COLUMNS_APPLIED,
@@ -93,7 +93,7 @@ def lay_out(chosen: Chosen, survey: Survey, options: Options, notes: list[Diagno
     if not variable.is_message and not assessment.by_name:
         _refuse_unfilled(assessment)
     values = values[:, by_name]
-    bad = conversion_limits.non_finite(values, path)
+    bad = motion_checks.non_finite(values, path)
     if bad is not None:
         raise BadInput(bad)
     _refuse_times(assessment, survey, notes)
@@ -209,7 +209,7 @@ def _gripper(
     With the option invert, closed is below the middle.
     """
     if not np.isfinite(column).all():
-        bad = conversion_limits.non_finite(column.reshape(-1, 1), options.gripper or path)
+        bad = motion_checks.non_finite(column.reshape(-1, 1), options.gripper or path)
         assert bad is not None
         raise BadInput(bad)
     low, high = float(column.min()), float(column.max())

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, Severity
 from mrlab_ros.core.base.errors import BadInput
-from mrlab_ros.core.conversion import frame_rate, limits, rate_findings
+from mrlab_ros.core.conversion import frame_rate, motion_checks, rate_findings
 from mrlab_ros.core.conversion.diagnostics import (
     BAD_MESSAGE,
     LATE_POINT,
@@ -241,7 +241,7 @@ def _resampled(
     velocities = _part(workspace, variable, "velocities")
     if velocities is not None:
         velocities = velocities[:, layout.source_columns].astype(np.float64)
-        bad = limits.non_finite(velocities, f"{variable.path}.velocities")
+        bad = motion_checks.non_finite(velocities, f"{variable.path}.velocities")
         if bad is not None:
             raise BadInput(bad)
         velocities *= layout.scale

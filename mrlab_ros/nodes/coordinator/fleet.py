@@ -23,7 +23,7 @@ from mrlab_ros.core.playback.diagnostics import (
     OF_ROBOT,
 )
 from mrlab_ros.core.playback.states import State
-from mrlab_ros.core.runtime.processes import ProcessState
+from mrlab_ros.core.runtime.process_states import ProcessState
 from mrlab_ros.core.systems.diagnostics import (
     NO_STATE_OF_ROBOT,
     NO_TRAJECTORY_LOADED,

@@ -22,7 +22,7 @@ from mrlab_ros.core.playback import diagnostics as playback
 from mrlab_ros.core.playback.states import State
 from mrlab_ros.core.runtime.bucket import Occurrences
 from mrlab_ros.core.runtime.identity import Identity
-from mrlab_ros.core.runtime.processes import Deaths, ProcessState, Thaws
+from mrlab_ros.core.runtime.process_states import Deaths, ProcessState, Thaws
 from mrlab_ros.core.systems import diagnostics as say
 from mrlab_ros.core.systems import registry
 from mrlab_ros.core.systems.members import Command, Order

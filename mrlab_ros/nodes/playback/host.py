@@ -23,7 +23,7 @@ from mrlab_ros.core.playback.diagnostics import NOT_PLAYED, OF_ROBOT
 from mrlab_ros.core.playback.saved_state import Kept
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.runtime.identity import Identity
-from mrlab_ros.core.runtime.processes import Deaths
+from mrlab_ros.core.runtime.process_states import Deaths
 from mrlab_ros.core.systems.claims import Leases
 from mrlab_ros.core.systems.members import HALTING
 from mrlab_ros.core.trajectory.trajectory import Trajectory

@@ -8,7 +8,7 @@ from diagnostic_msgs.msg import DiagnosticStatus
 from mrlab_msgs.msg import LabProcess
 
 from mrlab_ros.core.base.diagnostic import Severity, of_text
-from mrlab_ros.core.runtime.processes import Phase, ProcessState
+from mrlab_ros.core.runtime.process_states import Phase, ProcessState
 from mrlab_ros.core.runtime.watch import Sign
 from mrlab_ros.core.systems.diagnostics import SYSTEM_LOST
 from mrlab_ros.messages.status import (

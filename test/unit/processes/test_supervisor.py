@@ -16,7 +16,7 @@ import psutil
 import pytest
 
 from mrlab_ros.core.base.errors import Misuse
-from mrlab_ros.core.runtime.processes import Deaths, ProcessState
+from mrlab_ros.core.runtime.process_states import Deaths, ProcessState
 from mrlab_ros.processes.child_process import (
     RESTARTS,
     WRONG_CONFIGURATION,

@@ -30,7 +30,7 @@ from mrlab_ros.classroom.rubrics.sentences import Form
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.geometry import Array, Vector
 from mrlab_ros.core.checking.check_record import Checked, Motion
-from mrlab_ros.core.checking.joints import REST_SHARE
+from mrlab_ros.core.checking.joint_limits import REST_SHARE
 
 # How near every joint is to its home where the sentence names no angle, rad.
 HOME = float(np.radians(1.0))

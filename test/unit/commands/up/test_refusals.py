@@ -7,7 +7,7 @@ from refusals import refused
 from mrlab_ros.commands.diagnostics import PROCESSES_REFUSE
 from mrlab_ros.commands.up.refusals import Refusals
 from mrlab_ros.core.base.errors import BadInput
-from mrlab_ros.core.runtime.processes import Phase, ProcessState
+from mrlab_ros.core.runtime.process_states import Phase, ProcessState
 
 
 def state(name, phase, restarts=0):

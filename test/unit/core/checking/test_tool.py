@@ -10,7 +10,7 @@ from refusals import refused
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.core.checking.diagnostics import POINT_COUNT, POINT_NOT_NUMBERS, POINT_TOO_FAR
-from mrlab_ros.core.checking.joints import spectral_arc_length
+from mrlab_ros.core.checking.joint_limits import spectral_arc_length
 from mrlab_ros.core.checking.tool import conditioning, dexterity_of, findings_of, jacobian
 from mrlab_ros.core.checking.waypoints import passed, points_from_rows
 

@@ -8,7 +8,7 @@ from made_motions import MODEL, checked, outcome, reach
 
 from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.checking.check_record import Motion
-from mrlab_ros.core.checking.joints import StatedLimits
+from mrlab_ros.core.checking.joint_limits import StatedLimits
 from mrlab_ros.core.checking.motion import CheckedRobot
 
 

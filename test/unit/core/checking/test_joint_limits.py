@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mrlab_ros.core.checking.joints import StatedLimits, figures_of, findings_of
+from mrlab_ros.core.checking.joint_limits import StatedLimits, figures_of, findings_of
 from mrlab_ros.core.robots.model import Joint
 
 JOINT = Joint("elbow", -2.0, 2.0, 3.0)

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from mrlab_ros.core.runtime.processes import Deaths, Phase, ProcessState, Thaws
+from mrlab_ros.core.runtime.process_states import Deaths, Phase, ProcessState, Thaws
 
 PLAYBACK = ProcessState("playback", Phase.RUNNING.value, 7, 0, 0.0, "", nodes=("playback_host",))
 DEAD = replace(PLAYBACK, phase=Phase.WAITING.value, pid=None, down_steady_ns=500)

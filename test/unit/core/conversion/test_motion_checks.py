@@ -5,13 +5,13 @@ import pytest
 from fakes import make_model
 
 from mrlab_ros.core.base.diagnostic import Severity
-from mrlab_ros.core.conversion import limits
+from mrlab_ros.core.conversion import motion_checks
 
 ROBOT = make_model(2)  # both joints -3 to 3 rad, 2 rad/s
 
 
 def check(positions, rate=100.0):
-    return limits.against_robot(positions, rate, ROBOT.joints, "q", "fake")
+    return motion_checks.against_robot(positions, rate, ROBOT.joints, "q", "fake")
 
 
 def smooth(rows=200, reach=1.0):
@@ -82,11 +82,11 @@ def test_two_equal_rows_are_fine():
 def test_the_first_value_that_is_not_finite_is_placed(value):
     q = np.zeros((10, 6))
     q[3, 2] = q[5, 0] = value
-    found = limits.non_finite(q, "q")
+    found = motion_checks.non_finite(q, "q")
     assert found is not None
     assert (found.first_row, found.values["column"], found.values["count"]) == (4, 3, 2)
 
 
 def test_huge_but_finite_values_are_finite():
-    assert limits.non_finite(np.full((4, 2), 1e308), "q") is None
-    assert limits.non_finite(np.ones((4, 2), np.float32), "q") is None
+    assert motion_checks.non_finite(np.full((4, 2), 1e308), "q") is None
+    assert motion_checks.non_finite(np.ones((4, 2), np.float32), "q") is None

@@ -24,7 +24,7 @@ from mrlab_ros.core.checking.diagnostics import (
     OVER_SPEED,
     SPEED_STEP,
 )
-from mrlab_ros.core.conversion.limits import LIMIT_TOLERANCE
+from mrlab_ros.core.conversion.motion_checks import LIMIT_TOLERANCE
 from mrlab_ros.core.robots.model import Joint
 
 # An arm is at rest where no joint moves faster than this share of its limit.
