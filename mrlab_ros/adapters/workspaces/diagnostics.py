@@ -227,11 +227,16 @@ POINTS_NOWHERE = Code("points_nowhere", "'{variable}' points nowhere")
 LIBRARY_FAILED = Code(
     "library_failed",
     "{part:choice hdf5=the HDF5 library|bag=the reader of bags|npz=the reader of NumPy's files|"
-    "json=the reader of JSON|variable=zlib|message=the reader of messages} cannot read it "
-    "({error})",
+    "json=the reader of JSON|yaml=the reader of YAML|variable=zlib|"
+    "message=the reader of messages} cannot read it ({error})",
 )
 NO_JSON_OBJECT = Code(
     "no_json_object",
     'it is no JSON object; expected one such as {{"q": [[[[...]], ...]], "fs": 100}}',
+)
+NO_MESSAGES = Code(
+    "no_messages",
+    "it holds neither a JointTrajectory (joint_names and points) nor joint states (name and "
+    "position)",
 )
 NO_MATRIX_Q = Code("no_matrix_q", "its frames hold no matrix q; convert the workspace again")

@@ -9,7 +9,7 @@ import zlib
 from collections.abc import Callable, Sequence
 
 from mrlab_ros.adapters.sandbox.inflate import Incomplete, inflate_zstd
-from mrlab_ros.adapters.workspaces import joint_trajectories
+from mrlab_ros.adapters.workspaces import joint_trajectories, messages_as_yaml
 from mrlab_ros.adapters.workspaces.diagnostics import NOT_INFLATED
 from mrlab_ros.adapters.workspaces.matlab import mat5, objects
 from mrlab_ros.adapters.workspaces.matlab.elements import Damaged, NotAWorkspace, TooLarge
@@ -94,6 +94,10 @@ def read(
     if name.lower().endswith(".json"):
         table.read_json(data, sink)
         return "JSON"
+    if form in TEXTS and name.lower().endswith(messages_as_yaml.SUFFIXES):
+        needs("yaml")
+        messages_as_yaml.read_yaml(data, sink, joints)
+        return "YAML"
     if form in TEXTS and name.lower().endswith(".m"):
         table.read_matlab(data, sink)
         return "MATLAB code"

@@ -119,7 +119,7 @@ def read_bag(
             sink.add(Found(topic, JOINT_TRAJECTORY, ()))
         for number, message in enumerate(messages, 1):
             path = topic if len(messages) == 1 else f"{topic}({number})"
-            _hand_over(path, message, types, sink)
+            hand_over(path, _decoded(message, types), sink)
 
 
 def _plain(message: bytes, limit: int) -> bytes:
@@ -134,17 +134,20 @@ def _plain(message: bytes, limit: int) -> bytes:
 
 def read_cdr(data: memoryview, path: str, sink: Sink) -> None:
     """Hand one serialized JointTrajectory to the sink, called `path`."""
-    _hand_over(path, bytes(data), _types(), sink)
+    hand_over(path, _decoded(bytes(data), _types()), sink)
 
 
-def _hand_over(path: str, data: bytes, types: Any, sink: Sink) -> None:
-    """Hand a message to the sink as the matrix `path`, with its times and velocities beside."""
+def _decoded(data: bytes, types: Any) -> Any:
     try:
-        message = types.deserialize_cdr(data, JOINT_TRAJECTORY)
+        return types.deserialize_cdr(data, JOINT_TRAJECTORY)
     except MemoryError:
         raise
     except Exception as error:
         raise Damaged(LIBRARY_FAILED(part="message", error=str(error))) from None
+
+
+def hand_over(path: str, message: Any, sink: Sink) -> None:
+    """Hand a message to the sink as the matrix `path`, with its times and velocities beside."""
     names, points = tuple(message.joint_names), message.points
     shape = (len(points), len(names))
     for number, point in enumerate(points, 1):

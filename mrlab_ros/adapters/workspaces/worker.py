@@ -77,7 +77,7 @@ MESSAGE_SIZE = 65_536
 # what the index says of a variable beside its numbers
 FACTS = ("note", "columns", "units", "time", "is_object", "label", "text")
 # packages that readers of seldom files need, and the exit status that asks for the first of them
-SELDOM = ("matio", "rosbags")
+SELDOM = ("matio", "rosbags", "yaml")
 ASKED = 64
 whole: set[str] = set()  # those of SELDOM that this process has imported
 

@@ -35,7 +35,8 @@ MiB = 1 << 20
 BLOCK = MiB  # bytes that are hashed and written at once
 # Endings of files that the converter reads; it finds the real kind in the file.
 ENDINGS = (
-    *(".mat", ".csv", ".txt", ".tsv", ".npz", ".npy", ".m", ".json", ".mcap", ".db3", ".cdr"),
+    *(".mat", ".m", ".csv", ".txt", ".tsv", ".npz", ".npy", ".json", ".yaml"),
+    *(".mcap", ".db3", ".cdr"),
     *(".gz", ".zst", ".zstd"),
 )
 LONGEST_NAME = 255

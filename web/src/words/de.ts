@@ -1797,7 +1797,7 @@ export const diagnostics: Templates = {
   ],
   let_go: ['{object} wurde losgelassen: {robot} bekam einen anderen Endeffektor.'],
   library_failed: [
-    '{part:choice hdf5=die HDF5-Bibliothek|bag=das Leseprogramm für Bags|npz=das Leseprogramm für Dateien von NumPy|json=das Leseprogramm für JSON|variable=zlib|message=das Leseprogramm für Nachrichten} kann sie nicht lesen ({error})',
+    '{part:choice hdf5=die HDF5-Bibliothek|bag=das Leseprogramm für Bags|npz=das Leseprogramm für Dateien von NumPy|json=das Leseprogramm für JSON|yaml=das Leseprogramm für YAML|variable=zlib|message=das Leseprogramm für Nachrichten} kann sie nicht lesen ({error})',
   ],
   lies_elsewhere: [
     '{object} liegt bei {point:position} und nicht {side:choice in=in|on=auf} {other}.',
@@ -2203,6 +2203,9 @@ export const diagnostics: Templates = {
   no_matrix_q: ['ihre Zeilen enthalten keine Matrix q; wandle den Workspace noch einmal um'],
   no_members: ['Ein System braucht mindestens ein Mitglied.', 'Nenne die Roboter, die es bewegt.'],
   no_members_in_file: ['members ist leer; erwartet wird eine Liste mit mindestens einem Roboter'],
+  no_messages: [
+    'sie enthält weder eine JointTrajectory (joint_names und points) noch Gelenkzustände (name und position)',
+  ],
   no_metadata: [
     '{file} enthält keine Metadaten eines Bags: {field} fehlt.',
     'Nenne den Ordner eines Bags, oder repariere das Bag; dabei werden die Metadaten neu geschrieben.',

@@ -6,7 +6,7 @@ import { sentence } from '../../words/diagnostic'
 import { words } from '../../words/words'
 import { exampleFile } from '../motion/example'
 
-const ACCEPTED = '.mat,.m,.csv,.txt,.npz,.npy,.json,.mcap,.db3,.cdr,.gz'
+const ACCEPTED = '.mat,.m,.csv,.txt,.npz,.npy,.json,.yaml,.mcap,.db3,.cdr,.gz'
 
 /** Take files that are dropped anywhere on the page; return whether one is over it now. */
 export function useFileDrop(onFile: (file: File) => void): boolean {

@@ -1,0 +1,99 @@
+"""Reads messages that were written as YAML: what `ros2 topic echo` prints, and goals of actions.
+
+A JointTrajectory is found wherever it stands in a document, as in the goal of an action. Joint
+states, one a document, become a motion as those of a bag do.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator, Sequence
+from types import SimpleNamespace
+from typing import Any
+
+from mrlab_ros.adapters.workspaces import joint_trajectories
+from mrlab_ros.adapters.workspaces.diagnostics import LIBRARY_FAILED, NO_MESSAGES
+from mrlab_ros.adapters.workspaces.matlab.elements import Damaged
+from mrlab_ros.adapters.workspaces.recorded_states import RecordedStates
+from mrlab_ros.adapters.workspaces.sinks import Sink
+
+SUFFIXES = (".yaml", ".yml")
+# Levels of a document in which a trajectory is looked for.
+DEEPEST = 6
+
+
+def read_yaml(data: memoryview, sink: Sink, joints: Sequence[str]) -> None:
+    """Hand every JointTrajectory of a file to the sink, and the motion that its joint states are.
+
+    joints: of the robot whose motion is wanted. Raises Damaged where the file is no YAML, holds
+    no such message, or where a number in one is none: `ros2 topic echo` shortens long lists.
+    """
+    documents = _documents(data)
+    found = [each for document in documents for each in _trajectories(document, DEEPEST)]
+    states = [each for each in documents if _has(each, "name", "position")]
+    if not found and not states:
+        raise Damaged(NO_MESSAGES())
+    try:
+        for number, trajectory in enumerate(found, 1):
+            path = "trajectory" if len(found) == 1 else f"trajectory({number})"
+            joint_trajectories.hand_over(path, _message(trajectory), sink)
+        if states:
+            recorded = RecordedStates()
+            for each in states:
+                recorded.add(_state(each), 0)
+            recorded.hand_over("joint_states", joints, sink)
+    except (TypeError, ValueError, AttributeError) as error:
+        raise Damaged(LIBRARY_FAILED(part="message", error=str(error))) from None
+
+
+def _documents(data: memoryview) -> list[Any]:
+    import yaml
+
+    # Written in C where that is there; it reads 1e-1 as a text, which float() takes.
+    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+    try:
+        return list(yaml.load_all(bytes(data), Loader=loader))
+    except (yaml.YAMLError, ValueError, RecursionError) as error:
+        why = str(error).splitlines()[0]
+        raise Damaged(LIBRARY_FAILED(part="yaml", error=why)) from None
+
+
+def _has(document: Any, *keys: str) -> bool:
+    return isinstance(document, dict) and all(isinstance(document.get(k), list) for k in keys)
+
+
+def _trajectories(document: Any, deepest: int) -> Iterator[dict[str, Any]]:
+    if _has(document, "joint_names", "points"):
+        yield document
+    elif isinstance(document, dict | list) and deepest:
+        inside = document.values() if isinstance(document, dict) else document
+        yield from itertools.chain.from_iterable(_trajectories(i, deepest - 1) for i in inside)
+
+
+def _message(document: dict[str, Any]) -> SimpleNamespace:
+    points = [
+        SimpleNamespace(
+            positions=[float(each) for each in point.get("positions") or ()],
+            velocities=[float(each) for each in point.get("velocities") or ()],
+            time_from_start=_instant(point.get("time_from_start")),
+        )
+        for point in document["points"]
+    ]
+    names = [str(name) for name in document["joint_names"]]
+    return SimpleNamespace(joint_names=names, points=points)
+
+
+def _state(document: dict[str, Any]) -> SimpleNamespace:
+    header = document.get("header") or {}
+    return SimpleNamespace(
+        header=SimpleNamespace(stamp=_instant(header.get("stamp"))),
+        name=[str(name) for name in document["name"]],
+        position=[float(each) for each in document["position"]],
+    )
+
+
+def _instant(document: Any) -> SimpleNamespace:
+    """Return an instant or a duration; fields that are left out are 0, as in `ros2 topic pub`."""
+    given = document or {}
+    sec, nanosec = int(given.get("sec", 0)), int(given.get("nanosec", 0))
+    return SimpleNamespace(sec=sec, nanosec=nanosec)
