@@ -840,6 +840,20 @@ GRIPPER_BETWEEN = Code(
     meaning="The gripper column is not always at one of its two ends; it may be a joint, or a "
     "ramp.",
 )
+GRIPPER_ASSUMED = Code(
+    "gripper_assumed",
+    "The last column, '{heading}', was taken as the gripper: 0 open, 1 closed.",
+    "Where it is none, leave it out of the matrix.",
+    severity=WARNING,
+    meaning="A column behind those of the joints was taken as the gripper against its heading.",
+)
+GRIPPER_OPENS = Code(
+    "gripper_opens",
+    "By its heading '{heading}' is 1 where the gripper is open; it was turned round.",
+    "Invert it to confirm that, or save 1 for closed.",
+    severity=WARNING,
+    meaning="The heading of the gripper's column says that 1 means open.",
+)
 GRIPPER_CONSTANT = Code(
     "gripper_constant",
     "The gripper column is {value:number} throughout; the gripper stays open.",

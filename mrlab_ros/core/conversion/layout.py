@@ -16,9 +16,11 @@ from mrlab_ros.core.conversion.diagnostics import (
     COLUMNS_APPLIED,
     DOUBTFUL_VALUES,
     GRIPPER_APPLIED,
+    GRIPPER_ASSUMED,
     GRIPPER_BESIDE,
     GRIPPER_BETWEEN,
     GRIPPER_CONSTANT,
+    GRIPPER_OPENS,
     GRIPPER_OUT_OF_RANGE,
     GRIPPER_UNMOVED,
     INVERT_APPLIED,
@@ -44,6 +46,12 @@ from mrlab_ros.core.conversion.picking import Chosen
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.trajectory import Array
+
+# Words of a heading under which 1 means open.
+OPENING = frozenset(
+    ("open", "opened", "opening", "offen", "geoeffnet", "oeffnung", "ouvert", "ouverte",
+     "ouverture", "abierto", "abierta", "apertura", "aperto", "aperta", "aberto", "aberta", "acik")
+)  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,6 +111,10 @@ def lay_out(chosen: Chosen, survey: Survey, options: Options, notes: list[Diagno
         column = values[:, joints]
         if not (options.columns or options.gripper) and assessment.last_is_joint:
             raise BadInput(_seven_axes(column, values[:, 0], robot, path))
+        if len(variable.columns) == values.shape[1] and not (
+            options.columns or options.gripper or options.invert
+        ):
+            column = _as_headed(variable.columns[by_name[joints]], column, notes)
     held = None if column is None else _gripper(column, options, path, chosen, joints, notes)
     if column is None and not chosen.without_gripper:
         notes += _gripper_beside(survey.workspace, path, len(arm))
@@ -189,6 +201,17 @@ def _seven_axes(
         meaning=found.meaning if found else "",
         fixes=fixes,
     )
+
+
+def _as_headed(heading: str, column: NDArray[Any], notes: list[Diagnostic]) -> NDArray[Any]:
+    """Return a gripper's column, turned round where its heading says that 1 is open."""
+    words = described(heading)
+    if OPENING & {w.text for w in words} and set(np.unique(column).tolist()) <= {0.0, 1.0}:
+        notes.append(GRIPPER_OPENS(heading=heading, fixes=(Fix("invert", "true"),)))
+        return 1.0 - column
+    if not any(w.can_be(Class.GRIPPER) for w in words):
+        notes.append(GRIPPER_ASSUMED(heading=heading, fixes=(Fix("gripper", NO_GRIPPER),)))
+    return column
 
 
 def _is_gripper(column: NDArray[Any]) -> bool:

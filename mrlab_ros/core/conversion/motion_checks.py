@@ -190,7 +190,8 @@ def _between(jumps: list[int], rows: int, variable: str) -> tuple[Fix, ...]:
     ends = [-1, *jumps, rows - 1]
     pieces = [(a + 2, b + 1) for a, b in itertools.pairwise(ends) if b - a >= 2]
     pieces.sort(key=lambda piece: piece[0] - piece[1])
-    if not pieces:
+    # of a message, which is resampled, rows are points and a jump lies between frames
+    if not pieces or variable.startswith("/"):
         return (Fix(matlab=f"plot(diff({variable}))"),)
     fixes = []
     for first, last in pieces[:MOST_PARTS]:

@@ -20,6 +20,7 @@ from mrlab_ros.core.conversion.diagnostics import (
     TOO_LONG,
     WAYPOINTS,
 )
+from mrlab_ros.core.conversion.evidence.joining import first_path, picked_rows
 from mrlab_ros.core.conversion.evidence.survey import Survey, is_coarse
 from mrlab_ros.core.conversion.layout import Layout
 from mrlab_ros.core.conversion.options import Options
@@ -264,5 +265,11 @@ def _resampled(
 
 
 def _part(workspace: Workspace, message: Variable, name: str) -> NDArray[Any] | None:
-    found = workspace.find(f"{message.path}.{name}")
-    return found.values if found else None
+    """Return what stands beside the points of a message, of those rows that were picked."""
+    whole = first_path(message.path)
+    found = workspace.find(f"{whole}.{name}")
+    if found is None or found.values is None:
+        return None
+    return (
+        found.values if whole == message.path else found.values[picked_rows(message.path, found)]
+    )

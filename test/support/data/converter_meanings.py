@@ -296,6 +296,11 @@ def misleading(robot: str) -> Iterator[Case]:
         :, [0, 1, 2, 3, 4, 5, 6, 7]
     ]
     yield case("mobile_base", mat(q=base, fs=50.0), "columns")
+    for name, stated in {
+        "units_q": {"units": {"q": "deg"}}, "units_joint": {"units": {"joint": "deg"}},
+        "meta_q_unit": {"meta": {"q": {"unit": "deg"}}},
+    }.items():  # fmt: skip
+        yield case(f"deg_{name}", mat(q=np.degrees(s), fs=50.0, **stated), "unit", s)
     first = np.column_stack([gripper(rows), q])
     yield case("gripper_first", mat(q=first, fs=50.0), "column gripper", q)
     ramp = np.column_stack([q, np.linspace(0, 1, rows)])

@@ -1589,6 +1589,14 @@ export const diagnostics: Templates = {
     'In der Spalte des Greifers liegen Werte zwischen ihren Enden {first:number} und {last:number}, nämlich {count:integer} von {rows:integer}; {side:choice above=über|below=unter} {threshold:number} gilt der Greifer als geschlossen.',
     'Sichere 0 für offen und 1 für geschlossen, ohne Rampen. Ist die Spalte ein Gelenk, nimm nur die Gelenke.',
   ],
+  gripper_assumed: [
+    "Die letzte Spalte, '{heading}', gilt als der Greifer: 0 offen, 1 geschlossen.",
+    'Ist sie keiner, lass sie aus der Matrix weg.',
+  ],
+  gripper_opens: [
+    "Nach der Überschrift '{heading}' ist 1, wo der Greifer offen ist; die Spalte wurde umgedreht.",
+    'Kehre sie um, um das zu bestätigen, oder speichere 1 für geschlossen.',
+  ],
   gripper_constant: [
     'Die Spalte des Greifers ist durchweg {value:number}; der Greifer bleibt offen.',
   ],

@@ -17,6 +17,7 @@ from mrlab_ros.adapters.workspaces.tables.cells import decoded, is_number, with_
 
 BLOCK_COMMENT = re.compile(r"^[ \t]*%\{[ \t]*\n.*?^[ \t]*%\}[ \t]*$", re.M | re.S)
 COMMENT = re.compile(r"%[^\n]*")
+TEXT = re.compile(r"(?<![\w\])}'.])'[^'\n]*'|\"[^\"\n]*\"")
 CONTINUED = re.compile(r"\.\.\.[^\n]*\n")
 NAME = r"[A-Za-z]\w*(?:\.[A-Za-z]\w*)*"
 STATEMENT = re.compile(
@@ -25,6 +26,15 @@ STATEMENT = re.compile(
     r"(?P<number>[-+.\w]+))[ \t]*(?=[;,\n]|$)"
 )
 NOTHING_ELSE = re.compile(r"(?:[\s;,]|\b(?:clear|clc|close)\b(?:[ \t]+all)?)*")
+
+
+def comments(data: bytes) -> list[str]:
+    """Return the comments of a file, a line each, without their marks."""
+    text = decoded(data).replace("\r\n", "\n").replace("\r", "\n")
+    blocks = [line for found in BLOCK_COMMENT.finditer(text) for line in found[0].split("\n")]
+    lines = COMMENT.findall(BLOCK_COMMENT.sub("", TEXT.sub("''", text)))
+    said = (line.strip(" \t%{}") for line in (*blocks, *lines))
+    return [line for line in said if line]
 
 
 def statements(data: bytes) -> Iterator[tuple[str, Any]]:

@@ -75,7 +75,9 @@ def read_csv(data: memoryview, sink: Sink) -> None:
 
 
 def read_matlab(data: memoryview, sink: Sink) -> None:
-    """Hand the numbers, texts and matrices of a file of MATLAB code to the sink."""
+    """Hand the numbers, texts, matrices and comments of a file of MATLAB code to the sink."""
+    for number, comment in enumerate(matlab_text.comments(bytes(data))[:MOST_COMMENTS], 1):
+        sink.add(Found(f"comment{{{number}}}", COMMENT, text=comment[:LONGEST_TEXT]))
     for name, value in matlab_text.statements(bytes(data)):
         if isinstance(value, str):
             sink.add(Found(name, "char", (1, len(value)), text=value[:LONGEST_TEXT]))

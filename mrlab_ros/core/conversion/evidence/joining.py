@@ -268,6 +268,12 @@ def _indices(text: str, axis: int, part: str, whole: Variable) -> NDArray[np.int
         ) from None
 
 
+def picked_rows(part: str, whole: Variable) -> NDArray[np.intp]:
+    """Return the rows, from 0, that the path of a part takes; raise BadInput if not there."""
+    match = PART.fullmatch(part)
+    return np.arange(whole.shape[0]) if match is None else _indices(match["rows"], 0, part, whole)
+
+
 def rows_of(path: str, first: int, last: int) -> str:
     """Return the path of rows of a matrix, from 1; of a part, the same rows of its matrix."""
     match = PART.fullmatch(path)

@@ -75,23 +75,42 @@ def nearby(workspace: Workspace, matrix: str) -> list[tuple[int, Variable]]:
     place, steps = outer(matrix), 1
     while True:
         found += [(steps, v) for v in small.get(place, ())]
-        for struct in workspace.structs.get(place, ()):
-            if any(w.can_be(Class.ABOUT) for w in described(struct[len(place) :])):
+        for struct in workspace.small:
+            inside = struct.startswith(f"{place}." if place else "") and struct != place
+            if inside and struct[-1:] not in ")}" and _is_about(struct[len(place) :]):
                 found += [(steps + 1, v) for v in small[struct]]
         if not place:
             return found
         place, steps = outer(place), steps + 2
 
 
+def _is_about(path: str) -> bool:
+    """Say whether the path of a struct says that it is about what stands around it."""
+    return any(w.can_be(Class.ABOUT, Class.UNIT_KEY) for w in described(path))
+
+
 def about(workspace: Workspace, matrix: str) -> list[Statement]:
     """Return the texts and numbers that may be said of a matrix, the nearest first."""
+    around = {outer(matrix), *itertools.accumulate(outer(matrix).split("."), "{}.{}".format)}
     found = [
-        Statement(v, near, tuple(described(leaf(ELEMENT.sub("", v.path)))))
+        Statement(v, near, tuple(_words_of(ELEMENT.sub("", v.path), around)))
         for near, v in nearby(workspace, matrix)[:MOST_TEXTS]
         if v.path != matrix
     ]
     found.sort(key=lambda s: s.near)
     return found
+
+
+def _words_of(path: str, around: Collection[str]) -> list[Word]:
+    """Return the words of a name, and those of the structs that are about a matrix.
+
+    around: the structs in which the matrix lies; their names say nothing of it.
+    """
+    words, struct = described(leaf(path)), outer(path)
+    while struct and struct not in around:
+        words += [w for w in described(leaf(struct)) if not w.can_be(Class.ABOUT)]
+        struct = outer(struct)
+    return words
 
 
 def unit_claims(said: list[Statement], matrix: str) -> list[UnitClaim]:

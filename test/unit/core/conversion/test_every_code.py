@@ -26,6 +26,7 @@ Q = corpus.move(rows=ROWS, seed=5)
 DQ = corpus.velocity(Q)
 T = np.arange(ROWS) / 100
 CLOSED = ((np.arange(ROWS) > 100) & (np.arange(ROWS) < 200)).astype(float)
+Q_NAMES = tuple(f"q{i}" for i in range(1, 7))
 COLUMN = np.arange(ROWS)[:, None]
 POINTS = Q[::40]
 
@@ -140,6 +141,12 @@ EXAMPLES = {
     "gripper_range": Example([var("q", np.column_stack([Q, 0.085 * (1 - CLOSED)]))]),
     "gripper_between": Example([var("q", np.column_stack([Q, ON_ITS_WAY]))]),
     "gripper_unmoved": Example([var("q", np.column_stack([Q, 1 + 0 * CLOSED]))]),
+    "gripper_assumed": Example(
+        [var("q", np.column_stack([Q, CLOSED]), columns=(*Q_NAMES, "done"))]
+    ),
+    "gripper_opens": Example(
+        [var("q", np.column_stack([Q, CLOSED]), columns=(*Q_NAMES, "gripper_open"))]
+    ),
     "gripper_beside": Example([var("q", Q), var("gripper", CLOSED)]),
     # good to know
     "object_ignored": Example([var("q", Q), Variable("ts", "timeseries", (1, 1), is_object=True)]),

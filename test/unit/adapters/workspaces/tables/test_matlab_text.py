@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mrlab_ros.adapters.workspaces.matlab.elements import NotATable
-from mrlab_ros.adapters.workspaces.tables.matlab_text import statements
+from mrlab_ros.adapters.workspaces.tables.matlab_text import comments, statements
 
 CODE = b"""%% a motion
 clear all; clc
@@ -41,3 +41,10 @@ def test_code_that_computes_is_refused_with_its_line(code, line):
     with pytest.raises(NotATable) as caught:
         list(statements(code))
     assert caught.value.args[0].values["line"] == line
+
+
+def test_comments_are_read_and_texts_are_none():
+    code = (
+        b"% joint angles in degrees\nq = [1 2]; % deg\nrobot = 'a % b';\n%{\nat 50 Hz\n%}\nw = q';"
+    )
+    assert comments(code) == ["at 50 Hz", "joint angles in degrees", "deg"]
