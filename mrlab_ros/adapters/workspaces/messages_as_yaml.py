@@ -54,7 +54,7 @@ def _documents(data: memoryview) -> list[Any]:
     try:
         return list(yaml.load_all(bytes(data), Loader=loader))
     except (yaml.YAMLError, ValueError, RecursionError) as error:
-        why = str(error).splitlines()[0]
+        why = getattr(error, "problem", "") or str(error)
         raise Damaged(LIBRARY_FAILED(part="yaml", error=why)) from None
 
 
