@@ -142,7 +142,8 @@ class Arrivals:
                 taker.next = number + 1
                 on_message(data, info["source_timestamp"])
             except Exception as error:
-                if descriptor not in self._takers:  # destroyed meanwhile
+                # Destroyed meanwhile; the next subscription may have the same descriptor.
+                if self._takers.get(descriptor) is not taker:
                     return False
                 self._on_error(error)
         return True

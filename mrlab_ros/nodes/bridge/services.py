@@ -136,9 +136,10 @@ class Services:
                 other = say.CALLED_BY_ANOTHER_KEY(service=route.name, key=key, found=query.key)
                 self._refuse(route, query, other)
                 return
-            largest = route.rule.max_size
-            if query.size > largest:
-                large = say.REQUEST_TOO_LARGE(service=route.name, size=query.size, largest=largest)
+            # Not after the call is sent: the query is gone once it has its reply.
+            size, largest = query.size, route.rule.max_size
+            if size > largest:
+                large = say.REQUEST_TOO_LARGE(service=route.name, size=size, largest=largest)
                 self._refuse(route, query, large)
                 return
             request, why_not = read(query.payload)
@@ -161,7 +162,7 @@ class Services:
                 self._refuse(route, query, why_not)
                 return
             route.count.messages += 1
-            route.count.bytes += len(query.payload or b"")
+            route.count.bytes += size
 
         return on_query
 
