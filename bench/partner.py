@@ -21,7 +21,6 @@ ANSWER_S = 120.0
 # For a case in a process of its own, s.
 CASE_S = 3600.0
 HOST = (sys.executable, "-m", "mrlab_ros.processes.host")
-MRLAB = (sys.executable, "-m", "mrlab_ros.cli")
 
 
 class Failed(Exception):

@@ -12,13 +12,13 @@ import pytest
 import schemathesis
 import uvicorn
 from fake_converter import FakeConverter
+from fake_lab import FakeLab
 from gateway_side import Gateway
 from graph import wait_for
 from hypothesis import HealthCheck, given, settings
+from memory_store import MemoryStore
 from schemathesis.specs.openapi.checks import positive_data_acceptance
 
-from mrlab_ros.adapters.store.memory import MemoryStore
-from mrlab_ros.gateway.lab.fake_lab import FakeLab
 from mrlab_ros.gateway.uploads.routes import Desk
 
 OURS = re.compile("/api/(trajectories|uploads|conversions|motions)")

@@ -9,6 +9,7 @@ import time
 from pathlib import Path
 
 import pytest
+from memory_store import MemoryStore
 from refusals import refused
 from s3_server import BUCKET, s3_server
 
@@ -19,7 +20,6 @@ from mrlab_ros.adapters.store.diagnostics import (
     STORE_FAILED,
     STORE_FOLDER_UNUSABLE,
 )
-from mrlab_ros.adapters.store.memory import MemoryStore
 from mrlab_ros.adapters.store.objects import open_store
 from mrlab_ros.adapters.store.port import Missing, StoreFailure
 from mrlab_ros.core.base.errors import BadInput

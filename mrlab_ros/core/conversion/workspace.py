@@ -108,15 +108,6 @@ class Workspace:
                 found.setdefault(outer(v.path), []).append(v)
         return found
 
-    @cached_property
-    def structs(self) -> dict[str, list[str]]:
-        """The structs that hold such, but no elements of arrays, by the struct around them."""
-        found: dict[str, list[str]] = {}
-        for path in self.small:
-            if path and path[-1] not in ")}":
-                found.setdefault(outer(path), []).append(path)
-        return found
-
     def scalar(self, variable: Variable) -> float | None:
         """Return the number that `variable` holds where it holds exactly one, else None."""
         if variable.values is None or variable.values.size != 1:

@@ -6,6 +6,7 @@ import io
 from typing import Any
 
 import numpy as np
+from fake_lab import FakeLab
 from small_lab import make
 
 from mrlab_ros.adapters.store import keys
@@ -15,7 +16,6 @@ from mrlab_ros.adapters.trajectories.catalogue_writer import CatalogueWriter
 from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.trajectory.catalogue import TrajectoryName
 from mrlab_ros.core.trajectory.document import metadata
-from mrlab_ros.gateway.lab.fake_lab import FakeLab
 
 SERVICES = {
     "convert": "ConvertTrajectory",

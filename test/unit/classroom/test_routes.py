@@ -5,16 +5,16 @@ import json
 import pytest
 from class_folder import make_class
 from fake_converter import FakeConverter
+from fake_lab import FakeLab
 from gateway_side import Gateway, kind_of
+from memory_store import MemoryStore
 from refusals import refused
 
-from mrlab_ros.adapters.store.memory import MemoryStore
 from mrlab_ros.adapters.trajectories import formats
 from mrlab_ros.classroom.diagnostics import NO_CLASS_FILE
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.gateway.lab.definitions import installed_definitions
-from mrlab_ros.gateway.lab.fake_lab import FakeLab
 from mrlab_ros.gateway.settings import Settings
 
 SITE = "https://lab.example.org"

@@ -8,10 +8,10 @@ import orjson
 import pytest
 from fakes import make_trajectory
 from kept import Kept
+from memory_store import MemoryStore
 from refusals import refused
 
 from mrlab_ros.adapters.store import keys
-from mrlab_ros.adapters.store.memory import MemoryStore
 from mrlab_ros.adapters.store.port import StoreFailure
 from mrlab_ros.adapters.trajectories import npz_file
 from mrlab_ros.adapters.trajectories.catalogue import Catalogue, NoTrajectory

@@ -9,6 +9,7 @@ from pathlib import Path
 import anyio
 import pytest
 from anyio import to_thread
+from fake_lab import FakeLab
 from refusals import refused
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
@@ -18,7 +19,6 @@ from mrlab_ros.gateway.assets.cache import AssetCache
 from mrlab_ros.gateway.assets.routes import Robots
 from mrlab_ros.gateway.diagnostics import ROBOT_NOWHERE
 from mrlab_ros.gateway.lab.connection import Refused, Sample
-from mrlab_ros.gateway.lab.fake_lab import FakeLab
 
 ROBOTS = Path(__file__).parents[4] / "robots"
 

@@ -3,12 +3,12 @@ from __future__ import annotations
 import hashlib
 
 import pytest
+from fake_lab import FakeLab
 from gateway_side import Gateway, code_of, kind_of
 
 from mrlab_ros.core.bridge.assets import LARGEST_PIECE, Described
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.gateway.lab.connection import Refused, Sample
-from mrlab_ros.gateway.lab.fake_lab import FakeLab
 
 MESH = "/assets/mrlab_ros/robots/ur5e/meshes/link.glb"
 BODY = b"glTF" + bytes(2000)

@@ -6,9 +6,10 @@ from functools import cache
 
 import pytest
 from fake_converter import FakeConverter
+from fake_lab import FakeLab
 from gateway_side import Gateway, kind_of
+from memory_store import MemoryStore
 
-from mrlab_ros.adapters.store.memory import MemoryStore
 from mrlab_ros.app.check.diagnostics import NOT_IN_LAB
 from mrlab_ros.core.base.diagnostic import plain
 from mrlab_ros.core.base.errors import BadInput
@@ -25,7 +26,6 @@ from mrlab_ros.gateway.checks import desk, scene
 from mrlab_ros.gateway.checks.desk import CheckDesk
 from mrlab_ros.gateway.errors import TooMany
 from mrlab_ros.gateway.lab.definitions import installed_definitions
-from mrlab_ros.gateway.lab.fake_lab import FakeLab
 
 definitions = cache(installed_definitions)
 UPRIGHT = {"x": 0.0, "y": 0.0, "z": 0.0, "w": 1.0}

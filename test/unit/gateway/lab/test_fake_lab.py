@@ -3,11 +3,11 @@ from __future__ import annotations
 import asyncio
 
 import pytest
+from fake_lab import FakeLab
 from refusals import refused
 
 from mrlab_ros.gateway.lab.connection import NoAnswer, Phase, Refused, Sample
 from mrlab_ros.gateway.lab.diagnostics import CALL_TIMED_OUT, NOBODY_ANSWERS
-from mrlab_ros.gateway.lab.fake_lab import FakeLab
 
 pytestmark = pytest.mark.fast
 

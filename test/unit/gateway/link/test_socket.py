@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from fake_lab import FakeLab
 from gateway_side import Gateway
 from kept import Kept
 from link_side import Closed, LinkSide, error_of
@@ -15,7 +16,6 @@ from small_lab import make
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.gateway.lab.connection import NoAnswer, Phase, Refused
 from mrlab_ros.gateway.lab.diagnostics import NOBODY_ANSWERS
-from mrlab_ros.gateway.lab.fake_lab import FakeLab
 from mrlab_ros.gateway.link import sessions, socket
 from mrlab_ros.gateway.link.frames import RecordKind
 from mrlab_ros.gateway.link.limits import LinkLimits

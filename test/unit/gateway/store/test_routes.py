@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 import scipy.io
 from fake_converter import FakeConverter
+from fake_lab import FakeLab
 from gateway_side import Gateway, code_of, kind_of, values_of
+from memory_store import MemoryStore
 
 from mrlab_ros.adapters.store import keys
-from mrlab_ros.adapters.store.memory import MemoryStore
 from mrlab_ros.app.show.packed import unpacked
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.gateway.lab.definitions import installed_definitions
-from mrlab_ros.gateway.lab.fake_lab import FakeLab
 from mrlab_ros.gateway.uploads import receive
 from mrlab_ros.gateway.uploads.receive import Bounds, Receiver
 from mrlab_ros.gateway.uploads.routes import Desk

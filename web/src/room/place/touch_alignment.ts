@@ -119,7 +119,7 @@ export class TouchAlignment {
 }
 
 /** m: nearer points define no reliable direction. */
-export const NEAREST = 0.4
+const NEAREST = 0.4
 
 /** The lab's origin in the floor space, and its heading about the vertical. */
 interface Footing {

@@ -4,7 +4,7 @@ import type { Words } from '../../words/en'
 import type { Ability } from './features'
 
 /** s within which a running lab publishes its robots. */
-export const SILENCE_S = 6
+const SILENCE_S = 6
 
 /** The state of each hop between the lab's robots and a person's eyes. */
 export interface Way {
