@@ -53,6 +53,13 @@ def grade(
         Path | None,
         typer.Option(help="Moodle's grading worksheet, to be filled by its identifiers."),
     ] = None,
+    form: Annotated[
+        str,
+        typer.Option(
+            help="Form of the export where the recognised one is wrong: moodle, ilias, canvas, "
+            "gradescope or folder."
+        ),
+    ] = "",
     pages: Annotated[
         bool, typer.Option("--pages/--no-pages", help="A page with 3D for each student.")
     ] = True,
@@ -92,7 +99,7 @@ def grade(
         )
         request = run.Request(
             source, setup, out or source.with_name(f"{source.stem}-marked"), jobs, backend,
-            scheduler, pseudonyms, as_json, fresh, csv_template,
+            scheduler, pseudonyms, as_json, fresh, csv_template, run.form_of(form),
         )  # fmt: skip
         code = run.run(request)
     except LabError as error:

@@ -11,6 +11,7 @@ NO_SUBMISSIONS = Code(
     "{file} holds no submission; expected an export of Moodle, ILIAS, Canvas or Gradescope, or a "
     "folder or file for each student.",
 )
+UNKNOWN_FORM = Code("unknown_form", "The form of the export is '{form}'; expected {known:either}.")
 REFERENCE_IS_CELL = Code(
     "reference_is_cell",
     "{rubric}: the reference {file} is a cell; a class is compared with one motion.",
@@ -105,6 +106,13 @@ NAME_LEADS_OUT = Code(
 )
 ENCRYPTED_FILE = Code(
     "encrypted_file", "It is encrypted; ask the student for an open file.", severity=WARNING
+)
+UNUSUAL_COMPRESSION = Code(
+    "unusual_compression",
+    "It is compressed by method {method:integer} of the ZIP format; only stored and deflated "
+    "members are read.",
+    "Ask the student for an ordinary archive.",
+    WARNING,
 )
 TWICE_IN_ARCHIVE = Code(
     "twice_in_archive", "It is in the archive twice; the last one is read.", severity=INFO

@@ -10,7 +10,8 @@ import numpy as np
 
 from mrlab_ros.app.show import ingredients, still_text
 from mrlab_ros.app.show.page import page
-from mrlab_ros.classroom.marks.graded import REFERENCE, SCHEMA, GradedClass, Student
+from mrlab_ros.classroom.marks.exports import REFERENCE
+from mrlab_ros.classroom.marks.graded import SCHEMA, GradedClass, Student
 from mrlab_ros.classroom.marks.result import MARKED, Result
 from mrlab_ros.core.base.diagnostic import plain
 

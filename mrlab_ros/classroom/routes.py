@@ -15,7 +15,8 @@ from pydantic import BaseModel
 from mrlab_ros.adapters.trajectories import formats
 from mrlab_ros.app.show import document
 from mrlab_ros.classroom.diagnostics import NO_CLASS
-from mrlab_ros.classroom.shown import REFERENCE, ClassFolder, findings
+from mrlab_ros.classroom.marks.exports import REFERENCE
+from mrlab_ros.classroom.shown import ClassFolder, findings
 from mrlab_ros.core.base.diagnostic import Fix, from_plain
 from mrlab_ros.gateway.checks.desk import CheckFinding
 from mrlab_ros.gateway.errors import NotFound

@@ -28,6 +28,7 @@ from mrlab_ros.classroom.diagnostics import (
     REFERENCE_IS_CELL,
     REFERENCE_NOT_READ,
     STOPPED,
+    UNKNOWN_FORM,
     WORKSHEET_FAILED,
     WORKSHEET_WRITTEN,
 )
@@ -43,15 +44,22 @@ from mrlab_ros.classroom.folder import (
 )
 from mrlab_ros.classroom.marks import gradebook
 from mrlab_ros.classroom.marks.diagnostics import NO_FILE_HANDED_IN
-from mrlab_ros.classroom.marks.exports import Roster, Submission, recognise
-from mrlab_ros.classroom.marks.graded import REFERENCE, GradedClass, Student
+from mrlab_ros.classroom.marks.exports import (
+    FORMS,
+    REFERENCE,
+    Roster,
+    Submission,
+    file_label,
+    recognise,
+)
+from mrlab_ros.classroom.marks.graded import GradedClass, Student
 from mrlab_ros.classroom.marks.result import FAILED, NO_FILE, Result, pseudonymous, without_marks
 from mrlab_ros.classroom.rubrics.rubric import Rubric
 from mrlab_ros.classroom.setup import Bounds, Setup, Task
 from mrlab_ros.classroom.submissions import Export
 from mrlab_ros.commands import output
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.scene.document import SceneDocument
 
@@ -74,6 +82,7 @@ class Request:
     as_json: bool = False
     fresh: bool = False
     template: Path | None = None
+    form: str = ""
 
 
 @dataclass(frozen=True)
@@ -96,6 +105,7 @@ def run(request: Request) -> int:
             (*SUFFIXES, *CELLS),
             pattern=rubric.files,
             metadata=export.metadata(),
+            form=request.form,
         )
         left_out = (*roster.left_out, *export.problems)
         roster = replace(roster, left_out=left_out)
@@ -119,6 +129,14 @@ def run(request: Request) -> int:
     else:
         words.show(graded, request.out, key_table, problems)
     return FAILED_SOME if any(s.result.outcome == FAILED for s in students) else DONE
+
+
+def form_of(name: str) -> str:
+    """Return the form of an export by its name in any case; raise Misuse where it is unknown."""
+    known = {each.lower(): each for each in FORMS}
+    if name and name.lower() not in known:
+        raise Misuse(UNKNOWN_FORM(form=name, known=list(known)))
+    return known.get(name.lower(), "")
 
 
 def of_rubric(
@@ -245,14 +263,19 @@ def _task(
         assert setup.reference is not None
         return Task(key, setup.reference[0], (setup.reference,))
     chosen = submission.candidates[:MOST_CANDIDATES]
-    names = [PurePosixPath(entry.path).name for entry in chosen]
+    names = [file_label(PurePosixPath(entry.path).name) for entry in chosen]
     if pseudonym and not any(name.lower().endswith(CELLS) for name in names):
         names = [f"{key}-{n}{_ending(name)}" for n, name in enumerate(names, 1)]
         names[0] = names[0].replace(f"{key}-1", key, 1)
-    files = tuple(
-        (name, export.read(entry.path)) for name, entry in zip(names, chosen, strict=True)
-    )
-    return Task(key, submission.name, files)
+    files, problems = [], []
+    for name, entry in zip(names, chosen, strict=True):
+        try:
+            files.append((name, export.read(entry.path)))
+        except BadInput as error:
+            problems.append(error)
+    if not files:
+        raise problems[0]
+    return Task(key, submission.name, tuple(files))
 
 
 def _ending(name: str) -> str:

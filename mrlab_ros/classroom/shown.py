@@ -22,6 +22,7 @@ from mrlab_ros.classroom.diagnostics import (
     OTHER_CLASS_SCHEMA,
 )
 from mrlab_ros.classroom.folder import CLASS
+from mrlab_ros.classroom.marks.exports import REFERENCE
 from mrlab_ros.core.base.diagnostic import PLACE, Diagnostic, from_plain
 from mrlab_ros.core.base.errors import BadInput, Unavailable
 from mrlab_ros.core.trajectory.trajectory import Trajectory
@@ -30,8 +31,6 @@ from mrlab_ros.gateway.errors import NotFound
 SCHEMA = "mrlab.class.1"
 MiB = 1 << 20
 LARGEST_CLASS, LARGEST_MOTION = 256 * MiB, 256 * MiB
-# The motion of the solution has this key.
-REFERENCE = "reference"
 
 
 class ClassFolder:

@@ -1,16 +1,17 @@
 """Reads the export of a class, a folder or a zip archive, without writing or following anything.
 
 Whatever an archive says of itself, no more is read than the limits allow: bytes are counted as
-they are inflated, and names are only names.
+they are inflated, and names are only names. A file that is not read is an entry all the same, so
+that its student has a row that says why.
 """
 
 from __future__ import annotations
 
 import io
 import os
+import re
 import stat
 import zipfile
-import zlib
 from collections.abc import Iterator, Mapping
 from pathlib import Path, PurePosixPath
 from typing import Any
@@ -31,6 +32,7 @@ from mrlab_ros.classroom.diagnostics import (
     NOT_UNPACKED,
     TOO_MANY_FILES,
     TWICE_IN_ARCHIVE,
+    UNUSUAL_COMPRESSION,
 )
 from mrlab_ros.classroom.marks.exports import ARCHIVE, METADATA, Entry
 from mrlab_ros.core.base.diagnostic import Diagnostic
@@ -42,6 +44,10 @@ MOST_FILES = 200_000
 MOST_BYTES = 64 * MiB  # of one file
 MOST_INNER_FILES, MOST_INNER_BYTES = 500, 256 * MiB  # of an archive that a student sent
 ENCRYPTED = 0x1
+DRIVE = re.compile(r"[A-Za-z]:.*", re.DOTALL)
+NAMELESS = "no name"
+# Decompressors of other methods inflate a whole block at once, whatever is asked for.
+METHODS = {zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED}
 
 
 class Export:
@@ -53,8 +59,9 @@ class Export:
         self.problems: list[tuple[str, Diagnostic]] = []
         self._archive: zipfile.ZipFile | None = None
         self._members: dict[str, zipfile.ZipInfo] = {}
-        self._inner: dict[str, tuple[str, str]] = {}
+        self._inner: dict[str, tuple[str, zipfile.ZipInfo]] = {}
         self._places: dict[str, Path] = {}
+        self._refused: dict[str, Diagnostic] = {}
         if path.is_dir():
             found = list(self._folder())
         elif path.is_file():
@@ -76,10 +83,12 @@ class Export:
 
     def read(self, path: str) -> bytes:
         """Return the bytes of an entry; raise BadInput where they cannot be read."""
+        if path in self._refused:
+            raise BadInput(self._refused[path])
         if path in self._inner:
             outer, member = self._inner[path]
             with _opened(io.BytesIO(self._bytes(outer)), outer) as archive:
-                return _inflated(archive, archive.getinfo(member), path)
+                return _inflated(archive, member, path)
         return self._bytes(path)
 
     def metadata(self) -> Mapping[str, Any]:
@@ -122,70 +131,78 @@ class Export:
                 self.problems.append((path, LINK_NOT_FOLLOWED()))
             for name in sorted(files):
                 path = file_name((within / name).as_posix())
+                while path in self._places:  # two names whose bytes are no UTF-8
+                    path = f"{path.removesuffix(Path(path).suffix)}+{Path(path).suffix}"
                 self._places[path] = Path(folder) / name
                 try:
                     about = os.lstat(Path(folder) / name)
                 except OSError as error:
-                    self.problems.append((path, NOT_READABLE(file=path, why=error.strerror)))
+                    yield self._refuse(path, NOT_READABLE(file=path, why=error.strerror))
                     continue
                 if not stat.S_ISREG(about.st_mode):
                     link = stat.S_ISLNK(about.st_mode)
-                    why = LINK_NOT_FOLLOWED if link else NO_ORDINARY_FILE
-                    self.problems.append((path, why()))
+                    yield self._refuse(path, LINK_NOT_FOLLOWED() if link else NO_ORDINARY_FILE())
                     continue
                 count += 1
                 if count > MOST_FILES:
                     raise BadInput(TOO_MANY_FILES(file=str(self.path), most=MOST_FILES))
                 yield Entry(path, about.st_size, (int(about.st_mtime),))
 
+    def _refuse(self, path: str, why: Diagnostic) -> Entry:
+        """Return the entry of a file that is not read."""
+        self._refused[path] = why
+        self.problems.append((path, why))
+        return Entry(path)
+
     def _listed(
-        self, archive: zipfile.ZipFile, name: str, most: int
+        self, archive: zipfile.ZipFile, name: str, most: int, folder: str = ""
     ) -> tuple[dict[str, zipfile.ZipInfo], list[Entry]]:
+        """Return the members that are read, and all entries. folder: put before the paths."""
         members: dict[str, zipfile.ZipInfo] = {}
+        entries: dict[str, Entry] = {}
         if len(archive.infolist()) > most:
             raise BadInput(TOO_MANY_FILES(file=name, most=most))
         for info in archive.infolist():
             path = _name(info)
-            if info.is_dir():
+            if path.endswith("/"):
                 continue
-            parts = PurePosixPath(path).parts
-            if path.startswith("/") or ".." in parts or not parts or ":" in parts[0]:
-                self.problems.append((path, NAME_LEADS_OUT()))
-            elif stat.S_ISLNK(info.external_attr >> 16):
-                self.problems.append((path, LINK_NOT_FOLLOWED()))
-            elif info.flag_bits & ENCRYPTED:
-                self.problems.append((path, ENCRYPTED_FILE()))
-            else:
-                if path in members:
-                    self.problems.append((path, TWICE_IN_ARCHIVE()))
-                members[path] = info
-        entries = [Entry(p, i.file_size, tuple(i.date_time)) for p, i in members.items()]
-        return members, entries
+            inside = folder + _inside(path)
+            why = _not_read(info, path)
+            if why is not None:
+                if inside not in members:
+                    entries[inside] = self._refuse(inside, why)
+                continue
+            if inside in members:
+                self.problems.append((inside, TWICE_IN_ARCHIVE()))
+            self._refused.pop(inside, None)
+            members[inside] = info
+            entries[inside] = Entry(inside, info.file_size, tuple(info.date_time))
+        return members, list(entries.values())
 
     def _with_inner(self, entry: Entry) -> Iterator[Entry]:
         """Yield an entry; of an archive that a student sent, what is in it, one level deep."""
-        if not entry.path.lower().endswith(ARCHIVE):
+        if not entry.path.lower().endswith(ARCHIVE) or entry.path in self._refused:
             yield entry
             return
         try:
             with _opened(io.BytesIO(self._bytes(entry.path)), entry.path) as archive:
-                members, found = self._listed(archive, entry.path, MOST_INNER_FILES)
+                folder = f"{entry.path}/"
+                members, found = self._listed(archive, entry.path, MOST_INNER_FILES, folder)
                 if sum(each.size for each in found) > MOST_INNER_BYTES:
                     raise BadInput(INFLATES_TOO_FAR(file=entry.path, most=MOST_INNER_BYTES))
-                for each in found:
-                    path = f"{entry.path}/{each.path}"
-                    self._inner[path] = (entry.path, members[each.path].filename)
-                    yield Entry(path, each.size, each.modified)
+                for path, info in members.items():
+                    self._inner[path] = (entry.path, info)
+                yield from found
         except BadInput as error:
-            self.problems.append((entry.path, error.diagnostic))
+            self._refuse(entry.path, error.diagnostic)
             yield entry
 
 
 def _opened(file: Path | io.BytesIO, name: str) -> zipfile.ZipFile:
     try:
         return zipfile.ZipFile(file)
-    except (zipfile.BadZipFile, OSError, ValueError, NotImplementedError) as error:
-        raise BadInput(NO_ZIP(file=name, why=str(error))) from None
+    except Exception as error:  # a damaged directory ends in whatever reads it first
+        raise BadInput(NO_ZIP(file=name, why=_why(error))) from None
 
 
 def _name(info: zipfile.ZipInfo) -> str:
@@ -196,18 +213,41 @@ def _name(info: zipfile.ZipInfo) -> str:
             name = name.encode("cp437").decode("utf-8")
         except UnicodeError:
             name = info.filename
-    return name.replace("\\", "/")
+    return file_name(name.replace("\\", "/"))
+
+
+def _inside(path: str) -> str:
+    """Return a member's name as a path within its archive, never empty."""
+    parts = [p for p in path.split("/") if p not in ("", ".", "..") and not DRIVE.fullmatch(p)]
+    return "/".join(parts) or NAMELESS
+
+
+def _not_read(info: zipfile.ZipInfo, path: str) -> Diagnostic | None:
+    """Return why a member is not read, None where it is."""
+    parts = PurePosixPath(path).parts
+    if path.startswith("/") or ".." in parts or not parts or DRIVE.fullmatch(parts[0]):
+        return NAME_LEADS_OUT()
+    if stat.S_ISLNK(info.external_attr >> 16):
+        return LINK_NOT_FOLLOWED()
+    if info.flag_bits & ENCRYPTED:
+        return ENCRYPTED_FILE()
+    if info.compress_type not in METHODS:
+        return UNUSUAL_COMPRESSION(method=info.compress_type)
+    return None
 
 
 def _inflated(archive: zipfile.ZipFile, info: zipfile.ZipInfo, path: str) -> bytes:
     try:
         with archive.open(info) as file:
             return _bounded(file.read(MOST_BYTES + 1), path)
-    except (
-        zipfile.BadZipFile, OSError, EOFError, zlib.error, RuntimeError, NotImplementedError,
-        ValueError,
-    ) as error:  # fmt: skip
-        raise BadInput(NOT_UNPACKED(file=path, why=str(error))) from None
+    except BadInput:
+        raise
+    except Exception as error:  # as above
+        raise BadInput(NOT_UNPACKED(file=path, why=_why(error))) from None
+
+
+def _why(error: Exception) -> str:
+    return str(error) or type(error).__name__
 
 
 def _bounded(content: bytes, path: str) -> bytes:

@@ -35,11 +35,17 @@ def show(
 
     students, figures = graded.students, graded.statistics()
     named = "a folder or file for each student" if graded.form == "folder" else graded.form
-    say(f"{len(students)} students, read as {named}; {graded.rubric.name}")
+    say(f"{len(students)} students, read as {named} (--form changes that); {graded.rubric.name}")
     say(
         f"mean {figures.mean:.3g}, median {figures.median:.3g} of "
         f"{number(graded.rubric.points)} points; {figures.full} with all points"
     )
+    if graded.left_out:
+        console.print("\nleft out", style="bold")
+        for path, why in graded.left_out[:MOST_LEFT_OUT]:
+            say(f"  {path}: {why}")
+        if len(graded.left_out) > MOST_LEFT_OUT:
+            say(f"  and {len(graded.left_out) - MOST_LEFT_OUT} more")
     unmarked = [s for s in students if s.result.outcome != MARKED]
     if unmarked:
         console.print("\nnot checked", style="bold")
@@ -60,12 +66,6 @@ def show(
     if groups:
         count = sum(len(g.keys) for g in groups)
         say(f"\n{count} motions are nearly the same as another one; the page shows them")
-    if graded.left_out:
-        console.print("\nleft out", style="bold")
-        for path, why in graded.left_out[:MOST_LEFT_OUT]:
-            say(f"  {path}: {why}")
-        if len(graded.left_out) > MOST_LEFT_OUT:
-            say(f"  and {len(graded.left_out) - MOST_LEFT_OUT} more")
     reference = graded.reference
     if reference is not None and reference.points < reference.of:
         say(

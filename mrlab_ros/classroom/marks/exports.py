@@ -19,15 +19,17 @@ from mrlab_ros.classroom.marks.diagnostics import (
     TEXT_NOT_READ,
 )
 from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.base.foreign_text import visible
 
 MOODLE = re.compile(
-    r"(?P<name>.+)_(?P<id>\d+)_assignsubmission_(?P<kind>file|onlinetext|comments)(_(?P<file>.*))?"
+    r"(?P<name>.+)_(?P<id>\d+)_assignsubmission_(?P<kind>file|onlinetext|comments)(_(?P<file>.*))?",
+    re.DOTALL,
 )
 ILIAS = re.compile(r"(?P<last>[^_]+)_(?P<first>[^_]+)_(?P<login>.+)_(?P<id>\d+)")
 CANVAS = re.compile(
     r"(?P<name>[^\W_]([^\W_]|-)*)_(?P<late>LATE_)?(?P<id>\d+)_"
     r"(?:(?P<submission>\d+)_(?P<file>.+)|(?P<text>text)\.html)",
-    re.IGNORECASE,
+    re.IGNORECASE | re.DOTALL,
 )
 GRADESCOPE = re.compile(r"submission_(?P<id>\d+)")
 METADATA = "submission_metadata.yml"
@@ -38,7 +40,13 @@ ARCHIVE = ".zip"
 GERMAN = str.maketrans(
     {"ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss", "Ä": "Ae", "Ö": "Oe", "Ü": "Ue"}
 )
-MOST_KEY = 60  # characters
+MOST_KEY, MOST_NAME = 60, 200  # characters
+REFERENCE = "reference"  # the key of the solution, which no student has
+FOLDER, MOODLE_FORM, GRADESCOPE_FORM, CANVAS_FORM, ILIAS_FORM = FORMS = (
+    "folder", "Moodle", "Gradescope", "Canvas", "ILIAS",
+)  # fmt: skip
+# ILIAS has all submissions in a folder of this name.
+SUBMISSIONS = {"abgaben", "submissions"}
 
 
 @dataclass(frozen=True)
@@ -99,12 +107,13 @@ def recognise(
     *,
     pattern: str = "",
     metadata: Mapping[str, Any] | None = None,
+    form: str = "",
 ) -> Roster:
     """Return who handed in what.
 
     suffixes: endings of files that may hold a motion. pattern: a file name pattern such as
     "motion*.mat", which decides among several. metadata: the content of Gradescope's
-    submission_metadata.yml.
+    submission_metadata.yml. form: one of FORMS; empty: the one that most paths have.
     """
     kept, left_out = [], []
     for entry in sorted(entries, key=lambda e: e.path):
@@ -113,15 +122,14 @@ def recognise(
         if PurePosixPath(entry.path).name == METADATA:
             continue
         kept.append(entry)
-    forms = Counter(form for e in kept if (form := _form(e.path)))
-    form = forms.most_common(1)[0][0] if forms else "folder"
+    form = form or _form(kept)
     students: dict[tuple[str, str], _Found] = {}
-    top = _wrapper(kept) if form == "folder" else 0
+    top = _wrapper(kept, suffixes) if form == FOLDER else 0
     for entry in kept:
-        parts = PurePosixPath(entry.path).parts[top:]
-        found = _plain(parts, suffixes) if form == "folder" else _named(parts, form)
+        parts = PurePosixPath(entry.path).parts
+        found = _plain(parts[top:], suffixes) if form == FOLDER else _named(parts, form)
         if found is None:
-            why = NO_MOTION_FILE() if form == "folder" else NOT_NAMED_AS_BY(form=form)
+            why = NO_MOTION_FILE() if form == FOLDER else NOT_NAMED_AS_BY(form=form)
             left_out.append((entry.path, why))
             continue
         one, rest = found
@@ -130,10 +138,10 @@ def recognise(
         known.text |= one.text
         if not one.text:
             known.files.append((entry, rest))
-    if form == "Gradescope":
+    if form == GRADESCOPE_FORM:
         _names_of_gradescope(students, metadata or {})
     ordered = sorted(students.values(), key=lambda s: (s.name.casefold(), s.identifier))
-    taken: set[str] = set()
+    taken = {REFERENCE}
     submissions = tuple(_submission(s, form, suffixes, pattern, taken) for s in ordered)
     return Roster(form, submissions, tuple(left_out))
 
@@ -147,6 +155,16 @@ def renamed(submission: Submission, name: str, key: str) -> Submission:
     )
 
 
+def file_label(name: str) -> str:
+    """Return the name of a file in which nothing acts, as every file system takes it."""
+    shown = visible(name).replace("\\", "_")
+    if len(shown.encode()) <= MOST_NAME:
+        return shown
+    stem, _, ending = shown.rpartition(".")
+    ending = f".{ending[:20]}" if stem else ""
+    return shown.encode()[: MOST_NAME - len(ending.encode())].decode("utf-8", "ignore") + ending
+
+
 def slug(text: str) -> str:
     """Return a text as a file name that every system takes: a-z, 0-9 and -."""
     plain = unicodedata.normalize("NFKD", unicodedata.normalize("NFC", text).translate(GERMAN))
@@ -154,39 +172,64 @@ def slug(text: str) -> str:
     return re.sub(r"[^a-z0-9]+", "-", ascii_only).strip("-")[:MOST_KEY]
 
 
-def _form(path: str) -> str:
-    for part in PurePosixPath(path).parts:
-        if MOODLE.fullmatch(part):
-            return "Moodle"
-        if GRADESCOPE.fullmatch(part):
-            return "Gradescope"
-        if CANVAS.fullmatch(part):
-            return "Canvas"
-    return "ILIAS" if any(map(ILIAS.fullmatch, PurePosixPath(path).parts[:-1])) else ""
+def _form(entries: Sequence[Entry]) -> str:
+    """Return the form that at least half of the files have; a folder's where none has."""
+    paths = [PurePosixPath(entry.path).parts for entry in entries]
+    counts = {
+        MOODLE_FORM: sum(any(map(MOODLE.fullmatch, parts)) for parts in paths),
+        GRADESCOPE_FORM: sum(any(map(GRADESCOPE.fullmatch, parts[:-1])) for parts in paths),
+        CANVAS_FORM: sum(any(map(CANVAS.fullmatch, parts)) for parts in paths),
+        ILIAS_FORM: _of_ilias(paths),
+    }
+    best = max(counts, key=lambda form: counts[form])
+    return best if counts[best] and 2 * counts[best] >= len(paths) else FOLDER
+
+
+def _of_ilias(paths: Sequence[Sequence[str]]) -> int:
+    """Return how many files lie in a folder of ILIAS.
+
+    A folder such as my_robot_lab_2 has that form too: either it lies in the folder of all
+    submissions, or there are others beside it and all have the form.
+    """
+    beside: dict[tuple[str, ...], Counter[str]] = {}
+    for parts in paths:
+        for depth, part in enumerate(parts[:-1]):
+            beside.setdefault(tuple(parts[:depth]), Counter())[part] += 1
+    return max(
+        (
+            sum(files.values())
+            for above, files in beside.items()
+            if all(map(ILIAS.fullmatch, files))
+            and (len(files) > 1 or (above and above[-1].lower() in SUBMISSIONS))
+        ),
+        default=0,
+    )
 
 
 def _named(parts: Sequence[str], form: str) -> tuple[_Found, str] | None:
     """Return the student of a path in an export, and the file's name without the student's."""
     for number, part in enumerate(parts):
         rest = "/".join(parts[number + 1 :])
-        if form == "Moodle" and (match := MOODLE.fullmatch(part)):
+        if form == MOODLE_FORM and (match := MOODLE.fullmatch(part)):
             name, within = match["name"].replace("_", " "), match["file"] or ""
             file = "/".join(each for each in (within, rest) if each)
             text = match["kind"] != "file"
             return _Found(name, match["id"], part if rest else "", text=text), file
-        if form == "ILIAS" and rest and (match := ILIAS.fullmatch(part)):
+        if form == ILIAS_FORM and rest and (match := ILIAS.fullmatch(part)):
             name = f"{match['first']} {match['last']}"
             return _Found(name, match["login"], part), rest
-        if form == "Canvas" and (match := CANVAS.fullmatch(part)):
+        if form == CANVAS_FORM and (match := CANVAS.fullmatch(part)):
             file = "/".join(each for each in (match["file"], rest) if each)
             late, text = bool(match["late"]), bool(match["text"])
             return _Found(match["name"], match["id"], "", late, text=text), file
-        if form == "Gradescope" and rest and (match := GRADESCOPE.fullmatch(part)):
+        if form == GRADESCOPE_FORM and rest and (match := GRADESCOPE.fullmatch(part)):
             return _Found(part, match["id"], part), rest
     return None
 
 
 def _plain(parts: Sequence[str], suffixes: Sequence[str]) -> tuple[_Found, str] | None:
+    if not parts:
+        return None
     if len(parts) > 1:
         name = parts[0].removesuffix(ARCHIVE)
         return _Found(name, "", parts[0]), "/".join(parts[1:])
@@ -196,10 +239,11 @@ def _plain(parts: Sequence[str], suffixes: Sequence[str]) -> tuple[_Found, str] 
     return _Found(parts[0][: -len(ending)] or parts[0], "", ""), parts[0]
 
 
-def _wrapper(entries: Sequence[Entry]) -> int:
-    """Return how many folders are around all files and are no student's."""
+def _wrapper(entries: Sequence[Entry], suffixes: Sequence[str]) -> int:
+    """Return how many folders are around all motions and are no student's."""
     depth = 0
-    paths = [PurePosixPath(e.path).parts for e in entries]
+    every = [PurePosixPath(e.path).parts for e in entries]
+    paths = [parts for parts in every if _ending(parts[-1], suffixes)] or every
     while paths and min(map(len, paths)) > depth + 1:
         if len({parts[depth] for parts in paths}) != 1 or paths[0][depth].endswith(ARCHIVE):
             break
@@ -236,6 +280,7 @@ def _submission(
     for entry, name in found.files:
         (can if _ending(name, suffixes) else cannot).append((entry, name))
     notes = list(found.notes)
+    name = visible(found.name)[:MOST_NAME]
     if found.text:
         notes.append(TEXT_NOT_READ())
     matching = [each for each in can if pattern and PurePosixPath(each[1]).match(pattern)]
@@ -255,7 +300,7 @@ def _submission(
         rule = pattern if matching and len(matching) < len(can) else None
         notes.append(NEWEST_TAKEN(count=len(can), pattern=rule, files=names))
     return Submission(
-        key, found.name, form, found.identifier, found.folder, found.email, found.late,
+        key, name, form, found.identifier, found.folder, found.email, found.late,
         tuple(entry for entry, _ in chosen), tuple(name for _, name in cannot), tuple(notes),
     )  # fmt: skip
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from statistics import fmean, median
 from typing import Any
 
-from mrlab_ros.classroom.marks.exports import Submission
+from mrlab_ros.classroom.marks.exports import REFERENCE, Submission
 from mrlab_ros.classroom.marks.result import Result
 from mrlab_ros.classroom.marks.similarity import Similar, similar
 from mrlab_ros.classroom.rubrics.rubric import Rubric
@@ -18,7 +18,6 @@ from mrlab_ros.core.base.diagnostic import Diagnostic, plain
 SCHEMA = "mrlab.class.1"
 BINS = 10
 MOST_MISTAKES = 12
-REFERENCE = "reference"
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,16 @@ import pytest
 from refusals import refused
 
 from mrlab_ros.classroom import submissions
-from mrlab_ros.classroom.diagnostics import LARGER_THAN_NEEDED, NO_EXPORT, NO_ZIP
+from mrlab_ros.classroom.diagnostics import (
+    LARGER_THAN_NEEDED,
+    LINK_NOT_FOLLOWED,
+    NAME_LEADS_OUT,
+    NO_EXPORT,
+    NO_ORDINARY_FILE,
+    NO_ZIP,
+    NOT_UNPACKED,
+    UNUSUAL_COMPRESSION,
+)
 from mrlab_ros.classroom.submissions import Export
 
 
@@ -35,8 +44,13 @@ def test_a_folder_is_read_and_links_are_told(tmp_path):
     (tmp_path / "loop").symlink_to(tmp_path)
     os.mkfifo(tmp_path / "fifo.mat")
     with Export(tmp_path) as found:
-        assert [e.path for e in found.entries] == ["Jörg/a.mat"]
+        files = ["fifo.mat", "Jörg/a.mat", "Jörg/link.mat"]
+        assert [e.path for e in found.entries] == files
         assert found.read("Jörg/a.mat") == b"motion"
+        with refused(LINK_NOT_FOLLOWED):
+            found.read("Jörg/link.mat")
+        with refused(NO_ORDINARY_FILE):
+            found.read("fifo.mat")
         assert sorted(p for p, _ in found.problems) == ["Jörg/link.mat", "fifo.mat", "loop"]
 
 
@@ -48,7 +62,10 @@ def test_names_of_an_archive_lead_nowhere_and_umlauts_stay(tmp_path):
     # as a program writes it that does not say that its names are UTF-8
     plain = content.replace("Jörg".encode(), "Jörg".encode())
     with exported(tmp_path, plain) as found:
-        assert sorted(e.path for e in found.entries) == ["Jörg/a.mat", "win/c.mat"]
+        paths = ["Jörg/a.mat", "abs.mat", "out.mat", "win/c.mat", "x/b.mat"]
+        assert sorted(e.path for e in found.entries) == paths
+        with refused(NAME_LEADS_OUT):
+            found.read("out.mat")
         assert found.read("Jörg/a.mat") == b"1"
         assert found.read("win/c.mat") == b"5"
         assert len(found.problems) == 3
@@ -71,6 +88,63 @@ def test_an_archive_of_a_student_is_opened_once(tmp_path):
         ]  # fmt: skip
         assert found.read("Jane.zip/work/a.mat") == b"motion"
         assert [path for path, _ in found.problems] == ["Max.zip"]
+
+
+def packed(name, method):
+    """Return an archive of 1 MiB of zeros, compressed by a method of the ZIP format."""
+    content = io.BytesIO()
+    with zipfile.ZipFile(content, "w", method) as file:
+        file.writestr(name, bytes(1 << 20))
+    return content.getvalue()
+
+
+def test_every_hostile_member_is_an_entry_that_says_why_it_is_not_read(tmp_path):
+    nameless = archive(**{"#": b"1"}).replace(b"#", b"/")
+    damaged = packed("b.mat", zipfile.ZIP_LZMA)
+    torn = bytearray(archive(**{"c.mat": bytes(range(256)) * 9}))
+    torn[60:90] = bytes(30)
+    outer = archive(**{
+        "Anna.zip": nameless, "Ben.zip": packed("a.mat", zipfile.ZIP_BZIP2), "Cem.zip": damaged,
+        "Dora.zip": bytes(torn), f"{'e' * 300}/{'e' * 300}.mat": b"2", "Fe\nfe/a.mat": b"3",
+        "../Path Trav_1_assignsubmission_file_/a.mat": b"4",
+    })  # fmt: skip
+    with exported(tmp_path, outer) as found:
+        whole = {entry.path for entry in found.entries}
+        for path, why in (
+            ("Ben.zip/a.mat", UNUSUAL_COMPRESSION), ("Cem.zip/b.mat", UNUSUAL_COMPRESSION),
+            ("Dora.zip/c.mat", NOT_UNPACKED), ("Path Trav_1_assignsubmission_file_/a.mat",
+            NAME_LEADS_OUT),
+        ):  # fmt: skip
+            assert path in whole
+            with refused(why):
+                found.read(path)
+        assert found.read("Fe\nfe/a.mat") == b"3"
+        assert found.read(f"{'e' * 300}/{'e' * 300}.mat") == b"2"
+
+
+def test_a_member_without_a_name_is_an_entry(tmp_path):
+    content = archive(x=b"1")
+    # the central directory and the member itself say that the name has no character
+    start = content.index(b"PK\x01\x02")
+    local = content[:26] + bytes(2) + content[28:30] + content[31:start]
+    central = content[start : start + 28] + bytes(2) + content[start + 30 : start + 46]
+    end = content[content.index(b"PK\x05\x06") :]
+    size, offset = len(central), len(local)
+    end = end[:12] + size.to_bytes(4, "little") + offset.to_bytes(4, "little") + end[20:]
+    with exported(tmp_path, local + central + end) as found:
+        assert [e.path for e in found.entries] == [submissions.NAMELESS]
+        with refused(NAME_LEADS_OUT):
+            found.read(submissions.NAMELESS)
+
+
+def test_folders_whose_bytes_are_no_text_stay_apart(tmp_path):
+    for byte in (b"\xe4", b"\xf6"):
+        folder = os.path.join(os.fsencode(tmp_path), b"M" + byte)
+        os.mkdir(folder)
+        with open(os.path.join(folder, b"a.mat"), "wb") as file:
+            file.write(byte)
+    with Export(tmp_path) as found:
+        assert sorted(found.read(e.path) for e in found.entries) == [b"\xe4", b"\xf6"]
 
 
 def test_what_inflates_too_far_is_not_read(tmp_path, monkeypatch):

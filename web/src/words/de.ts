@@ -2285,6 +2285,11 @@ export const diagnostics: Templates = {
     'Abgebrochen: {done:integer} von {all:integer} sind geprüft und bleiben erhalten.',
     'Starte denselben Befehl noch einmal, um fortzufahren.',
   ],
+  unknown_form: ["Die Form des Exports ist '{form}'; erwartet wird {known:either}."],
+  unusual_compression: [
+    'Die Datei ist mit dem Verfahren {method:integer} des ZIP-Formats gepackt; gelesen werden nur ungepackte und mit Deflate gepackte.',
+    'Bitte um ein gewöhnliches Archiv.',
+  ],
   worksheet_failed: [
     '{file} ist nicht lesbar, oder {out} kann nicht geschrieben werden: {why:problem}.',
   ],

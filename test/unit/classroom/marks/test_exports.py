@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from mrlab_ros.classroom.marks.exports import Entry, recognise, slug
+from mrlab_ros.classroom.marks.exports import Entry, file_label, recognise, slug
 
 SUFFIXES = (".mat", ".mat.gz", ".csv", ".yaml")
 
@@ -108,6 +108,45 @@ def test_the_last_attempt_comes_first_however_late_it_was_unpacked():
     )  # fmt: skip
     (jane,) = found.submissions
     assert [e.path[-10:] for e in jane.candidates] == ["run-10.mat", "_run-2.mat", "_9_run.mat"]
+
+
+@pytest.mark.parametrize(
+    ("paths", "form", "names"),
+    [
+        (["my_robot_lab_2/Jane/a.mat", "my_robot_lab_2/Max/a.mat"], "folder", ["Jane", "Max"]),
+        (["Jane/a.mat", "Max/a.mat", "my_robot_lab_2/a.mat"], "folder",
+         ["Jane", "Max", "my_robot_lab_2"]),
+        (["Jane/a.mat", "Max/a.mat", "Zoe/zoe_1_2_a.mat"], "folder", ["Jane", "Max", "Zoe"]),
+        (["hw/read.me", "hw/Jane/a.mat", "hw/Max/a.mat"], "folder", ["Jane", "Max"]),
+        (["Doe_Jane_jd_1/a.mat", "Roe_Max_mr_2/a.mat"], "ILIAS", ["Jane Doe", "Max Roe"]),
+    ],
+)  # fmt: skip
+def test_a_form_is_recognised_by_all_paths(paths, form, names):
+    found = students(*paths)
+    assert found.form == form
+    assert [s.name for s in found.submissions] == names
+
+
+def test_a_form_can_be_said():
+    found = students("my_robot_lab_2/a.mat", form="ILIAS")
+    assert (found.form, found.submissions[0].name) == ("ILIAS", "robot my")
+
+
+@pytest.mark.parametrize("name", ["reference", "Reference.mat"])
+def test_no_student_has_the_key_of_the_reference(name):
+    found = students(f"{name}/a.mat" if "." not in name else name, "Zoe/a.mat")
+    assert "reference" not in [s.key for s in found.submissions]
+
+
+def test_names_are_labels_of_one_line():
+    folder = "Jane\nDoe_1_assignsubmission_file_"
+    found = students(f"{folder}/a.mat", f"{'x' * 300}_2_assignsubmission_file_/{'a' * 300}.mat")
+    assert [s.name for s in found.submissions] == ["Jane\\nDoe", "x" * 200]
+    for name in ("a" * 300 + ".mat", "é" * 300 + ".mat.gz", "a\nb.mat", "." * 300):
+        shown = file_label(name)
+        assert len(shown.encode()) <= 200
+        assert "\n" not in shown
+    assert file_label("a" * 300 + ".mat").endswith("a.mat")
 
 
 def test_keys_are_file_names_of_their_own():
