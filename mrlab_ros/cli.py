@@ -6,7 +6,6 @@ import errno
 import os
 import signal
 import sys
-import traceback
 from collections.abc import Sequence
 from types import FrameType
 from typing import Annotated
@@ -21,9 +20,9 @@ import mrlab_ros
 from mrlab_ros.adapters.sandbox.inert_output import guard
 from mrlab_ros.adapters.sandbox.python_process import keep_to_installed_modules
 from mrlab_ros.commands import completion
-from mrlab_ros.commands.output import say_problem
+from mrlab_ros.commands.output import Settings, say_problem
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.base.errors import LabError
+from mrlab_ros.core.base.errors import LabError, WrongUsage
 from mrlab_ros.extensions import extensions, named
 
 EPILOG = """
@@ -134,12 +133,6 @@ def absent() -> None:
     """Needs ROS 2 and the lab's messages, which are not installed here."""
 
 
-class Settings:
-    """Options that hold for every command."""
-
-    debug = False
-
-
 def _say_version(wanted: bool) -> None:
     if wanted:
         print(f"mrlab {mrlab_ros.__version__}")
@@ -159,8 +152,9 @@ def options(
     Settings.debug = debug
 
 
-# Neither a refusal (1) nor wrong usage (2), which are verdicts of `mrlab check` and others.
-BROKEN = 3
+# BROKEN is neither a refusal (1) nor wrong usage (2), which are verdicts of `mrlab check` and
+# others.
+WRONG_USAGE, BROKEN = 2, 3
 # Causes of a disk's refusal by the error's number: no room, or no rights.
 OF_THE_DISK = {
     errno.ENOSPC: "room",
@@ -190,6 +184,8 @@ def main() -> None:
             make_app(sys.argv[1:])(prog_name="mrlab")
         else:
             make_app(asked, completing=True)(prog_name="mrlab")
+    except WrongUsage as error:
+        fail(error.diagnostic, WRONG_USAGE)
     except LabError as error:
         fail(error.diagnostic)
     except KeyboardInterrupt:
@@ -238,12 +234,7 @@ def hang_up(number: int, frame: FrameType | None) -> None:
 
 
 def fail(found: Diagnostic, code: int = 1) -> None:
-    """Print what is wrong and the commands that mend it; end with `code`.
-
-    Under --debug the traceback is printed, too.
-    """
-    if Settings.debug:
-        traceback.print_exc()
+    """Print what is wrong and the commands that mend it; end with `code`."""
     say_problem(found)
     sys.exit(code)
 

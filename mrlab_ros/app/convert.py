@@ -31,7 +31,7 @@ from mrlab_ros.adapters.workspaces.reader import (
 from mrlab_ros.adapters.workspaces.results import Task, failed_here, refused, unexpected
 from mrlab_ros.adapters.yaml_files import close_file
 from mrlab_ros.app.diagnostics import ROBOT_NOT_NAMED
-from mrlab_ros.core.base.errors import BadInput, Misuse
+from mrlab_ros.core.base.errors import BadInput, Misuse, WrongUsage
 from mrlab_ros.core.base.foreign_text import file_name
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome, id_from
 from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE, Options
@@ -51,13 +51,13 @@ def converted(
     """Return what became of a file; a refusal is a result.
 
     robot: a model; empty: the one that a trajectory file names. Raises BadInput where the file or
-    the model is unknown, and Misuse where a model is needed.
+    the model is unknown, and WrongUsage where a model is needed.
     """
     result = of_trajectory_file(file)
     if result is not None:
         return result
     if not robot:
-        raise Misuse(ROBOT_NOT_NAMED(file=file.name, known=list(library.ids())))
+        raise WrongUsage(ROBOT_NOT_NAMED(file=file.name, known=list(library.ids())))
     return convert_file(file, library.model(robot), options, end_effector or None)
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import sys
+import traceback
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -18,6 +19,13 @@ from mrlab_ros.core.base.foreign_text import visible, visible_lines
 
 if TYPE_CHECKING:
     from rich.console import Console
+
+
+class Settings:
+    """Options that hold for every command."""
+
+    debug = False
+
 
 REPORT_WIDTH = 120  # of reports, where nothing says how wide the output is
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
@@ -40,7 +48,12 @@ def say_error(sentence: str) -> None:
 
 
 def say_problem(found: Diagnostic) -> None:
-    """Print why something was refused, and the commands that mend it."""
+    """Print why something was refused, and the commands that mend it.
+
+    Under --debug the traceback of the error that is being handled is printed, too.
+    """
+    if Settings.debug and sys.exc_info()[0]:
+        traceback.print_exc()
     say_error(str(found))
     for line in _tries(found):
         print(line, file=sys.stderr)

@@ -15,7 +15,7 @@ from mrlab_ros.commands import completion
 from mrlab_ros.commands.convert.options import with_options
 from mrlab_ros.commands.diagnostics import BAG_OF_REPORT_GONE, PAGE_NAME, REPORT_WITHOUT_BAG
 from mrlab_ros.commands.output import AsJson
-from mrlab_ros.core.base.errors import BadInput, Misuse
+from mrlab_ros.core.base.errors import BadInput, WrongUsage
 from mrlab_ros.core.conversion.options import Options
 
 if TYPE_CHECKING:
@@ -55,7 +55,7 @@ def show(
     """
     path = output or Path(f"{file.name.split('.')[0] or 'motion'}.html")
     if path.suffix.lower() not in (".html", ".htm"):
-        raise Misuse(PAGE_NAME(name=path.name))
+        raise WrongUsage(PAGE_NAME(name=path.name))
     from mrlab_ros.commands.convert import report
 
     text, result = _page(file, robot, end_effector, options)
@@ -71,14 +71,14 @@ def show(
     if opened and desktop and sys.stdout.isatty():
         typer.launch(str(path.resolve()))
     if result is not None and result.trajectory is None:
-        from mrlab_ros.commands.convert.outcomes import EXIT_CODES
+        from mrlab_ros.commands.convert.outcomes import exit_code
 
         if not as_json:
             words = ["mrlab", "show", str(file), "--robot", robot]
             words += ["--end-effector", end_effector] if end_effector else []
             words += ["--out", str(output)] if output else []
             report.show(result, None, words, options)
-        raise typer.Exit(EXIT_CODES[result.outcome])
+        raise typer.Exit(exit_code(result))
 
 
 def _page(

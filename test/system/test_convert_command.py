@@ -126,12 +126,14 @@ def test_a_joint_trajectory_comes_from_a_topic(tmp_path):
         (["--robot", "r2d2", "x.mat"], "r2d2", launched_lab.mrlab),
         (["--to", "doc", "x.mat"], "csv", in_process.mrlab),
         (["--end-effector", "hook", "x.mat"], "hook", in_process.mrlab),
+        (["--units", "furlong", "x.mat"], "furlong", in_process.mrlab),
+        (["--rate", "-1", "x.mat"], "-1", in_process.mrlab),
         ([], "--topic", in_process.mrlab),
     ],
 )
 def test_a_wrong_call_is_one_sentence(arguments, words, start):
     done = run(*arguments, start=start)
-    assert done.returncode == 1
+    assert done.returncode == 2
     assert words in done.stderr
     assert "Traceback" not in done.stderr
 
@@ -147,10 +149,21 @@ def test_a_wrong_call_is_one_sentence(arguments, words, start):
 )
 def test_a_limit_that_cannot_be_is_refused_before_anything_is_read(folder, arguments, said):
     done = run(*arguments, folder)
-    assert done.returncode != 0
+    assert done.returncode == 2
     assert said in done.stderr
     assert "Traceback" not in done.stderr
     assert not done.stdout
+
+
+@pytest.mark.parametrize("words", [("convert", "--to", "doc"), ("check", "--within", "far")])
+def test_debug_adds_the_traceback_to_the_same_sentence_and_exit_code(folder, words):
+    command, *rest = words
+    given = (command, *rest, str(folder / "good.mat"), "--robot", "ur5e")
+    plainly, traced = in_process.mrlab(*given), in_process.mrlab("--debug", *given)
+    assert plainly.returncode == traced.returncode == 2
+    assert "Traceback" not in plainly.stderr
+    assert traced.stderr.startswith("Traceback")
+    assert traced.stderr.endswith(plainly.stderr)
 
 
 def test_what_cannot_be_written_ends_no_batch(folder, tmp_path):

@@ -13,7 +13,7 @@ from mrlab_ros.commands.check.diagnostics import LENGTH_WITHOUT_UNIT, NO_LENGTH
 from mrlab_ros.commands.convert.options import with_options
 from mrlab_ros.commands.diagnostics import PAGE_NAME
 from mrlab_ros.commands.output import say_problem
-from mrlab_ros.core.base.errors import LabError, Misuse
+from mrlab_ros.core.base.errors import LabError, WrongUsage
 from mrlab_ros.core.conversion.options import Options
 
 COULD_NOT = 2
@@ -71,7 +71,7 @@ def check(
 
     try:
         if out is not None and out.suffix.lower() not in (".html", ".htm"):
-            raise Misuse(PAGE_NAME(name=out.name))
+            raise WrongUsage(PAGE_NAME(name=out.name))
         request = run.Request(
             file, robot, tool, scene, points, metres(within, "within"),
             metres(closest, "closest") if closest else None, out, as_json, options,
@@ -84,14 +84,14 @@ def check(
 
 
 def metres(text: str, option: str) -> float:
-    """Return a length with its unit in m; raise Misuse where it is none."""
+    """Return a length with its unit in m; raise WrongUsage where it is none."""
     match = LENGTH.fullmatch(text)
     try:
         value = float(match[1]) * UNITS[match[2]] if match else -1.0
     except ValueError:
         value = -1.0
     if not 0 <= value <= 10:
-        raise Misuse(NO_LENGTH(option=option, text=text))
+        raise WrongUsage(NO_LENGTH(option=option, text=text))
     if match and not match[2] and value > LONGEST_BARE:
-        raise Misuse(LENGTH_WITHOUT_UNIT(option=option, text=text))
+        raise WrongUsage(LENGTH_WITHOUT_UNIT(option=option, text=text))
     return value

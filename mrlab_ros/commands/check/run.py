@@ -30,7 +30,7 @@ from mrlab_ros.commands.check.diagnostics import (
 from mrlab_ros.commands.convert import report as conversion_report
 from mrlab_ros.commands.convert.options import command_with
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.base.errors import BadInput, Misuse
+from mrlab_ros.core.base.errors import BadInput, WrongUsage
 from mrlab_ros.core.base.geometry import Vector
 from mrlab_ros.core.base.phrase import phrase
 from mrlab_ros.core.checking.diagnostics import CLAIM
@@ -67,9 +67,9 @@ def run(request: Request) -> int:
         request.robot or request.tool or request.points is not None
     ):
         option = "robot" if request.robot else "tool" if request.tool else "points"
-        raise Misuse(FOR_ONE_MOTION(option=option, file=request.file.name))
+        raise WrongUsage(FOR_ONE_MOTION(option=option, file=request.file.name))
     if request.closest is not None and request.closest > FARTHEST:
-        raise Misuse(TOO_FAR_TO_MEASURE(value=request.closest, most=FARTHEST))
+        raise WrongUsage(TOO_FAR_TO_MEASURE(value=request.closest, most=FARTHEST))
     folder = share.directory()
     setting = Setting(
         Stage(folder, RobotLibrary(folder / "robots")), scene_of(request.scene, folder),

@@ -11,6 +11,7 @@ import os
 import sys
 import tempfile
 import time
+import traceback
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor
@@ -42,10 +43,10 @@ from mrlab_ros.commands.convert.diagnostics import (
     WOULD_REPLACE_INPUT,
 )
 from mrlab_ros.commands.convert.options import convert_words
-from mrlab_ros.commands.convert.outcomes import EXIT_CODES
-from mrlab_ros.core.base.errors import BadInput, LabError, Misuse
+from mrlab_ros.commands.convert.outcomes import BADNESS, exit_code
+from mrlab_ros.core.base.errors import BadInput, LabError, Misuse, WrongUsage
 from mrlab_ros.core.base.foreign_text import file_name
-from mrlab_ros.core.conversion.convert import ConversionResult, Outcome, id_from
+from mrlab_ros.core.conversion.convert import ConversionResult, id_from
 from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE, Options
 from mrlab_ros.core.robots.model import RobotModel
 
@@ -78,7 +79,7 @@ class Targets:
         if plot is not None:
             is_picture = plot.suffix in PICTURES
             if is_picture and count > 1:
-                raise Misuse(ONE_PICTURE(file=str(plot), count=count))
+                raise WrongUsage(ONE_PICTURE(file=str(plot), count=count))
             folders["plot"] = plot.parent if is_picture else plot
         for option, folder in folders.items():
             if folder is not None:
@@ -110,8 +111,6 @@ def _make(option: str, folder: Path) -> None:
         ) from None
 
 
-# the worst of a batch: a refusal, then a choice that is open
-BADNESS = (0, 2, 1)
 MANY_PLOTS = 8  # from so many on, processes that draw are worth their start
 LEAST_MEMORY, LEAST_TIME, MOST_LIMIT = 64, 0.1, 1_000_000  # MiB, s, either
 
@@ -140,16 +139,22 @@ class Request:
 
 
 def run(request: Request) -> int:
-    """Convert everything and return the exit code of the worst; raise BadInput or Misuse."""
+    """Convert everything and return the exit code of the worst; raise BadInput or Misuse.
+
+    Raises WrongUsage where an argument cannot be one.
+    """
     _check(request)
     if request.files and request.topic:  # of the bags
         request = replace(request, options=replace(request.options, variable=request.topic))
     library = RobotLibrary(share.directory() / "robots")
-    model = library.model(request.robot)
-    if request.end_effector:
-        library.description(request.robot, request.end_effector)
+    with _arguments():
+        model = library.model(request.robot)
+        if request.end_effector:
+            library.description(request.robot, request.end_effector)
+        writer = formats.writer(request.to)
+        request.options.checked_rate()
+        request.options.factor()
     coefficients = load_coefficients(share.directory() / "config" / "torque_proxy.yaml")
-    writer = formats.writer(request.to)
     results: list[ConversionResult] = []
     taken: set[str] = set()
     limits = Limits(memory=request.memory * MiB, time=request.time_limit, rows=request.row_limit)
@@ -194,14 +199,16 @@ def run(request: Request) -> int:
                 raise
             except Exception as error:
                 # one file does not end a batch
+                if output.Settings.debug:
+                    traceback.print_exc()
                 why = error.diagnostic if isinstance(error, LabError) else None
                 result = refused(task.file, why or unexpected(task.file, error))
                 _say(source, result, None, request)
             results.append(result)
     if len(results) > 1 and not request.as_json:
         report.summarise(results)
-    worst = max((EXIT_CODES[r.outcome] for r in results), key=BADNESS.index)
-    return EXIT_CODES[Outcome.REJECTED] if targets.report() else worst
+    unwritten = 1 if targets.report() else 0
+    return max(unwritten, *map(exit_code, results), key=BADNESS.index)
 
 
 def _say(source: Input, result: ConversionResult, written: Path | None, request: Request) -> None:
@@ -218,15 +225,24 @@ def _say(source: Input, result: ConversionResult, written: Path | None, request:
     report.show(result, written, words, request.options)
 
 
+@contextlib.contextmanager
+def _arguments() -> Iterator[None]:
+    """Raise an argument that is refused as wrong usage."""
+    try:
+        yield
+    except (BadInput, Misuse) as error:
+        raise WrongUsage(error.diagnostic) from None
+
+
 def _check(request: Request) -> None:
-    """Raise Misuse where a limit cannot be one."""
+    """Raise WrongUsage where a limit cannot be one."""
     for option, value, least, unit in (
         ("memory", request.memory, LEAST_MEMORY, "MiB"),
         ("time-limit", request.time_limit, LEAST_TIME, "s"),
         ("timeout", request.timeout, 0, "s"),
     ):
         if not least <= value <= MOST_LIMIT:
-            raise Misuse(
+            raise WrongUsage(
                 LIMIT_OUT_OF_RANGE(
                     option=option, value=float(value), least=least, most=MOST_LIMIT, unit=unit
                 )
@@ -279,7 +295,7 @@ def _with_progress(
 def _inputs(request: Request) -> list[Input]:
     """Return what is to be converted: the files, or the message that a topic brings."""
     if not request.files and not request.topic:
-        raise Misuse(FILES_OR_TOPIC())
+        raise WrongUsage(FILES_OR_TOPIC())
     if request.files:
         return [_input(path) for path in _files(request.files)]
     from mrlab_ros.commands.convert.topic import receive  # rclpy, which files do not need

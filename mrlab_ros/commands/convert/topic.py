@@ -17,7 +17,7 @@ from mrlab_ros.commands.convert.diagnostics import (
     NOT_A_TOPIC,
     OTHER_TYPE,
 )
-from mrlab_ros.core.base.errors import BadInput, Misuse
+from mrlab_ros.core.base.errors import BadInput, WrongUsage
 from mrlab_ros.core.conversion.workspace import JOINT_TRAJECTORY
 from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.graph_node import Graph
@@ -35,7 +35,7 @@ def receive(topic: str, timeout: float) -> bytes:
     try:
         validate_full_topic_name(name)
     except InvalidTopicNameException as error:
-        raise Misuse(NOT_A_TOPIC(topic=topic, why=str(error))) from None
+        raise WrongUsage(NOT_A_TOPIC(topic=topic, why=str(error))) from None
     deadline = time.monotonic() + timeout
     received: list[bytes] = []
     with Graph() as graph:

@@ -13,7 +13,7 @@ from mrlab_ros.commands import completion, output
 from mrlab_ros.commands.convert.options import FIELDS, with_options, words_of
 from mrlab_ros.commands.diagnostics import ONLY_FOR_A_FILE
 from mrlab_ros.commands.output import say
-from mrlab_ros.core.base.errors import Misuse
+from mrlab_ros.core.base.errors import WrongUsage
 from mrlab_ros.core.conversion.options import Options
 
 if TYPE_CHECKING:
@@ -123,10 +123,10 @@ def in_catalogue(
         motion = lab.convert(trajectory, robot, options)
     except FileRefused as refusal:
         from mrlab_ros.commands.convert import report
-        from mrlab_ros.commands.convert.outcomes import EXIT_CODES
+        from mrlab_ros.commands.convert.outcomes import exit_code
 
         report.show(refusal.result, None, given, options, console)
-        raise typer.Exit(EXIT_CODES[refusal.result.outcome]) from None
+        raise typer.Exit(exit_code(refusal.result)) from None
     if doubted := [finding for finding in motion.findings if finding.remedy or finding.severity]:
         from mrlab_ros.commands.convert import report
 
@@ -138,7 +138,7 @@ def _check_no_file_options(options: Options, trajectory: str = "") -> None:
     """Raise Misuse where there are options of a conversion and nothing to convert."""
     if given := words_of(options):
         speed = "--speed" if f"--{_rate_option()}" in given else None
-        raise Misuse(ONLY_FOR_A_FILE(option=given[0], trajectory=trajectory, speed=speed))
+        raise WrongUsage(ONLY_FOR_A_FILE(option=given[0], trajectory=trajectory, speed=speed))
 
 
 def _rate_option() -> str:

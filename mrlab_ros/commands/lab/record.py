@@ -31,7 +31,7 @@ from mrlab_ros.commands.diagnostics import (
 )
 from mrlab_ros.commands.output import say
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, heard
-from mrlab_ros.core.base.errors import LabError, Misuse
+from mrlab_ros.core.base.errors import LabError, Misuse, WrongUsage
 from mrlab_ros.core.base.foreign_text import for_shell
 from mrlab_ros.core.recording.diagnostics import ENDING, NO_RECORDING
 from mrlab_ros.core.recording.recorder import RecorderState
@@ -86,7 +86,7 @@ def record(
         _end(bag, as_json=as_json)
         return
     if bag is not None and (meant := COMMANDS.get(str(bag))) is not None:
-        raise Misuse(NOT_A_BAG_NAME(bag=str(bag), fixes=(Fix(command=meant),)))
+        raise WrongUsage(NOT_A_BAG_NAME(bag=str(bag), fixes=(Fix(command=meant),)))
     request = srv.StartRecording.Request(
         bag=str(bag.absolute()) if bag else time.strftime("session_%Y-%m-%d_%H-%M-%S"),
         topics=[topic.strip() for topic in topics.split(",") if topic.strip()],

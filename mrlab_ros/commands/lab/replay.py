@@ -22,7 +22,7 @@ from mrlab_ros.commands.diagnostics import RECORDER_SILENT, ROBOT_WITHOUT_PATH
 from mrlab_ros.commands.lab.record import SILENCE
 from mrlab_ros.commands.output import say
 from mrlab_ros.core.base.diagnostic import Fix, heard
-from mrlab_ros.core.base.errors import LabError, Misuse
+from mrlab_ros.core.base.errors import LabError, Misuse, WrongUsage
 from mrlab_ros.core.recording.diagnostics import REPLAY_OVER
 from mrlab_ros.core.recording.recorder import RecorderState
 from mrlab_ros.messages.time import time_from_message
@@ -80,7 +80,7 @@ def replay(
                 _replay(str(found.folder), rate, start, loop, as_json=as_json)
             return
     elif robots:
-        raise Misuse(ROBOT_WITHOUT_PATH(path=str(path)))
+        raise WrongUsage(ROBOT_WITHOUT_PATH(path=str(path)))
     _replay(str(path.absolute()) if path.exists() else bag, rate, start, loop, as_json=as_json)
 
 

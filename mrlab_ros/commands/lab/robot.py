@@ -12,7 +12,7 @@ from mrlab_ros.commands import completion, output
 from mrlab_ros.commands.convert.options import with_options
 from mrlab_ros.commands.diagnostics import BAD_AT, YAW_WITHOUT_PLACE
 from mrlab_ros.commands.output import AsJson, say
-from mrlab_ros.core.base.errors import BadInput, Misuse
+from mrlab_ros.core.base.errors import BadInput, WrongUsage
 from mrlab_ros.core.conversion.options import Options
 
 if TYPE_CHECKING:
@@ -57,7 +57,7 @@ def spawn(
 
     place = _place(at)[:2] if at else None
     if place is None and yaw:
-        raise Misuse(YAW_WITHOUT_PLACE(yaw=yaw))
+        raise WrongUsage(YAW_WITHOUT_PLACE(yaw=yaw))
     with Lab() as lab:
         robot = lab.spawn(model, at=place, yaw=math.radians(yaw), end_effector=tool, name=name)
     _say(robot.name, robot.message, as_json=as_json)

@@ -30,6 +30,10 @@ class Misuse(LabError):
     """A call that the present state does not allow; nothing was changed."""
 
 
+class WrongUsage(Misuse):
+    """Arguments that name nothing there is, contradict each other or are out of range."""
+
+
 class Unreached(LabError):
     """No answer came in time; the request may have been carried out or not."""
 

@@ -12,7 +12,8 @@ from pathlib import Path
 
 import pytest
 
-from mrlab_ros.cli import Settings, main
+from mrlab_ros.cli import main
+from mrlab_ros.commands.output import Settings
 
 HANDLED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
