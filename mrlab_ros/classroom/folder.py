@@ -15,11 +15,11 @@ from mrlab_ros.classroom.diagnostics import NO_CLASS_FILE, NO_CLASS_FOLDER, NOT_
 from mrlab_ros.core.base.diagnostic import Fix
 from mrlab_ros.core.base.errors import BadInput, Misuse
 
-CLASS, INDEX, TABLE = "class.json", "index.html", "grades.csv"
+CLASS, INDEX, TABLE, CHANGES = "class.json", "index.html", "grades.csv", "changes.json"
 KEPT, PAGES, FEEDBACK, RESULTS, TRAJECTORIES = (
     "kept", "pages", "feedback", "results", "trajectories",
 )  # fmt: skip
-OWN = (CLASS, INDEX, TABLE, KEPT, PAGES, FEEDBACK, RESULTS, TRAJECTORIES)
+OWN = (CLASS, INDEX, TABLE, CHANGES, KEPT, PAGES, FEEDBACK, RESULTS, TRAJECTORIES)
 
 
 def check(folder: Path) -> None:
@@ -57,17 +57,38 @@ class ResultsFolder:
         except OSError as error:
             raise BadInput(NOT_WRITABLE(file=str(path), why=error.strerror)) from None
 
-    def kept(self, digest: str) -> dict[str, Any] | None:
-        """Return the result that was kept under a digest, None where none is whole."""
-        try:
-            content = json.loads((self.path / KEPT / f"{digest}.json").read_bytes())
-        except (OSError, ValueError):
-            return None
-        return content if isinstance(content, dict) else None
+    def write_json(self, name: str, document: dict[str, Any]) -> None:
+        """Write a mapping as a JSON file, as people read it."""
+        self.write(name, orjson.dumps(document, option=orjson.OPT_INDENT_2))
 
-    def keep(self, digest: str, result: dict[str, Any]) -> None:
-        """Keep a result, when everything else of it is written."""
-        self.write(f"{KEPT}/{digest}.json", orjson.dumps(result))
+    def kept(self, key: str, digest: str) -> dict[str, Any] | None:
+        """Return the result of a key that was kept with a digest, None where none is whole."""
+        content = self.document(f"{KEPT}/{key}.json")
+        found = content.get("result") if content.get("digest") == digest else None
+        return found if isinstance(found, dict) else None
+
+    def keep(self, key: str, digest: str, result: dict[str, Any]) -> None:
+        """Keep the result of a key, when everything else of it is written."""
+        self.write(f"{KEPT}/{key}.json", orjson.dumps({"digest": digest, "result": result}))
+
+    def forget(self, key: str) -> None:
+        """Forget the result of a key, before anything of another one is written."""
+        (self.path / KEPT / f"{key}.json").unlink(missing_ok=True)
+
+    def document(self, name: str) -> dict[str, Any]:
+        """Return the mapping in a JSON file, an empty one where there is none to be read."""
+        try:
+            content = json.loads(self.content(name))
+        except ValueError:
+            return {}
+        return content if isinstance(content, dict) else {}
+
+    def content(self, name: str) -> bytes:
+        """Return the bytes of a file, none where it cannot be read."""
+        try:
+            return (self.path / name).read_bytes()
+        except OSError:
+            return b""
 
     def has(self, name: str) -> bool:
         """Return whether a file is there."""

@@ -38,8 +38,9 @@ from mrlab_ros.classroom.marks.diagnostics import (
     SUBMISSION_CRASHED,
     SUBMISSION_ENDED,
     SUBMISSION_GIVEN_UP,
+    SUBMISSION_KILLED,
 )
-from mrlab_ros.classroom.marks.result import FAILED, without_marks
+from mrlab_ros.classroom.marks.result import FAILED, TO_REPEAT, without_marks
 from mrlab_ros.classroom.setup import Setup, Task
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, from_plain
 from mrlab_ros.core.base.errors import BadInput, Misuse
@@ -182,11 +183,13 @@ class Grader:
             names = self._given(task, folder)
             request = {"folder": str(folder), "out": str(out), "shown": task.shown, "files": names}
             status = self._ask(request)
+            if status == -signal.SIGKILL:  # from outside: once more
+                status = self._ask(request)
             found = {p.name: p.read_bytes() for p in sorted(out.iterdir()) if p.is_file()}
             if status == 0 and worker.RESULT in found:
                 return found
-            why = self._lost(status)
-            result = without_marks(self.setup.rubric, FAILED, why, names[0] if names else "")
+            outcome, why = self._lost(status)
+            result = without_marks(self.setup.rubric, outcome, why, names[0] if names else "")
             return {worker.RESULT: orjson.dumps(result.plain())}
         finally:
             shutil.rmtree(folder, ignore_errors=True)
@@ -205,13 +208,16 @@ class Grader:
             names.append(own)
         return names
 
-    def _lost(self, status: int | None) -> Diagnostic:
+    def _lost(self, status: int | None) -> tuple[str, Diagnostic]:
+        """Return the outcome of a check that did not come to its end, and why."""
         bounds = self.setup.bounds
         if status in (None, -signal.SIGALRM):
-            return SUBMISSION_GIVEN_UP(limit=bounds.wall)
-        if status in (-signal.SIGXCPU, -signal.SIGKILL):
-            return SUBMISSION_ENDED(limit=bounds.time)
-        return SUBMISSION_CRASHED(why=death(status or 1))
+            return TO_REPEAT, SUBMISSION_GIVEN_UP(limit=bounds.wall)
+        if status == -signal.SIGKILL:
+            return TO_REPEAT, SUBMISSION_KILLED()
+        if status == -signal.SIGXCPU:
+            return FAILED, SUBMISSION_ENDED(limit=bounds.time)
+        return FAILED, SUBMISSION_CRASHED(why=death(status or 1))
 
     def _ask(self, request: Mapping[str, object]) -> int | None:
         """Return the exit status of the process that did a request, None past the time limit."""

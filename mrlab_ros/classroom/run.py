@@ -5,10 +5,11 @@ from __future__ import annotations
 import functools
 import json
 import os
+import re
 import secrets
 import sys
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
 from typing import Any
@@ -33,17 +34,19 @@ from mrlab_ros.classroom.diagnostics import (
     WORKSHEET_WRITTEN,
 )
 from mrlab_ros.classroom.folder import (
+    CHANGES,
     CLASS,
     FEEDBACK,
     INDEX,
+    KEPT,
     PAGES,
     RESULTS,
     TABLE,
     TRAJECTORIES,
     ResultsFolder,
 )
-from mrlab_ros.classroom.marks import gradebook
-from mrlab_ros.classroom.marks.diagnostics import NO_FILE_HANDED_IN
+from mrlab_ros.classroom.marks import changes, gradebook
+from mrlab_ros.classroom.marks.diagnostics import MARKS_CHANGED, NO_FILE_HANDED_IN, UNREADABLE
 from mrlab_ros.classroom.marks.exports import (
     FORMS,
     REFERENCE,
@@ -53,7 +56,15 @@ from mrlab_ros.classroom.marks.exports import (
     recognise,
 )
 from mrlab_ros.classroom.marks.graded import GradedClass, Student
-from mrlab_ros.classroom.marks.result import FAILED, NO_FILE, Result, pseudonymous, without_marks
+from mrlab_ros.classroom.marks.result import (
+    FAILED,
+    MARKED,
+    NO_FILE,
+    TO_REPEAT,
+    Result,
+    pseudonymous,
+    without_marks,
+)
 from mrlab_ros.classroom.rubrics.rubric import Rubric
 from mrlab_ros.classroom.setup import Bounds, Setup, Task
 from mrlab_ros.classroom.submissions import Export
@@ -117,18 +128,19 @@ def run(request: Request) -> int:
             roster, key_table, who = _pseudonyms(roster, request.out)
         results = _results(request, roster, export, folder)
     students = tuple(Student(s, results[s.key]) for s in roster.submissions)
+    changed, problems = _changes(folder, students)
+    students = tuple(changes.applied(s, changed.get(s.key, {})) for s in students)
     graded = GradedClass(rubric, roster.form, students, roster.left_out, results.get(REFERENCE))
-    _write(graded, folder)
-    problems: list[Diagnostic] = []
+    _write(graded, folder, changed)
     if request.template is not None:  # it has names, so it is filled by them
         named = [Student(who.get(s.submission.name, s.submission), s.result) for s in students]
-        problems = _fill(request, named, request.template)
+        problems += _fill(request, named, request.template)
     document = graded.document()
     if request.as_json:
         print(json.dumps(document))
     else:
         words.show(graded, request.out, key_table, problems)
-    return FAILED_SOME if any(s.result.outcome == FAILED for s in students) else DONE
+    return FAILED_SOME if any(s.result.outcome in (FAILED, TO_REPEAT) for s in students) else DONE
 
 
 def form_of(name: str) -> str:
@@ -264,18 +276,39 @@ def _task(
         return Task(key, setup.reference[0], (setup.reference,))
     chosen = submission.candidates[:MOST_CANDIDATES]
     names = [file_label(PurePosixPath(entry.path).name) for entry in chosen]
-    if pseudonym and not any(name.lower().endswith(CELLS) for name in names):
-        names = [f"{key}-{n}{_ending(name)}" for n, name in enumerate(names, 1)]
-        names[0] = names[0].replace(f"{key}-1", key, 1)
-    files, problems = [], []
+    files: list[tuple[str, bytes]] = []
+    problems = []
     for name, entry in zip(names, chosen, strict=True):
         try:
             files.append((name, export.read(entry.path)))
         except BadInput as error:
             problems.append(error)
+    if not files and pseudonym and problems[0].diagnostic.values:
+        raise BadInput(UNREADABLE())  # the values hold names
     if not files:
         raise problems[0]
-    return Task(key, submission.name, tuple(files))
+    return Task(key, submission.name, tuple(_unnamed(key, files) if pseudonym else files))
+
+
+def _unnamed(key: str, files: Sequence[tuple[str, bytes]]) -> list[tuple[str, bytes]]:
+    """Return files under names that say nothing; a cell names its motions by them."""
+    names = {
+        name: f"{key}-{n}{_ending(name)}" if n > 1 else f"{key}{_ending(name)}"
+        for n, (name, _) in enumerate(files, 1)
+    }
+    if not any(name.lower().endswith(CELLS) for name in names):
+        return [(names[name], content) for name, content in files]
+    longest = sorted(names, key=len, reverse=True)
+    known = re.compile(b"|".join(re.escape(name.encode()) for name in longest))
+    return [
+        (
+            names[name],
+            known.sub(lambda found: names[found[0].decode()].encode(), content)
+            if name.lower().endswith(CELLS)
+            else content,
+        )
+        for name, content in files
+    ]
 
 
 def _ending(name: str) -> str:
@@ -288,13 +321,14 @@ def _stored(folder: ResultsFolder, key: str, digest: str, files: dict[str, bytes
     """Write what was found of a submission, the result last; return it."""
     document = orjson.loads(files[worker.RESULT])
     result = Result(**document)
+    folder.forget(key)
     if worker.TRAJECTORY in files:
         folder.write(f"{TRAJECTORIES}/{key}.json", files[worker.TRAJECTORY])
     if worker.PAGE in files:
         folder.write(f"{PAGES}/{key}.html", files[worker.PAGE])
         folder.write(f"{FEEDBACK}/{key}.html", files.get(worker.FEEDBACK, files[worker.PAGE]))
-    if result.outcome != FAILED:
-        folder.keep(digest, document)
+    if result.outcome in (MARKED, NO_FILE):
+        folder.keep(key, digest, document)
     return result
 
 
@@ -302,7 +336,7 @@ def _known(request: Request, folder: ResultsFolder) -> Any:
     """Return what looks up the kept result of a key under a digest, with all files of it there."""
 
     def known(key: str, digest: str) -> Result | None:
-        document = None if request.fresh else folder.kept(digest)
+        document = None if request.fresh else folder.kept(key, digest)
         if document is None:
             return None
         try:
@@ -320,22 +354,49 @@ def _known(request: Request, folder: ResultsFolder) -> Any:
     return known
 
 
-def _write(graded: GradedClass, folder: ResultsFolder) -> None:
+def _changes(
+    folder: ResultsFolder, students: Sequence[Student]
+) -> tuple[dict[str, dict[str, float]], list[Diagnostic]]:
+    """Return the marks that were changed by hand, now or before, and what cannot be read."""
+    kept, table = folder.document(CHANGES), folder.content(TABLE)
+    new: dict[str, dict[str, float]] = {}
+    problems: list[Diagnostic] = []
+    before = folder.document(CLASS)
+    if table and before and changes.digest(table) not in kept.get("written", ()):
+        new, problems = changes.found(table.decode("utf-8", "replace"), before)
+    every = changes.merged(kept.get("changes", {}), new, students)
+    if every:
+        problems.append(MARKS_CHANGED(count=len(every)))
+    return every, problems
+
+
+def _write(graded: GradedClass, folder: ResultsFolder, changed: Mapping[str, Any]) -> None:
     """Write pages and tables."""
     from mrlab_ros.classroom.page import class_page
 
-    keys = [s.key for s in graded.students]
     for student in graded.students:
-        content = orjson.dumps(gradebook.gradescope(student.result), option=orjson.OPT_INDENT_2)
-        folder.write(f"{RESULTS}/{student.key}/results.json", content)
-    folder.tidy(RESULTS, keys)
-    every = [*keys, REFERENCE]
-    folder.tidy(TRAJECTORIES, [f"{key}.json" for key in every])
-    folder.tidy(PAGES, [f"{key}.html" for key in every])
-    folder.tidy(FEEDBACK, [f"{key}.html" for key in keys])
-    table = gradebook.table(graded.rubric, graded.students)
-    folder.write(TABLE, table.encode())
-    folder.write(CLASS, orjson.dumps(graded.document(), option=orjson.OPT_INDENT_2))
+        if student.result.outcome == TO_REPEAT:
+            continue
+        name = f"{RESULTS}/{student.key}/results.json"
+        folder.write_json(name, gradebook.gradescope(student.result))
+    results = {s.key: s.result for s in graded.students}
+    folder.tidy(RESULTS, [key for key, r in results.items() if r.outcome != TO_REPEAT])
+    if graded.reference is not None:
+        results[REFERENCE] = graded.reference
+    # what an earlier submission left is nobody's
+    pages = [f"{key}.html" for key, r in results.items() if r.has_page]
+    folder.tidy(TRAJECTORIES, [f"{key}.json" for key, r in results.items() if r.has_trajectory])
+    folder.tidy(PAGES, pages)
+    folder.tidy(FEEDBACK, pages)
+    folder.tidy(KEPT, [f"{key}.json" for key in results])
+    table = gradebook.table(graded.rubric, graded.students).encode()
+    # a kill between these leaves one of two tables that no hand changed
+    written = [changes.digest(table)]
+    before = [changes.digest(folder.content(TABLE)), *written]
+    folder.write_json(CHANGES, {"written": before, "changes": changed})
+    folder.write(TABLE, table)
+    folder.write_json(CLASS, graded.document())
+    folder.write_json(CHANGES, {"written": written, "changes": changed})
     folder.write(INDEX, class_page(graded, share.directory()).encode())
 
 

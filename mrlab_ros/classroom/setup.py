@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import pickle
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -87,7 +88,7 @@ class Setup:
         return digest(
             {
                 "version": mrlab_ros.__version__,
-                "rubric": repr(replace(self.rubric, origin="", plain=None)),
+                "rubric": described(self.rubric),
                 "scene": scene_document.plain(self.scene),
                 "options": {k: v for k, v in vars(self.options).items() if v},
                 "reference": reference,
@@ -107,6 +108,17 @@ class Setup:
     def packed(self) -> bytes:
         """Return the setup as it travels."""
         return pickle.dumps(replace(self))
+
+
+def described(rubric: Rubric) -> Mapping[str, Any]:
+    """Return what a rubric was read from; of one that was not read its tests and its limits.
+
+    A measure holds functions, whose addresses differ from process to process.
+    """
+    if rubric.plain is not None:
+        return rubric.plain
+    tests = [[t.name, t.expect, t.points, t.hint, t.hidden, t.partial] for t in rubric.tests]
+    return {"tests": tests, "robot": rubric.robot, "tool": rubric.tool, "closest": rubric.closest}
 
 
 @dataclass(frozen=True)

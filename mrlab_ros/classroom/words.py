@@ -10,7 +10,7 @@ from rich.text import Text
 
 from mrlab_ros.classroom.marks.gradebook import number, text
 from mrlab_ros.classroom.marks.graded import GradedClass
-from mrlab_ros.classroom.marks.result import FAILED, MARKED
+from mrlab_ros.classroom.marks.result import FAILED, MARKED, NO_FILE, TO_REPEAT
 from mrlab_ros.classroom.rubrics.document import at
 from mrlab_ros.classroom.rubrics.marking import Flaw, Mark, Marks
 from mrlab_ros.classroom.rubrics.measures import FAMILIES
@@ -21,6 +21,11 @@ from mrlab_ros.core.base.phrase import phrase
 from mrlab_ros.core.checking.check_record import Checked
 from mrlab_ros.core.runtime.colours import OUTCOME_STYLES, SEVERITY_STYLES
 
+UNMARKED = {
+    FAILED: ("failed", OUTCOME_STYLES["rejected"]),
+    NO_FILE: ("no file", OUTCOME_STYLES["ambiguous"]),
+    TO_REPEAT: ("to be repeated", OUTCOME_STYLES["ambiguous"]),
+}
 MOST_ROWS, MOST_LEFT_OUT, MOST_MISTAKES = 20, 10, 5
 
 
@@ -51,9 +56,7 @@ def show(
         console.print("\nnot checked", style="bold")
         table = Table(box=None, show_header=False)
         for student in unmarked[:MOST_ROWS]:
-            failed = student.result.outcome == FAILED
-            style = OUTCOME_STYLES["rejected" if failed else "ambiguous"]
-            word = "failed" if failed else "no file"
+            word, style = UNMARKED[student.result.outcome]
             table.add_row(Text(word, style), student.submission.name, text(student.result.found))
         console.print(table)
         if len(unmarked) > MOST_ROWS:

@@ -12,6 +12,7 @@ It converts files itself: it is in the sandbox already, so that no other process
 from __future__ import annotations
 
 import contextlib
+import errno
 import gc
 import importlib
 import json
@@ -43,12 +44,17 @@ from mrlab_ros.app.convert import of_trajectory_file_here
 from mrlab_ros.app.show.page import packed
 from mrlab_ros.classroom.diagnostics import NO_FILE, NO_ROBOT_IN_RUBRIC, REFERENCE_NOT_MARKED
 from mrlab_ros.classroom.mark import check_rubric_file
-from mrlab_ros.classroom.marks.diagnostics import SUBMISSION_FAILED, SUBMISSION_OUT_OF_MEMORY
+from mrlab_ros.classroom.marks.diagnostics import (
+    MACHINE_REFUSED,
+    SUBMISSION_FAILED,
+    SUBMISSION_OUT_OF_MEMORY,
+)
 from mrlab_ros.classroom.marks.result import (
     FAILED,
     MARKED,
     MOST_FINDINGS,
     MOST_PATH,
+    TO_REPEAT,
     Result,
     without_marks,
 )
@@ -121,6 +127,8 @@ MiB = 1 << 20
 MOST_WRITTEN = 512 * MiB  # bytes of one file that a check may write
 RESULT, TRAJECTORY, PAGE, FEEDBACK = "result.json", "trajectory.json", "page.html", "feedback.html"
 MESSAGE_SIZE = 1 << 16
+# Errors of the machine, whatever the submission is.
+OF_MACHINE = (errno.ENOSPC, errno.EDQUOT, errno.EIO, errno.ENFILE)
 # A checked file, its name, and why it could not be checked.
 First = tuple[CheckedFile | None, str, Diagnostic | None]
 
@@ -244,17 +252,24 @@ def work(warm: Warm, request: dict[str, Any]) -> None:
     folder, out = Path(request["folder"]), Path(request["out"])
     tempfile.tempdir = str(out)
     restrictions.shut(read=[folder, *warm.readable], write=[out], opens=True)
+    outcome = FAILED
     try:
         warm.check(request["shown"], request["files"], folder, out)
     except MemoryError:
         why = SUBMISSION_OUT_OF_MEMORY(limit=warm.setup.bounds.memory)
+    except OSError as error:
+        traceback.print_exc()
+        if error.errno in OF_MACHINE:
+            outcome, why = TO_REPEAT, MACHINE_REFUSED(why=error.strerror)
+        else:
+            why = SUBMISSION_FAILED(error=f"{type(error).__name__}: {error}")
     except Exception as error:
         # one submission may end neither the class nor its teacher's patience
         traceback.print_exc()
         why = SUBMISSION_FAILED(error=f"{type(error).__name__}: {error}")
     else:
         return
-    result = without_marks(warm.setup.rubric, FAILED, why)
+    result = without_marks(warm.setup.rubric, outcome, why)
     (out / RESULT).write_bytes(orjson.dumps(result.plain()))
 
 

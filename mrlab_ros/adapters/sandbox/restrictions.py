@@ -107,7 +107,8 @@ def confine(*, memory: int, seconds: float, file_size: int) -> None:
     used = address_space()
     resource.setrlimit(resource.RLIMIT_AS, (used + memory, used + 2 * memory))
     whole = int(seconds) + 2
-    resource.setrlimit(resource.RLIMIT_CPU, (whole, whole))
+    # SIGXCPU ends it; a SIGKILL is another's
+    resource.setrlimit(resource.RLIMIT_CPU, (whole, whole + 5))
 
 
 def address_space() -> int:

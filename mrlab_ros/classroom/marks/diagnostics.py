@@ -22,27 +22,65 @@ NEWEST_TAKEN = Code(
     "[: {files:list}].",
     severity=INFO,
 )
+CHANGED_MARK = Code(
+    "changed_mark",
+    "[{test}: ]{before:number} was changed to {after:number} in the table of the class.",
+    severity=INFO,
+)
+CHANGED_MARK_NOT_READ = Code(
+    "changed_mark_not_read",
+    "{student}, {test}: '{found}' is no number; the mark stays as the test gave it.",
+    severity=WARNING,
+)
+MARKS_CHANGED = Code(
+    "marks_changed",
+    "Marks of {count:count submission|submissions} were changed by hand; they are kept.",
+    "Write the value of the test back into the table to undo a change.",
+    INFO,
+)
 # why a submission has no marks
 NO_FILE_HANDED_IN = Code(
     "no_file_handed_in",
     "No file that may hold a motion was handed in[; there is {files:list}].",
 )
+UNREADABLE = Code("unreadable_submission", "No file of this submission can be read.")
 SUBMISSION_OUT_OF_MEMORY = Code(
     "submission_out_of_memory",
     "The check needs more than {limit:bytes} of memory; the motion may be very long.",
 )
 SUBMISSION_FAILED = Code("submission_failed", "The check failed on it ({error}).")
-SUBMISSION_GIVEN_UP = Code("submission_given_up", "The check was given up after {limit:duration}.")
+SUBMISSION_GIVEN_UP = Code(
+    "submission_given_up",
+    "The check was given up after {limit:duration}; the machine was too busy.",
+    "Run the same command again: it checks what is to be repeated.",
+    WARNING,
+)
 SUBMISSION_ENDED = Code(
-    "submission_ended",
-    "The check was ended: it took more than {limit:duration} of a processor, or the machine had "
-    "no memory left.",
+    "submission_ended", "The check took more than {limit:duration} of a processor."
+)
+SUBMISSION_KILLED = Code(
+    "submission_killed",
+    "The check was killed from outside; the machine may have no memory left.",
+    "Run the same command again with fewer jobs: it checks what is to be repeated.",
+    WARNING,
+)
+MACHINE_REFUSED = Code(
+    "machine_refused",
+    "The machine did not let the check end ({why:problem}).",
+    "Free memory or disk space, and run the same command again: it checks what is to be repeated.",
+    WARNING,
 )
 SUBMISSION_CRASHED = Code(
     "submission_crashed",
     "The check crashed on it ({why:problem}); the file is the reason, no other.",
 )
 # the gradebook
+GRADE_TO_REPEAT = Code(
+    "grade_to_repeat",
+    "{student} has no grade: the check is to be repeated.",
+    "Run the same command again.",
+    WARNING,
+)
 NO_WORKSHEET = Code(
     "no_worksheet",
     "{file} has {count:count column|columns}[: {columns:list}]; expected Identifier "

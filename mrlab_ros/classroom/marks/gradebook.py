@@ -8,9 +8,14 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from mrlab_ros.classroom.marks.diagnostics import MAXIMUM_DIFFERS, NO_WORKSHEET, NOT_IN_WORKSHEET
+from mrlab_ros.classroom.marks.diagnostics import (
+    GRADE_TO_REPEAT,
+    MAXIMUM_DIFFERS,
+    NO_WORKSHEET,
+    NOT_IN_WORKSHEET,
+)
 from mrlab_ros.classroom.marks.graded import Student
-from mrlab_ros.classroom.marks.result import Result
+from mrlab_ros.classroom.marks.result import TO_REPEAT, Result
 from mrlab_ros.classroom.rubrics.rubric import Rubric
 from mrlab_ros.core.base.diagnostic import Diagnostic, from_plain
 from mrlab_ros.core.base.errors import BadInput
@@ -38,15 +43,16 @@ def table(rubric: Rubric, students: Sequence[Student]) -> str:
     writer.writerow([*head, *(cell(t.name) for t in rubric.tests), "file", "words", "notes"])
     for student in students:
         one, result = student.submission, student.result
+        marked = result.outcome != TO_REPEAT
         writer.writerow(
             [
                 *map(cell, (one.key, one.name, one.identifier, one.email)),
                 "yes" if one.late else "no",
-                number(result.points),
+                number(result.points) if marked else "",
                 number(result.of),
                 result.outcome,
                 result.verdict,
-                *(number(m["points"]) for m in result.marks["tests"]),
+                *(number(m["points"]) if marked else "" for m in result.marks["tests"]),
                 *map(cell, (result.file, text(result.found), " ".join(map(str, one.notes)))),
             ]
         )
@@ -79,13 +85,16 @@ def filled(template: str, students: Sequence[Student], name: str) -> tuple[str, 
         raise BadInput(NO_WORKSHEET(file=name, count=len(heads), columns=heads))
     most, comments = _column(heads, MOST), _column(heads, COMMENTS)
     by_number = {s.submission.identifier: s for s in students if s.submission.identifier}
-    met, maxima = set(), set()
+    met, maxima, repeated = set(), set(), []
     for row in rows[1:]:
         found = NUMBER.search(row[identifier]) if len(row) > identifier else None
         student = by_number.get(found[0]) if found else None
         if student is None:
             continue
         met.add(student.key)
+        if student.result.outcome == TO_REPEAT:
+            repeated.append(GRADE_TO_REPEAT(student=student.submission.name))
+            continue
         row += [""] * (len(heads) - len(row))
         points = number(student.result.points)
         row[grade] = points.replace(".", ",") if delimiter == ";" else points
@@ -94,6 +103,7 @@ def filled(template: str, students: Sequence[Student], name: str) -> tuple[str, 
         if comments is not None:
             row[comments] = str(cell(comment(student.result)))
     problems = [MAXIMUM_DIFFERS(found=said, points=of) for said, of in sorted(maxima)]
+    problems += repeated
     problems += [
         NOT_IN_WORKSHEET(student=s.submission.name)
         for s in students

@@ -10,7 +10,7 @@ from statistics import fmean, median
 from typing import Any
 
 from mrlab_ros.classroom.marks.exports import REFERENCE, Submission
-from mrlab_ros.classroom.marks.result import Result
+from mrlab_ros.classroom.marks.result import TO_REPEAT, Result
 from mrlab_ros.classroom.marks.similarity import Similar, similar
 from mrlab_ros.classroom.rubrics.rubric import Rubric
 from mrlab_ros.core.base.diagnostic import Diagnostic, plain
@@ -76,7 +76,7 @@ class GradedClass:
 
     def statistics(self) -> Statistics:
         """Return the figures of the class."""
-        results = [s.result for s in self.students]
+        results = [s.result for s in self.students if s.result.outcome != TO_REPEAT]
         shares = [r.points / r.of if r.of else 0.0 for r in results]
         bins = [0] * BINS
         for share in shares:

@@ -16,7 +16,7 @@ from page_document import document_in
 from refusals import command_refuses
 from typer.testing import CliRunner
 
-from mrlab_ros.classroom import commands, worker
+from mrlab_ros.classroom import commands, grader, worker
 from mrlab_ros.classroom.grader import Grader
 from mrlab_ros.classroom.rubrics.rubric import Rubric, Test
 from mrlab_ros.classroom.setup import Bounds, MiB, Setup, Task
@@ -127,6 +127,42 @@ def test_a_class_is_marked_kept_and_the_same_however_it_is_run(submissions, tmp_
     assert names.stat().st_mode & 0o077 == 0
 
 
+def test_a_class_goes_on_where_it_was(tmp_path, monkeypatch):
+    handed_in, out = tmp_path / "submissions", tmp_path / "marked"
+    for name in ("anna", "ben"):
+        (handed_in / name).mkdir(parents=True)
+        shutil.copy(PICK, handed_in / name / "run.mat")
+    words = (handed_in, "--rubric", RUBRIC, "--out", out, "--jobs", 1, "--no-pages")
+    assert grade(*words).exit_code == 0
+    before = results(out)
+    checked = []
+    whole = grader.checked
+    monkeypatch.setattr(
+        grader,
+        "checked",
+        lambda setup, task, *more: checked.append(task.key) or whole(setup, task, *more),
+    )
+    assert grade(*words).exit_code == 0
+    assert checked == []
+    assert results(out) == before
+    # a teacher changes a mark, and a student hands in what cannot be read
+    table = (out / "grades.csv").read_text()
+    (out / "grades.csv").write_text(
+        table.replace("Anna", "anna").replace("no,15,15", "no,13,15", 1)
+    )
+    (out / "pages" / "ben.html").write_text("of an earlier submission")
+    (handed_in / "ben" / "run.mat").write_bytes(b"")
+    said = grade(*words)
+    assert said.exit_code == 0, said.stdout + said.stderr
+    assert checked == ["ben"]
+    rows = {s["name"]: s for s in json.loads((out / "class.json").read_text())["students"]}
+    assert (rows["anna"]["points"], rows["ben"]["points"]) == (13, 0)
+    assert rows["anna"]["notes"][0]["code"] == "changed_mark"
+    assert "no,13,15" in (out / "grades.csv").read_text()
+    assert not list(out.glob("*/ben.html")) + list(out.glob("trajectories/ben.json"))
+    assert "changed by hand" in said.stdout
+
+
 def test_cells_of_a_class_reach_their_own_motions_only(tmp_path):
     rubric = tmp_path / "rubric.yaml"
     rubric.write_text(
@@ -207,14 +243,14 @@ def test_what_a_submission_does_to_its_check_harms_no_other(tmp_path, monkeypatc
     tests = (Test("fine", "fine", rude.Rude(), 1.0),)
     rubric = Rubric("rude", tests, robot="ur5e", scene="")
     bounds = Bounds(2048 * MiB, 6.0)
-    grader = Grader(Setup(rubric, SceneDocument(), bounds=bounds, pages=False))
+    process = Grader(Setup(rubric, SceneDocument(), bounds=bounds, pages=False))
     said = {}
     try:
         for name in ("crashes", "reaches", "hungers", "hangs", "behaves"):
             files = ((f"{name}.mat", PICK.read_bytes()),)
-            said[name] = orjson.loads(grader.check(Task(name, name, files))[worker.RESULT])
+            said[name] = orjson.loads(process.check(Task(name, name, files))[worker.RESULT])
     finally:
-        grader.close()
+        process.close()
     assert [said[n]["outcome"] for n in said] == ["failed"] * 4 + ["marked"]
     codes = {name: found["found"]["code"] for name, found in said.items()}
     assert codes == {
@@ -231,9 +267,9 @@ def test_what_a_submission_does_to_its_check_harms_no_other(tmp_path, monkeypatc
 def test_a_reference_without_a_motion_is_said_before_anything_is_marked(tmp_path):
     rubric = Rubric("bad", (), robot="ur5e", reference="x.mat")
     setup = Setup(rubric, SceneDocument(), reference=("x.mat", b"no motion"), pages=False)
-    grader = Grader(setup)
+    process = Grader(setup)
     try:
         with pytest.raises(BadInput, match="reference"):
-            grader.check(Task("a", "a", (("a.mat", b""),)))
+            process.check(Task("a", "a", (("a.mat", b""),)))
     finally:
-        grader.close()
+        process.close()

@@ -1209,6 +1209,12 @@ export const diagnostics: Templates = {
     'HTTPS braucht ein Zertifikat und seinen Schlüssel; eines von beiden fehlt.',
     'Nenne beide.',
   ],
+  changed_mark: [
+    '[{test}: ]{before:number} wurde in der Tabelle der Klasse zu {after:number} geändert.',
+  ],
+  changed_mark_not_read: [
+    "{student}, {test}: '{found}' ist keine Zahl; es bleibt bei den Punkten des Tests.",
+  ],
   channel_shape: [
     "{channel:choice gripper=Die Greiferzustände|derived=Die abgeleiteten Kanäle} von '{id}' sind {size}; erwartet wird {expected}, mit einer Zeile für jede Zeile der Trajektorie.",
   ],
@@ -1568,6 +1574,10 @@ export const diagnostics: Templates = {
     'Gib diesem Weg mehr Zeit. Die Bewegung beginnt, wo der Arm ist, und mit der Geschwindigkeit, die er hat.',
   ],
   goal_too_long: ['Das Ziel endet in {duration:time}; erwartet: höchstens {longest:time}.'],
+  grade_to_repeat: [
+    '{student} hat keine Note: Die Prüfung ist zu wiederholen.',
+    'Starte denselben Befehl noch einmal.',
+  ],
   grasped: [
     '{robot} greift {object} bei {value:time}[; erwartet: nach {since:time}][; erwartet: vor {until:time}].',
   ],
@@ -1864,10 +1874,18 @@ export const diagnostics: Templates = {
     'Greif näher am Schwerpunkt, bewege sanfter, oder nimm einen stärkeren Greifer.',
   ],
   lost_points: ['{test}: {found:problem}.', '[{hint}]'],
+  machine_refused: [
+    'Der Rechner ließ die Prüfung nicht enden ({why:problem}).',
+    'Schaffe Platz im Speicher oder auf dem Datenträger und starte denselben Befehl noch einmal: Er prüft, was zu wiederholen ist.',
+  ],
   made_room: ['Der älteste von {limit:integer} Gegenständen hat einem neuen Platz gemacht.'],
   mail_not_admitted: [
     'Mit dieser Adresse darf sich niemand anmelden[: {email}].',
     'Sie muss bestätigt sein und zu denen gehören, die dieses Labor zulässt.',
+  ],
+  marks_changed: [
+    'Die Punkte von {count:count Abgabe|Abgaben} wurden von Hand geändert; sie bleiben so.',
+    'Schreibe die Punkte des Tests wieder in die Tabelle, um eine Änderung zurückzunehmen.',
   ],
   mass_or_fixed: [
     'eine Zahl {limits:problem} (kg), oder fixed: true für einen Gegenstand, der sich nie bewegt',
@@ -2285,7 +2303,12 @@ export const diagnostics: Templates = {
     'Abgebrochen: {done:integer} von {all:integer} sind geprüft und bleiben erhalten.',
     'Starte denselben Befehl noch einmal, um fortzufahren.',
   ],
+  submission_killed: [
+    'Die Prüfung wurde von außen beendet; dem Rechner fehlte wohl Speicher.',
+    'Starte denselben Befehl mit weniger Prozessen: Er prüft, was zu wiederholen ist.',
+  ],
   unknown_form: ["Die Form des Exports ist '{form}'; erwartet wird {known:either}."],
+  unreadable_submission: ['Keine Datei dieser Abgabe lässt sich lesen.'],
   unusual_compression: [
     'Die Datei ist mit dem Verfahren {method:integer} des ZIP-Formats gepackt; gelesen werden nur ungepackte und mit Deflate gepackte.',
     'Bitte um ein gewöhnliches Archiv.',
@@ -3475,11 +3498,12 @@ export const diagnostics: Templates = {
   submission_crashed: [
     'Die Prüfung stürzte daran ab ({why:problem}); der Grund ist diese Datei und keine andere.',
   ],
-  submission_ended: [
-    'Die Prüfung wurde beendet: Sie brauchte mehr als {limit:duration} eines Prozessors, oder dem Rechner fehlte Speicher.',
-  ],
+  submission_ended: ['Die Prüfung brauchte mehr als {limit:duration} eines Prozessors.'],
   submission_failed: ['Die Prüfung ist daran gescheitert ({error}).'],
-  submission_given_up: ['Die Prüfung wurde nach {limit:duration} aufgegeben.'],
+  submission_given_up: [
+    'Die Prüfung wurde nach {limit:duration} aufgegeben; der Rechner war überlastet.',
+    'Starte denselben Befehl noch einmal: Er prüft, was zu wiederholen ist.',
+  ],
   submission_out_of_memory: [
     'Die Prüfung braucht mehr als {limit:bytes} Speicher; vielleicht ist die Bewegung sehr lang.',
   ],

@@ -1,0 +1,32 @@
+"""The reasons for which a check did not come to its end."""
+
+from __future__ import annotations
+
+import signal
+
+import pytest
+
+from mrlab_ros.classroom.grader import Grader
+from mrlab_ros.classroom.marks.result import FAILED, TO_REPEAT
+from mrlab_ros.classroom.rubrics.rubric import Rubric
+from mrlab_ros.classroom.setup import Setup
+from mrlab_ros.core.scene.document import SceneDocument
+
+
+@pytest.mark.parametrize(
+    ("status", "outcome", "code"),
+    [
+        (None, TO_REPEAT, "submission_given_up"),
+        (-signal.SIGALRM, TO_REPEAT, "submission_given_up"),
+        (-signal.SIGKILL, TO_REPEAT, "submission_killed"),
+        (-signal.SIGXCPU, FAILED, "submission_ended"),
+        (-signal.SIGSEGV, FAILED, "submission_crashed"),
+    ],
+)
+def test_what_ends_a_check_is_the_machines_or_the_submissions_fault(
+    tmp_path, monkeypatch, status, outcome, code
+):
+    grader = Grader(Setup(Rubric("empty", ()), SceneDocument()), str(tmp_path))
+    assert grader._lost(status)[0] == outcome
+    assert grader._lost(status)[1].code == code
+    grader.close()
