@@ -280,6 +280,7 @@ def _checked(
     layout, rate = resampling.at_a_rate(
         survey, chosen, layout, options, default_frame_rate, file, notes
     )
+    notes += joining.rows_left_out(stored, wanted, transposed=options.transpose)
     notes += questions.unread(survey, variable, rate, options, notes)
     notes += _against_robot(layout, rate, variable.path, robot, notes)
     notes += kinematics_match.findings(workspace, robot)

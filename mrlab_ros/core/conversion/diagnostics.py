@@ -84,6 +84,13 @@ ROWS_NOT_FILLED = Code(
     meaning="Rows at an end of the matrix are zeros that were never filled.",
     data=("count",),
 )
+ROWS_LEFT_OUT = Code(
+    "rows_left_out",
+    "'{variable}' leaves out {count:integer} of the {rows:count row|rows} of '{other}'.",
+    "If they belong to the motion, mend the place between them and take the whole matrix.",
+    severity=WARNING,
+    meaning="A part of a matrix was taken; rows of the motion are left out.",
+)
 AMBIGUOUS = Code(
     "ambiguous",
     "[Is '{only}' ({size}) of '{file}' the joint positions as the robot takes them? It would be "
@@ -238,6 +245,13 @@ COUNTS = Code(
     "Say how many counts make a turn, {counts:integer} or another number.",
     meaning="The values are encoder counts, hundredths or thousandths of a degree.",
     fixes=(("units", "counts:{counts}", "{name:matlab} = {name:matlab} * 2*pi / {counts};"),),
+)
+SCALE_BESIDE = Code(
+    "scale_beside",
+    "'{variable}' reaches {value:number}, which is not in radians; times '{source}' "
+    "({factor:number}) it is within the limits of {model}.",
+    "Multiply it by '{source}', or name its unit.",
+    meaning="A factor beside the matrix brings it to radians.",
 )
 UNIT_OF_NAME = Code(
     "unit_of_name",

@@ -274,7 +274,7 @@ def time_finding(
     if len(left) >= joints:
         text = columns_text(left[: joints + 1])
         fixes = (
-            Fix("columns", text, f"q = {name}(:, {text}); t = {name}(:, {clock.index + 1});"),
+            Fix("columns", text, f"t = {name}(:, {clock.index + 1}); q = {name}(:, {text});"),
         )
         if len(left) == joints == clock.index and (clock.first, clock.last) == (0.0, 1.0):
             # a gripper that closes evenly looks like a second of time

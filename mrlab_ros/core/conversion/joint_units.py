@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from typing import Any
 
@@ -22,6 +23,8 @@ from mrlab_ros.core.conversion.diagnostics import (
     LIKE_POSES,
     LITTLE_IN_DEGREES,
     LOOKS_LIKE,
+    MOTOR_SIDE,
+    SCALE_BESIDE,
     SMALL_FOR_DEGREES,
     UNIT_CONFLICT,
     UNIT_MIXED,
@@ -39,9 +42,12 @@ from mrlab_ros.core.conversion.evidence.assessment import Assessment
 from mrlab_ros.core.conversion.evidence.headings import BRACKETS, said_by_units
 from mrlab_ros.core.conversion.evidence.joining import first_path
 from mrlab_ros.core.conversion.evidence.statements import Statement, UnitClaim
-from mrlab_ros.core.conversion.options import Options, columns_text
+from mrlab_ros.core.conversion.options import UNITS, Options, columns_text
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.trajectory import Array
+
+# rad; what a factor of the file makes of a motion is meant from so much on
+LEAST_SCALED = 0.02
 
 
 def in_radians(
@@ -71,8 +77,7 @@ def in_radians(
             arm *= factor
             notes += _converted(arm, assessment, said, factor)
         else:
-            unread = any(n.code == UNIT_UNREAD.code for n in notes)
-            _refuse_other_units(arm, assessment, robot, unread=unread)
+            _refuse_other_units(arm, assessment, robot, said, notes)
     if options.unwrap:
         arm = np.unwrap(arm, axis=0)
         notes.append(UNWRAP_APPLIED(variable=path))
@@ -177,12 +182,13 @@ def _unread_in_headings(assessment: Assessment) -> list[tuple[str, str]]:
 
 
 def _refuse_other_units(
-    arm: Array, assessment: Assessment, robot: RobotModel, *, unread: bool
+    arm: Array,
+    assessment: Assessment,
+    robot: RobotModel,
+    said: list[Statement],
+    notes: list[Diagnostic],
 ) -> None:
-    """Raise BadInput where the values are no radians of the robot, by their range.
-
-    unread: the file says a unit that is not known, so that none is advised.
-    """
+    """Raise BadInput where the values are no radians of the robot, by their range."""
     evidence, path = assessment.unit, assessment.path
     if assessment.by_name or assessment.variable.is_message:
         ends = (arm.min(axis=0), arm.max(axis=0))
@@ -202,10 +208,57 @@ def _refuse_other_units(
             why = LIKE_POSES(why=assessment.poses.strong)
             size, fix = assessment.variable.size, Fix(matlab="save('traj.mat', 'q')")
             raise BadInput(LOOKS_LIKE(variable=path, size=size, why=why, fixes=(fix,)))
+        scaled = _scaled(arm, path, said, robot)
+        if scaled is not None:
+            raise BadInput(scaled)
         found = _unit_finding(arm, assessment, evidence.why, robot)
-        if unread:
-            found = replace(found, fixes=tuple(Fix(matlab=fix.matlab) for fix in found.fixes))
-        raise BadInput(found)
+        raise BadInput(_as_stated(found, evidence.unit, said, notes, len(robot.joints)))
+
+
+def _scaled(arm: Array, path: str, said: list[Statement], robot: RobotModel) -> Diagnostic | None:
+    """Return the finding of values that a factor beside them brings within the limits."""
+    for source, factor in statements.factors(said):
+        low, high = sorted((factor * arm.min(axis=0), factor * arm.max(axis=0)), key=np.sum)
+        reach = max(-float(low.min()), float(high.max()))
+        if factor <= 0 or reach < LEAST_SCALED:
+            continue
+        if units.inside(low, high, units.limits_of(robot)):
+            line = f"q = {matlab_name(path)} * {source};"
+            named = f"counts:{2 * np.pi / factor!r}" if factor < 1 else ""
+            unit = next((u for u in UNITS if _is_factor(u, factor)), named)
+            fixes = (Fix("units", unit, line),) if unit else (Fix(matlab=line),)
+            return SCALE_BESIDE(
+                variable=path, value=reach / factor, source=source, factor=factor,
+                model=robot.id, fixes=fixes,
+            )  # fmt: skip
+    return None
+
+
+def _is_factor(unit: str, factor: float) -> bool:
+    parsed = spellings.parse(unit)
+    return parsed is not None and parsed.is_angle and abs(parsed.factor - factor) < 1e-6 * factor
+
+
+def _as_stated(
+    found: Diagnostic, unit: str, said: list[Statement], notes: list[Diagnostic], joints: int
+) -> Diagnostic:
+    """Return the finding of a unit with the advice that goes with what the file states.
+
+    Angles of motors are divided by their gears first, and a unit that was not understood is
+    advised only where its own words name it.
+    """
+    codes = {n.code: n for n in notes}
+    name = matlab_name(found.variable)
+    if MOTOR_SIDE.code in codes:
+        gear = statements.gears(said, joints)
+        line = f"plot({name})" if gear is None else f"q = {name} ./ {gear.path}(:).';"
+        return replace(found, fixes=(Fix(matlab=line),))
+    unread = codes.get(UNIT_UNREAD.code)
+    if unread is not None:
+        parts = re.split(r"[\s/,;:()\[\]]+", str(unread.values["words"]))
+        if not any(stated and stated.name == unit for stated in map(spellings.parse, parts)):
+            return replace(found, fixes=tuple(Fix(matlab=fix.matlab) for fix in found.fixes))
+    return found
 
 
 def _spanning_little(arm: Array) -> list[int]:
@@ -273,7 +326,7 @@ def _unit_finding(
     if evidence.alone:
         return found
     # a scale that fits several units is no advice
-    return replace(found, fixes=tuple(Fix(matlab=fix.matlab) for fix in found.fixes))
+    return replace(found, fixes=(Fix(matlab=f"plot({name})"),))
 
 
 def _in_metres(arm: Array, robot: RobotModel, options: Options) -> Array:

@@ -41,7 +41,7 @@ from mrlab_ros.core.conversion.evidence.names import described
 from mrlab_ros.core.conversion.evidence.survey import Survey, fits
 from mrlab_ros.core.conversion.explain import clocks_of, near_miss, time_finding, wrong_shape
 from mrlab_ros.core.conversion.joint_units import in_radians
-from mrlab_ros.core.conversion.options import NO_GRIPPER, Options
+from mrlab_ros.core.conversion.options import NO_GRIPPER, Options, columns_text
 from mrlab_ros.core.conversion.picking import Chosen
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 from mrlab_ros.core.robots.model import RobotModel
@@ -99,7 +99,7 @@ def lay_out(chosen: Chosen, survey: Survey, options: Options, notes: list[Diagno
     notes += said
     assessment = survey.of(variable)
     if not variable.is_message and not assessment.by_name:
-        _refuse_unfilled(assessment)
+        _refuse_unfilled(assessment, transposed=options.transpose)
     values = values[:, by_name]
     bad = motion_checks.non_finite(values, path)
     if bad is not None:
@@ -110,7 +110,7 @@ def lay_out(chosen: Chosen, survey: Survey, options: Options, notes: list[Diagno
     if column is None and values.shape[1] > joints and not chosen.without_gripper:
         column = values[:, joints]
         if not (options.columns or options.gripper) and assessment.last_is_joint:
-            raise BadInput(_seven_axes(column, values[:, 0], robot, path))
+            raise BadInput(_seven_axes(values, robot, path))
         if len(variable.columns) == values.shape[1] and not (
             options.columns or options.gripper or options.invert
         ):
@@ -151,14 +151,15 @@ def _refuse_times(assessment: Assessment, survey: Survey, notes: list[Diagnostic
         notes.append(DOUBTFUL_VALUES(variable=assessment.path, why=[why]))
 
 
-def _refuse_unfilled(assessment: Assessment) -> None:
+def _refuse_unfilled(assessment: Assessment, *, transposed: bool) -> None:
     path, rows = assessment.path, assessment.rows
     if assessment.finite and not (assessment.low.any() or assessment.high.any()):
         size = assessment.variable.size
         raise BadInput(NEVER_FILLED(variable=path, size=size, last_row=rows))
     if assessment.unfilled is not None:
         first, last = assessment.unfilled
-        kept = rows_of(path, last + 1, rows) if first == 1 else rows_of(path, 1, first - 1)
+        begin, end = (last + 1, rows) if first == 1 else (1, first - 1)
+        kept = f"{path}(:, {begin}:{end})" if transposed else rows_of(path, begin, end)
         raise BadInput(
             ROWS_NOT_FILLED(
                 variable=path,
@@ -176,18 +177,23 @@ def _misfit(variable: Variable, survey: Survey) -> Diagnostic:
     return near_miss(variable, survey) or wrong_shape(variable, survey.robot, size=size)
 
 
-def _seven_axes(
-    column: NDArray[Any], first: NDArray[Any], robot: RobotModel, path: str
-) -> Diagnostic:
+def _seven_axes(values: NDArray[Any], robot: RobotModel, path: str) -> Diagnostic:
     joints = len(robot.joints)
-    name = matlab_name(path)
+    column, name = values[:, joints], matlab_name(path)
     found = grippers.meaning(column)
-    line = f"q = [{name}(:, 1:{joints}) {name}(:, end) > 0.5];"
-    fixes: tuple[Fix, ...] = (Fix(matlab=f"q = {name}(:, 1:{joints});"), Fix(matlab=line))
-    if _is_gripper(first):
-        fixes = (Fix("gripper", "1", f"q = [{name}(:, 2:end) {name}(:, 1)];"),)
+    switching = [c for c in range(joints) if _is_gripper(values[:, c])]
+    fixes: tuple[Fix, ...] = (Fix(matlab=f"plot({name}(:, {joints + 1}))"),)
+    if len(switching) == 1:
+        place = switching[0]
+        others = columns_text([c for c in range(joints + 1) if c != place])
+        line = f"q = [{name}(:, {others}) {name}(:, {place + 1})];"
+        fixes = (Fix("gripper", str(place + 1), line),)
     elif found:
-        fixes = (Fix("gripper", str(joints + 1), line), fixes[0])
+        alone = Fix(matlab=f"q = {name}(:, 1:{joints});")
+        line = (
+            f"q = [{name}(:, 1:{joints}) {name}(:, end) > {(column.min() + column.max()) / 2:g}];"
+        )
+        fixes = (Fix("gripper", str(joints + 1), line), alone)
     return SEVEN_AXES(
         variable=path,
         first_row=1,
@@ -215,8 +221,8 @@ def _as_headed(heading: str, column: NDArray[Any], notes: list[Diagnostic]) -> N
 
 
 def _is_gripper(column: NDArray[Any]) -> bool:
-    """Say whether a column opens and closes, and is 0 or 1."""
-    return set(np.unique(column).tolist()) == {0.0, 1.0}
+    """Say whether a column switches between the two ends of a gripper's range."""
+    return len(np.unique(column)) == 2 and grippers.meaning(column) is not None
 
 
 def _gripper(

@@ -143,7 +143,8 @@ def _steps(
     isolated = largest > max(reach * JUMP_VELOCITY_FACTOR, usual * JUMP_USUAL_FACTOR, JUMP_LEAST)
     # a joint may wrap every other sample: such jumps are no usual steps
     turned = abs(largest - FULL_TURN) < TURN_TOLERANCE and largest > reach * JUMP_VELOCITY_FACTOR
-    if turned and (isolated or _wraps(q)):
+    moved_on = abs(largest - FULL_TURN) <= reach
+    if turned and (isolated or moved_on or _wraps(q)):
         return [JUMP_FULL_TURN(value=largest, limit=reach, unit="rad", **place)]
     # A handful of waypoints has no usual step that one could stand out from.
     if isolated and len(steps) >= 10:

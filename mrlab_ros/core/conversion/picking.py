@@ -9,7 +9,7 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.base.diagnostic import MATLAB_PATH, Diagnostic
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.conversion.diagnostics import (
     BAD_OPTION,
@@ -24,6 +24,7 @@ from mrlab_ros.core.conversion.diagnostics import (
     WHOLE_LIKE_POSES,
 )
 from mrlab_ros.core.conversion.evidence import relations
+from mrlab_ros.core.conversion.evidence.joining import PART
 from mrlab_ros.core.conversion.options import NO_GRIPPER, Options, parse_columns
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 from mrlab_ros.core.robots.model import RobotModel
@@ -259,15 +260,19 @@ def squeezed_finding(path: str, was: Squeezed, variable: Variable) -> Diagnostic
 
 def with_lines(notes: list[Diagnostic], squeezed: dict[str, Squeezed]) -> list[Diagnostic]:
     """Return findings whose lines of MATLAB begin with the one that makes the matrix."""
-    return [_with_line(n, squeezed[n.variable]) if n.variable in squeezed else n for n in notes]
+    lines = {path: was.line for path, was in squeezed.items()}
+    parts = {n.variable for n in notes if PART.fullmatch(n.variable)}
+    lines |= {path: f"q = {path};" for path in parts if MATLAB_PATH.fullmatch(path)}
+    return [_with_line(n, lines[n.variable]) if n.variable in lines else n for n in notes]
 
 
-def _with_line(note: Diagnostic, was: Squeezed) -> Diagnostic:
+def _with_line(note: Diagnostic, line: str) -> Diagnostic:
     name = re.compile(rf"(?<![\w.']){re.escape(note.variable)}(?![\w'])")
     fixes = []
     for fix in note.fixes:
-        rest = name.sub("q", fix.matlab).removeprefix("q = q; ")
-        fixes.append(replace(fix, matlab=f"{was.line} {rest}") if rest else fix)
+        changed, count = name.subn("q", fix.matlab)
+        changed = changed.removeprefix("q = q; ")
+        fixes.append(replace(fix, matlab=f"{line} {changed}") if count and changed else fix)
     return replace(note, fixes=tuple(fixes))
 
 

@@ -19,6 +19,7 @@ from mrlab_ros.core.conversion.diagnostics import (
     ORDER_STATED,
     ORDER_UNCLEAR,
     ROBOT_STATED,
+    ROWS_NOT_FILLED,
     TEXT_UNREAD,
     UNUSED_BESIDE,
 )
@@ -300,7 +301,8 @@ def _leads_on(
         return not (codes & DOUBTS) - before - allowed
     if errors[0].code in ANSWERS:
         return True
-    if errors[0].code == worst.code or steps <= 1:
+    repeats = errors[0].code == worst.code and worst.code != ROWS_NOT_FILLED.code
+    if repeats or steps <= 1:
         return False
     following = vetted(after, changed, attempt, steps - 1)
     return any(f.option for f in following[0].fixes)

@@ -3276,6 +3276,14 @@ export const diagnostics: Templates = {
     'Die Bridge hat Schlüssel und soll sich mit {endpoint} verbinden, wo sie keinen zeigen kann; erwartet wird die Adresse eines Routers wie tls/router.example.org:7447.',
   ],
   rows_already: ["'{variable}' ist {size}: ihre Messpunkte sind schon Zeilen"],
+  scale_beside: [
+    "'{variable}' reicht bis {value:number}, das ist nicht in Radiant; mal '{source}' ({factor:number}) liegt es in den Grenzen von {model}.",
+    "Multipliziere es mit '{source}', oder nenne seine Einheit.",
+  ],
+  rows_left_out: [
+    "'{variable}' lässt {count:integer} der {rows:count Zeile|Zeilen} von '{other}' weg.",
+    'Gehören sie zur Bewegung, bring die Stelle dazwischen in Ordnung und nimm die ganze Matrix.',
+  ],
   rows_not_filled: [
     "Die Zeilen {first_row:integer} bis {last_row:integer} von '{variable}' sind nur Nullen, und die Bewegung springt dorthin: Sie wurden reserviert (zeros(N, d)) und nicht gefüllt.",
     'Lass sie weg, oder fülle sie, bevor du sicherst.',

@@ -19,6 +19,7 @@ from mrlab_ros.core.conversion.diagnostics import (
     NO_MATRIX,
     ONE_PIECE,
     PIECES_DIFFER,
+    ROWS_LEFT_OUT,
     SIZES_DIFFER,
     UNKNOWN_VARIABLE,
 )
@@ -239,6 +240,26 @@ def part_of(workspace: Workspace, text: str) -> Workspace | None:
     kept = replace(whole, path=text, values=values, shape=values.shape, columns=names)
     others = (_same_rows(v, whole.shape[0], rows) for v in workspace.variables)
     return replace(workspace, variables=(kept, *others))
+
+
+def rows_left_out(workspace: Workspace, text: str, *, transposed: bool) -> list[Diagnostic]:
+    """Return the warning of rows with numbers that the part `text` of a matrix leaves out.
+
+    Rows of zeros, and those that are not finite, are no loss.
+    """
+    match = PART.fullmatch(text.strip())
+    whole = match and workspace.find(match["path"])
+    if not match or not whole or whole.values is None or len(whole.shape) != 2:
+        return []
+    axis = 1 if transposed else 0
+    taken = _indices(match["columns" if transposed else "rows"], axis, text, whole)
+    rest = np.delete(whole.values, taken, axis=axis)
+    lost = np.isfinite(rest).all(axis=1 - axis) & rest.any(axis=1 - axis)
+    count, rows = int(np.count_nonzero(lost)), whole.shape[axis]
+    if not count:
+        return []
+    fixes = (Fix("variable", whole.path),)
+    return [ROWS_LEFT_OUT(variable=text, count=count, rows=rows, other=whole.path, fixes=fixes)]
 
 
 def _same_rows(variable: Variable, count: int, rows: NDArray[np.intp]) -> Variable:

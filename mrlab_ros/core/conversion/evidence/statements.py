@@ -294,6 +294,16 @@ def _series(word: str, known: Collection[str]) -> str:
     return series if len(series) > 2 and series in known else ""
 
 
+def factors(said: list[Statement]) -> Iterator[tuple[str, float]]:
+    """Yield the numbers beside a matrix that are named as factors, with where they stand."""
+    for s in said:
+        values = s.variable.values
+        if values is not None and values.size == 1 and s.names(Class.FACTOR):
+            number = float(np.asarray(values).reshape(-1)[0])
+            if np.isfinite(number) and number not in (0.0, 1.0):
+                yield s.path, number
+
+
 def gears(said: list[Statement], joints: int) -> Statement | None:
     """Return the gear ratios beside a matrix, or None."""
     for s in said:

@@ -76,7 +76,8 @@ def evidence(
         scale = 2 * np.pi / per_turn
         if inside(low * scale, high * scale, limits):
             why = UNIT_REACHES(largest=largest, model=robot.id, fits=name)
-            return UnitEvidence("counts", per_turn, _fits_once(arm, low, high, limits), why)
+            meant = largest * scale >= LEAST_REACH and _fits_once(arm, low, high, limits)
+            return UnitEvidence("counts", per_turn, meant, why)
     if largest >= LEAST_COUNTS and _is_whole(arm):
         for per_turn in COUNTS:
             scale = 2 * np.pi / per_turn

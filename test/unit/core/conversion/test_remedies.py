@@ -239,3 +239,71 @@ def test_pieces_that_were_not_all_listed_are_not_joined_by_an_option():
     assert worst.code == "inside_container"
     assert worst.values["more"] == 40
     assert [f.option for f in worst.fixes] == [""]
+
+
+def followed(variables, **options):
+    """Follow first fixes; return what was followed, and the result."""
+    steps = []
+    result = convert(*variables, **options)
+    while result.outcome is not Outcome.ACCEPTED and len(steps) < 3:
+        fixes = [f for f in result.diagnostics[0].fixes if f.option]
+        if not fixes:
+            break
+        value = True if fixes[0].value == "true" else fixes[0].value
+        options |= {fixes[0].option: value}
+        steps.append((fixes[0].option, fixes[0].value))
+        result = convert(*variables, **options)
+    return steps, result
+
+
+def test_a_factor_of_the_file_says_the_unit_before_the_range_does():
+    steps, result = followed([var("q", 1000 * Q), var("scale", [0.001])])
+    assert steps == [("units", "mrad")]
+    np.testing.assert_allclose(result.trajectory.positions, Q, atol=1e-12)
+    assert convert(var("q", 1000 * Q)).diagnostics[0].fixes[0].matlab == "plot(q)"
+
+
+def test_angles_of_motors_are_divided_by_their_gears_and_not_taken_as_degrees():
+    result = convert(var("q", 40 * Q), var("gear_ratio", [40.0]))
+    assert [(f.option, f.matlab) for f in result.diagnostics[0].fixes] == [
+        ("", "q = q ./ gear_ratio(:).';")
+    ]
+
+
+def test_a_unit_that_was_not_understood_is_advised_where_its_words_name_it():
+    for words, expected in (("deg/角度", [("units", "deg")]), ("ells", [])):
+        unit = Variable("unit", "char", (1, len(words)), text=words)
+        assert followed([var("q", np.degrees(Q)), unit])[0] == expected
+
+
+def test_zeros_at_both_ends_are_left_out_in_two_steps():
+    zeros = np.zeros((9, 6))
+    steps, result = followed([var("q", np.vstack([zeros, Q, zeros]))])
+    assert steps == [("variable", "q(1:309, :)"), ("variable", "q(10:309, :)")]
+    assert "rows_left_out" not in codes(result)
+    steps, result = followed([var("q", np.vstack([Q, zeros]).T)])
+    assert steps == [("transpose", "true"), ("variable", "q(:, 1:300)")]
+    assert result.trajectory.frame_count == ROWS
+
+
+def test_a_part_of_a_motion_says_what_it_leaves_out():
+    found = convert(var("q", Q), variable="q(1:200, :)").diagnostics
+    lost = next(d for d in found if d.code == "rows_left_out")
+    assert (lost.values["count"], lost.values["rows"]) == (100, ROWS)
+
+
+def test_a_gripper_among_the_joints_is_named_by_its_column():
+    states = (np.arange(ROWS) > 150).astype(float)
+    matrix = np.column_stack([Q[:, :3], states, Q[:, 3:]])
+    result = convert(var("q", matrix))
+    fix = result.diagnostics[0].fixes[0]
+    assert fix.matlab == "q = [q(:, [1 2 3 5 6 7]) q(:, 4)];"
+    assert first_fix(result) == ("gripper", "4")
+
+
+def test_a_full_turn_between_few_rows_is_unwrapped():
+    q = Q[::25].copy()
+    q[5:, 4] += 2 * np.pi
+    steps, result = followed([var("q", q), var("fs", [2.0])])
+    assert steps == [("unwrap", "true")]
+    np.testing.assert_allclose(result.trajectory.positions, Q[::25], atol=1e-12)
