@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from pathlib import Path
 
 from mrlab_ros.adapters import share
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.app.check.stage import Stage
-from mrlab_ros.classroom import words
+from mrlab_ros.classroom import trials, words
 from mrlab_ros.classroom.diagnostics import EXAMPLE_NOT_READ
 from mrlab_ros.classroom.mark import (
     compared,
@@ -19,7 +20,7 @@ from mrlab_ros.classroom.mark import (
     setting_of,
 )
 from mrlab_ros.classroom.rubrics import document
-from mrlab_ros.classroom.rubrics.marking import Flaw, flaws_of, flaws_of_reference
+from mrlab_ros.classroom.rubrics.marking import Flaw, flaws_of, flaws_of_reference, flaws_of_trials
 from mrlab_ros.classroom.rubrics.marking import mark as marks_of
 from mrlab_ros.classroom.rubrics.measures import FAMILIES
 from mrlab_ros.commands.check import run as check
@@ -38,6 +39,7 @@ def lint(path: Path, options: Options, *, as_json: bool) -> int:
     setting = setting_of(rubric, Stage(folder, RobotLibrary(folder / "robots")), folder, options)
     flaws = flaws_of(rubric, ground_of(rubric, setting))
     marks = None
+    made: Sequence[trials.Trial] = ()
     try:
         reference = reference_of(rubric, setting)
     except BadInput as error:
@@ -46,16 +48,22 @@ def lint(path: Path, options: Options, *, as_json: bool) -> int:
         if reference is not None:
             marks = marks_of(rubric, reference.checked, reference.checked)
             flaws += flaws_of_reference(rubric, marks)
+            made = trials.trials(rubric, setting, reference, marks)
+            if made:
+                standing, *others = (trial.marks for trial in made[:-1])
+                flaws += flaws_of_trials(rubric, standing, others)
     if as_json:
         said = {
             "rubric": rubric.name,
             "points": rubric.points,
             "flaws": [flaw.plain() for flaw in flaws],
             "reference": marks.plain() if marks else None,
+            "trials": [{"name": t.name, "points": t.marks.points} for t in made],
         }
         print(json.dumps(said))
     else:
         words.flaws(rubric, flaws, marks)
+        words.trials(rubric, made)
     return LOST if any(flaw.found.refuses for flaw in flaws) else FULL
 
 

@@ -15,6 +15,7 @@ from mrlab_ros.classroom.rubrics.document import at
 from mrlab_ros.classroom.rubrics.marking import Flaw, Mark, Marks
 from mrlab_ros.classroom.rubrics.measures import FAMILIES
 from mrlab_ros.classroom.rubrics.rubric import Rubric
+from mrlab_ros.classroom.trials import Trial
 from mrlab_ros.commands import output
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.phrase import phrase
@@ -140,6 +141,22 @@ def flaws(rubric: Rubric, found: Sequence[Flaw], reference: Marks | None) -> Non
     got = f"; the reference gets {reference.points:g}" if reference is not None else ""
     console.print(verdict, style=style, end="")
     console.print(f": {rubric.name}, {tests}, {rubric.points:g} points{got}", soft_wrap=True)
+
+
+def trials(rubric: Rubric, made: Sequence[Trial]) -> None:
+    """Print the marks of motions that are made from the reference."""
+    if not made:
+        return
+    table = Table("made from the reference", "points", "tests that earn points", box=None)
+    table.columns[1].justify = "right"
+    for trial in made:
+        earned = [f"{m.name} {m.points:g}" for m in trial.marks.tests if m.points]
+        whole = trial.marks.points >= rubric.points
+        shown = "all" if whole else ", ".join(earned)
+        table.add_row(trial.name, f"{trial.marks.points:g}/{rubric.points:g}", shown)
+    console = output.console(width=output.REPORT_WIDTH)
+    console.print()
+    console.print(table)
 
 
 def measures() -> None:

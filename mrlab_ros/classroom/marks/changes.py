@@ -76,7 +76,7 @@ def applied(student: Student, changes: Columns) -> Student:
         return student
     result = student.result
     tests = _changed(result.marks["tests"], changes)
-    total = changes.get(POINTS, _sum(tests))
+    total = changes.get(POINTS, _total(result.marks, tests))
     notes = [
         CHANGED_MARK(test=m["name"], before=m["points"], after=changes[m["name"]])
         for m in result.marks["tests"]
@@ -90,7 +90,7 @@ def applied(student: Student, changes: Columns) -> Student:
         replace(
             result,
             marks={**result.marks, "tests": tests, "points": total},
-            public={**result.public, "tests": public},
+            public={**result.public, "tests": public, "points": total},
         ),
     )
 
@@ -105,7 +105,7 @@ def merged(
         given = {m["name"]: m["points"] for m in marks["tests"]}
         own = {**kept.get(student.key, {}), **new.get(student.key, {})}
         own = {name: v for name, v in own.items() if name == POINTS or given.get(name, v) != v}
-        if own.get(POINTS) == _sum(_changed(marks["tests"], own)):
+        if own.get(POINTS) == _total(marks, _changed(marks["tests"], own)):
             own.pop(POINTS)
         if own:
             every[student.key] = own
@@ -119,6 +119,11 @@ def _changed(tests: Sequence[Mapping[str, Any]], changes: Columns) -> list[Mappi
         else m
         for m in tests
     ]
+
+
+def _total(marks: Mapping[str, Any], tests: Sequence[Mapping[str, Any]]) -> float:
+    """Return the sum of points with changed tests; what a cap took stays taken."""
+    return round(float(marks["points"]) + _sum(tests) - _sum(marks["tests"]), 6)
 
 
 def _sum(tests: Sequence[Mapping[str, Any]]) -> float:

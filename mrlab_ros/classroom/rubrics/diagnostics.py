@@ -208,6 +208,15 @@ SAME_TEST_NAME = Code(
     "The name '{test}' is that of the test in line {line:integer}, too; give each test a name of "
     "its own.",
 )
+REQUIRES_UNKNOWN = Code(
+    "requires_unknown",
+    "It requires '{test}', which is no other test of the rubric[; there are {known:list}]"
+    "[. Did you mean {close:either}?].",
+)
+REQUIRES_CIRCLE = Code(
+    "requires_circle",
+    "It requires itself, by way of {tests:list}; no test of these can be passed.",
+)
 UNKNOWN_PARTIAL = Code(
     "unknown_partial",
     "partial is '{rule}'; '{sentence}' knows {rules:list}.",
@@ -309,6 +318,14 @@ HIDDEN_WITHOUT_HINT = Code(
     "It is hidden and has no hint, so a student learns nothing from it; add hint:",
     severity=WARNING,
 )
+STANDS_STILL = Code("stands_still", "{robot} does not move.")
+REQUIRED_LOST = Code("required_lost", "The test '{test}' is not passed, which this one requires.")
+REQUIRED_HIDDEN_LOST = Code(
+    "required_hidden_lost", "Another test is not passed, which this one requires."
+)
+CAPPED = Code("capped", "{found:problem}; therefore the whole earns at most {most:number} points.")
+READY_FOR_ROBOT = Code("ready_for_robot", "The check has no blocking finding.")
+NOT_READY_FOR_ROBOT = Code("not_ready_for_robot", "The check blocks it: {why:problem}.")
 NO_REFERENCE = Code(
     "no_reference",
     "It names no reference solution, so nothing shows that full marks can be had; add reference: "
@@ -316,6 +333,28 @@ NO_REFERENCE = Code(
     severity=WARNING,
 )
 ALL_HIDDEN = Code("all_hidden", "Every test is hidden; students see none of it.", severity=WARNING)
+EARNED_STANDING = Code(
+    "earned_standing",
+    "A motion that stands still earns {points:number} of {of:number} points here.",
+    "Let this test require one that needs work.",
+    WARNING,
+)
+LOST_BY_NONE = Code(
+    "lost_by_none",
+    "The reference, reversed or cut short, and even standing still, loses nothing here.",
+    "Choose a narrower limit.",
+    WARNING,
+)
+NEVER_HELD = Code(
+    "never_held", "No motion keeps to {limit:number}[ {unit}]; choose a limit that can be held."
+)
+NEVER_LOST = Code(
+    "never_lost", "Every motion keeps to {limit:number}[ {unit}]; choose a limit that can be lost."
+)
+NO_SHARE_OF_LIMITS = Code(
+    "no_share_of_limits",
+    "{value:share} of a limit is no bound; choose a share above 0% and up to 100%.",
+)
 REFERENCE_LOSES = Code(
     "reference_loses",
     "The reference loses {lost:number} of {of:number} points: {why:problem}.",

@@ -12,6 +12,8 @@ from mrlab_ros.classroom.rubrics.diagnostics import (
     NO_PARTIAL,
     POSE_COUNT,
     READS_NO_POSES,
+    REQUIRES_CIRCLE,
+    REQUIRES_UNKNOWN,
     RUBRIC_ENTRY,
     RUBRIC_TEST,
     SAME_TEST_NAME,
@@ -29,6 +31,7 @@ from mrlab_ros.core.base.checks import (
     TEXT,
     Number,
     Numbers,
+    Texts,
     Words,
     above,
     between,
@@ -39,6 +42,7 @@ from mrlab_ros.core.base.diagnostic import Fix
 from mrlab_ros.core.base.diagnostics import IN_PLACE
 from mrlab_ros.core.base.errors import BadInput, LabError
 from mrlab_ros.core.base.geometry import Pose, Vector, normalized, quaternion_from_rpy
+from mrlab_ros.core.base.names import close_to
 from mrlab_ros.core.base.records import Record, every
 from mrlab_ros.core.checking.evidence import CLOSE
 from mrlab_ros.core.checking.rehearsal import FARTHEST
@@ -46,12 +50,16 @@ from mrlab_ros.core.checking.rehearsal import FARTHEST
 FIELDS = (
     "name", "about", "robot", "tool", "scene", "reference", "files", "closest", "tests",
 )  # fmt: skip
-TEST_FIELDS = ("name", "expect", "points", "hint", "hidden", "partial", "poses")
+TEST_FIELDS = (
+    "name", "expect", "points", "hint", "hidden", "partial", "poses", "requires",
+    "gate", "cap",
+)  # fmt: skip
 POSE_FIELDS = ("position", "rpy_deg", "orientation")
 POSITION = Numbers(3, between(-100, 100), "m: x, y, z in world")
 ANGLES = Numbers(3, between(-360, 360), "degrees: roll, pitch, yaw")
 QUATERNION = Numbers(4, between(-1, 1), "x, y, z, w")
 POINTS = Number(above(0, 1e6))
+NAMES = Texts(FILLED_TEXT, single=True)
 MOST_TESTS, MOST_POSES = 200, 1000
 # The line of each entry, by the keys and numbers that lead to it.
 Lines = Mapping[tuple[str | int, ...], int]
@@ -77,6 +85,7 @@ def parse(document: object, origin: str, lines: Lines | None = None) -> Rubric:
         raise record.error(BAD_CLOSEST(text=closest, limit=FARTHEST))
     tests = every(lambda numbered: _test(origin, known, *numbered), enumerate(entries), origin)
     _unique(tests, origin)
+    _require_others(tests, origin)
     assert isinstance(document, Mapping)
     return Rubric(
         name=record.value("name", TEXT, ""),
@@ -101,6 +110,27 @@ def _unique(tests: list[Test], origin: str) -> None:
         if other is not test:
             place = RUBRIC_TEST(file=origin, line=test.line or None, test=test.name)
             why = SAME_TEST_NAME(test=test.name, line=other.line)
+            raise BadInput(IN_PLACE(place=place, why=why))
+
+
+def _require_others(tests: list[Test], origin: str) -> None:
+    """Raise BadInput where a test requires one that is not there, or itself."""
+    required = {test.name: test.requires for test in tests}
+    for test in tests:
+        place = RUBRIC_TEST(file=origin, line=test.line or None, test=test.name)
+        known = [name for name in required if name != test.name]
+        for name in test.requires:
+            if name not in known:
+                why = REQUIRES_UNKNOWN(test=name, known=known, close=close_to(name, known))
+                raise BadInput(IN_PLACE(place=place, why=why))
+        reached, waiting = set[str](), list(test.requires)
+        while waiting:
+            name = waiting.pop()
+            if name not in reached:
+                reached.add(name)
+                waiting += required.get(name, ())
+        if test.name in reached:
+            why = REQUIRES_CIRCLE(tests=sorted(reached - {test.name}))
             raise BadInput(IN_PLACE(place=place, why=why))
 
 
@@ -135,6 +165,9 @@ def _test(origin: str, lines: Lines, index: int, value: object) -> Test:
         hidden=entry.value("hidden", FLAG, False),
         partial=partial,
         line=line,
+        requires=entry.value("requires", NAMES, ()),
+        gate=entry.value("gate", FLAG, False),
+        cap=entry.optional("cap", POINTS),
     )
 
 

@@ -6,16 +6,21 @@ The linter finds flaws of a rubric before anybody is marked by it.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 from mrlab_ros.classroom.rubrics.diagnostics import (
     ALL_HIDDEN,
+    CAPPED,
+    EARNED_STANDING,
     HIDDEN_WITHOUT_HINT,
+    LOST_BY_NONE,
     NO_MOTION_TO_MARK,
     NO_REFERENCE,
     REFERENCE_LOSES,
+    REQUIRED_HIDDEN_LOST,
+    REQUIRED_LOST,
 )
 from mrlab_ros.classroom.rubrics.rubric import Ground, Rubric, Test
 from mrlab_ros.core.base.diagnostic import Diagnostic, Severity, plain
@@ -49,18 +54,26 @@ class Mark:
 @dataclass(frozen=True)
 class Marks:
     """All marks of a file, in the order of the rubric. hints: of hidden tests that lost points,
-    where the tests themselves are left out. note: why there was no motion to mark."""
+    where the tests themselves are left out. note: why there was no motion to mark. most: points
+    beyond which the whole earns nothing more. total: points and of how many, where tests are left
+    out: the student sees the sum that the teacher sees."""
 
     tests: tuple[Mark, ...]
     hints: tuple[str, ...] = ()
     note: Diagnostic | None = None
+    most: float = math.inf
+    total: tuple[float, float] | None = None
 
     @property
     def points(self) -> float:
-        return round(math.fsum(mark.points for mark in self.tests), 6)
+        if self.total is not None:
+            return self.total[0]
+        return min(round(math.fsum(mark.points for mark in self.tests), 6), self.most)
 
     @property
     def of(self) -> float:
+        if self.total is not None:
+            return self.total[1]
         return round(math.fsum(mark.of for mark in self.tests), 6)
 
     @property
@@ -75,6 +88,7 @@ class Marks:
             tuple(mark for mark in self.tests if not mark.hidden),
             tuple(dict.fromkeys(hints)),
             self.note,
+            total=(self.points, self.of),
         )
 
     def plain(self) -> dict[str, Any]:
@@ -93,8 +107,12 @@ def mark(rubric: Rubric, checked: Checked, reference: Checked | None = None) -> 
 
     reference: the checked file of `rubric.reference`, for the tests that compare with it.
     """
-    tests = tuple(_marked(test, checked, reference) for test in rubric.tests)
-    return Marks(tests, note=None if marked(checked) else _refused(checked))
+    if not marked(checked):
+        return Marks(tuple(map(_without_motion, rubric.tests)), note=_refused(checked))
+    alone = {test.name: _marked(test, checked, reference) for test in rubric.tests}
+    tests = tuple(_bound(test, rubric, alone) for test in rubric.tests)
+    caps = [test.cap for test in rubric.tests if test.cap is not None and _lost(test, alone)]
+    return Marks(tests, most=min(caps, default=math.inf))
 
 
 def marked(checked: Checked) -> bool:
@@ -102,11 +120,42 @@ def marked(checked: Checked) -> bool:
     return bool(checked.motions) and checked.recorded is not None
 
 
+def _without_motion(test: Test) -> Mark:
+    return Mark(test.name, 0.0, test.points, False, NO_MOTION_TO_MARK(), test.hint, test.hidden)
+
+
+def _lost(test: Test, alone: Mapping[str, Mark]) -> bool:
+    return not alone[test.name].passed
+
+
+def _bound(test: Test, rubric: Rubric, alone: Mapping[str, Mark]) -> Mark:
+    """Return the mark of a test after the tests that it requires, gates and caps."""
+    mark = alone[test.name]
+    missing = _missing(test, {each.name: each for each in rubric.tests}, alone)
+    if missing is None:
+        gates = (t for t in rubric.tests if t.gate and t is not test and _lost(t, alone))
+        missing = next(gates, None)
+    if missing is not None:
+        found = REQUIRED_HIDDEN_LOST() if missing.hidden else REQUIRED_LOST(test=missing.name)
+        time = alone[missing.name].time
+        return replace(mark, points=0.0, passed=False, found=found, time=time)
+    if test.cap is not None and not mark.passed:
+        found = CAPPED(found=mark.found, most=test.cap, severity=mark.found.severity)
+        return replace(mark, found=found)
+    return mark
+
+
+def _missing(test: Test, tests: Mapping[str, Test], alone: Mapping[str, Mark]) -> Test | None:
+    """Return the first test that is lost of all that a test requires, and that those require."""
+    for name in test.requires:
+        if _lost(tests[name], alone):
+            return tests[name]
+        if (missing := _missing(tests[name], tests, alone)) is not None:
+            return missing
+    return None
+
+
 def _marked(test: Test, checked: Checked, reference: Checked | None) -> Mark:
-    if not marked(checked):
-        return Mark(
-            test.name, 0.0, test.points, False, NO_MOTION_TO_MARK(), test.hint, test.hidden
-        )
     found = test.measure.assess(checked, reference)
     passed = found.share >= 1.0 - ROUNDING
     points = test.points if passed else points_of(test.points, found.share)
@@ -181,3 +230,17 @@ def flaws_of_reference(rubric: Rubric, marks: Marks) -> list[Flaw]:
         )
         for mark in marks.lost
     ]
+
+
+def flaws_of_trials(rubric: Rubric, standing: Marks, others: Sequence[Marks]) -> Iterator[Flaw]:
+    """Yield a flaw for each test that earns points without a motion, or that no trial loses.
+
+    standing: the marks of a motion that stands still; others: of motions that are wrong.
+    """
+    for number, test in enumerate(rubric.tests):
+        still = standing.tests[number]
+        if all(marks.tests[number].passed for marks in (standing, *others)):
+            yield Flaw(LOST_BY_NONE(), test.name, test.line)
+        elif still.points:
+            found = EARNED_STANDING(points=still.points, of=still.of)
+            yield Flaw(found, test.name, test.line)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Protocol
@@ -16,6 +16,8 @@ from typing import Any, Protocol
 from mrlab_ros.classroom.rubrics.diagnostics import (
     BEYOND_MOST,
     MEMBER_WAITS_FOREVER,
+    NEVER_HELD,
+    NEVER_LOST,
     NO_MOTION_OF,
     NO_UNIT,
     NOT_A_NUMBER,
@@ -24,6 +26,7 @@ from mrlab_ros.classroom.rubrics.diagnostics import (
     OTHER_UNIT,
     PARTIAL_GIVES_NOTHING,
     QUANTITY,
+    STANDS_STILL,
     THING_NOT_IN_SCENE,
 )
 from mrlab_ros.core.base.diagnostic import Code, Diagnostic
@@ -181,6 +184,10 @@ class Test:
 
     hidden: a student sees neither its name nor its numbers. partial: the rule by which a part of
     the points is given, as the rubric has it; empty: all or nothing. line: in the rubric's file.
+
+    requires: names of tests that must be passed for this one to earn points. gate: where it is
+    not passed, no other test earns points. cap: the most that the whole earns then, None: no
+    limit.
     """
 
     __test__ = False  # no test of pytest's
@@ -193,6 +200,9 @@ class Test:
     hidden: bool = False
     partial: str = ""
     line: int = 0
+    requires: tuple[str, ...] = ()
+    gate: bool = False
+    cap: float | None = None
 
 
 @dataclass(frozen=True)
@@ -247,13 +257,25 @@ class Threshold:
         span = abs(self.until - self.limit)
         return max(1.0 - beyond / span, 0.0) if span > 0 else 0.0
 
+    @property
+    def _unholdable(self) -> bool:
+        """Return whether no figure is at most, or at least, the limit: SPARC is below 0, all other
+        figures above."""
+        if self.at_least:
+            return self.quantity is NUMBER and self.limit >= 0
+        return self.limit < 0 or (self.quantity is TIME and self.limit == 0)
+
     def outcome(self, code: Code, value: float, time: float | None, /, **values: Any) -> Outcome:
         """Return what a figure gets; code: what is found, with a limit."""
         of: dict[str, Any] = {"value": value, "limit": self.limit, "unit": self.quantity.si}
         return Outcome(self.share(value), code(**of, **values), time)
 
     def flaws(self) -> Iterator[Diagnostic]:
-        """Yield why a part of the points could never be given."""
+        """Yield why no motion can hold the limit, or why no part of the points can be given."""
+        if self._unholdable:
+            yield NEVER_HELD(limit=self.limit, unit=self.quantity.si)
+        if self.at_least and self.quantity is not NUMBER and self.limit <= 0:
+            yield NEVER_LOST(limit=self.limit, unit=self.quantity.si)
         if self.until is None:
             return
         if self.until >= self.limit if self.at_least else self.until <= self.limit:
@@ -281,16 +303,20 @@ class WorstFigure:
     """A figure of the motions of a robot, of all of them where `robot` is empty: the worst.
 
     figure: a function of a module, for rubrics are pickled on their way to other processes.
+    moving: a robot that stands still gets nothing.
     """
 
     robot: str
     figure: Callable[[Motion, Threshold], Figure]
     threshold: Threshold
+    moving: bool = False
 
     def assess(self, checked: Checked, reference: Checked | None) -> Outcome:
         motions = checked.played(self.robot)
         if not motions:
             return no_motion(self.robot, checked)
+        if self.moving and (standing := stands(motions)):
+            return standing
         sign = -1 if self.threshold.at_least else 1
         found = ((motion, self.figure(motion, self.threshold)) for motion in motions)
         motion, worst = max(found, key=lambda each: sign * each[1].value)
@@ -300,6 +326,14 @@ class WorstFigure:
     def flaws(self, ground: Ground) -> Iterator[Diagnostic]:
         yield from ground.robot_flaws(self.robot)
         yield from self.threshold.flaws()
+
+
+def stands(motions: Sequence[Motion]) -> Outcome | None:
+    """Return what a test of a motion gets whose robot stands still, None where all move."""
+    for motion in motions:
+        if motion.figures.cycle <= 0:
+            return Outcome(0.0, STANDS_STILL(robot=motion.robot.name), motion.start)
+    return None
 
 
 def no_motion(robot: str, checked: Checked) -> Outcome:

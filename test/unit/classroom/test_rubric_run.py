@@ -40,7 +40,7 @@ COMMANDS = [shlex.split(line)[1:] for line in BLOCK[1].splitlines()]
 @pytest.mark.parametrize(
     ("command", "code", "words"),
     [
-        (COMMANDS[0], 0, "works: Pick and place, 11 tests, 15 points; the reference gets 15"),
+        (COMMANDS[0], 0, "works: Pick and place, 12 tests, 15 points; the reference gets 15"),
         (COMMANDS[1], 0, "15 of 15 points: pick_and_place_ur5e.mat"),
         (COMMANDS[2], 1, "cube_1 is never grasped; the gripper does not close"),
     ],
@@ -68,6 +68,21 @@ def test_the_rubric_of_the_documentation_is_read():
     block = re.search(r"read by .*/test_rubric_run.py -->\n```yaml\n(.*?)```", PAGE, re.DOTALL)
     rubric = parse(yaml.safe_load(block[1]), "docs")
     assert (rubric.points, len(rubric.tests[1].measure.poses)) == (6.0, 3)
+
+
+@pytest.mark.parametrize("path", sorted(RUBRIC.parent.glob("*.yaml")), ids=lambda path: path.name)
+def test_a_shipped_rubric_gives_nothing_for_nothing_and_marks_fall_with_the_mistake(path):
+    said = run("rubric", "lint", path, "--json")
+    assert said.exit_code == 0, said.stdout
+    found = json.loads(said.stdout)
+    assert found["flaws"] == []
+    points = {trial["name"]: trial["points"] for trial in found["trials"]}
+    assert points["nothing at all"] == 0
+    assert points["reference"] == found["points"]
+    cut = [points[f"cut at {share}%"] for share in (25, 50, 75)]
+    assert cut == sorted(cut)
+    assert cut[-1] <= 0.7 * found["points"]
+    assert points["reversed"] < cut[0]
 
 
 CELL = """

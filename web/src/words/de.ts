@@ -1192,6 +1192,7 @@ export const diagnostics: Templates = {
   ],
   candidate: ["'{variable}' ({size}): {reasons:reasons}"],
   cannot_hold_fixed: ['{robot} kann {object} nicht halten: Es steht fest im Raum.'],
+  capped: ['{found:problem}; deshalb gibt es insgesamt höchstens {most:number} Punkte.'],
   categories: ['eines von {names:either}'],
   cell_not_scene: [
     '{place:problem} ist eine Zelle und keine Szene.',
@@ -1426,6 +1427,10 @@ export const diagnostics: Templates = {
   driven_by_system: [
     "Der Roboter wird vom System '{system}' gesteuert.",
     'Befiehl dem System, oder löse es auf, um den Roboter freizugeben.',
+  ],
+  earned_standing: [
+    'Eine Bewegung, die stillsteht, bekommt hier {points:number} von {of:number} Punkten.',
+    'Lass diesen Test einen verlangen, für den etwas zu tun ist.',
   ],
   element_lacks: [
     "{file}: <{element} name='{name}'> hat kein <{tag} {attribute}=...>.",
@@ -1873,6 +1878,10 @@ export const diagnostics: Templates = {
     'Der Greifer verliert {other}[: {why:problem}].',
     'Greif näher am Schwerpunkt, bewege sanfter, oder nimm einen stärkeren Greifer.',
   ],
+  lost_by_none: [
+    'Die Lösung rückwärts oder abgeschnitten, selbst Stillstehen: Nichts verliert hier Punkte.',
+    'Wähle eine engere Grenze.',
+  ],
   lost_points: ['{test}: {found:problem}.', '[{hint}]'],
   machine_refused: [
     'Der Rechner ließ die Prüfung nicht enden ({why:problem}).',
@@ -2093,6 +2102,12 @@ export const diagnostics: Templates = {
     '{object} wird nie gegriffen; der Greifer schließt bei {time:time} ins Leere[: {why:problem}].',
   ],
   never_grasped_other: ['{object} wird nie gegriffen, wohl aber {other}, bei {time:time}.'],
+  never_held: [
+    'Keine Bewegung hält {limit:number}[ {unit}] ein; wähle eine Grenze, die sich einhalten lässt.',
+  ],
+  never_lost: [
+    'Jede Bewegung hält {limit:number}[ {unit}] ein; wähle eine Grenze, die sich verfehlen lässt.',
+  ],
   new_keys_needed: [
     'Die Schlüssel sind nicht mehr brauchbar: {why:problem}.',
     'Mach neue Schlüssel in einem anderen Ordner, und verteile sie neu.',
@@ -2276,9 +2291,13 @@ export const diagnostics: Templates = {
   no_robot_in_rubric: [
     "'{file}' sagt nicht, für welchen Roboter sie ist; nenne einen in der Rubrik: robot: ur5e",
   ],
+  no_share_of_limits: [
+    '{value:share} einer Grenze sind keine Schranke; wähle einen Anteil über 0 % und bis 100 %.',
+  ],
   no_submissions: [
     '{file} enthält keine Abgabe; erwartet wird ein Export von Moodle, ILIAS, Canvas oder Gradescope, oder ein Ordner oder eine Datei für jede Person.',
   ],
+  not_ready_for_robot: ['Die Prüfung sperrt die Bewegung: {why:problem}.'],
   of_reference: ['{rubric}: Referenz: {why:problem}.'],
   of_rubric: ['{rubric}: {why:problem}.'],
   option_out_of_range: [
@@ -2288,6 +2307,7 @@ export const diagnostics: Templates = {
     'Prozesse, die prüfen, wurden {count:integer}-mal beendet; vielleicht reicht der Speicher nicht.',
     'Fertiges bleibt erhalten: Starte denselben Befehl noch einmal mit weniger Prozessen.',
   ],
+  ready_for_robot: ['Die Prüfung hat keinen Befund, der die Bewegung sperrt.'],
   reference_is_cell: [
     '{rubric}: Die Referenz {file} ist eine Zelle; eine Klasse wird mit einer Bewegung verglichen.',
     'Lass die Referenz weg, oder nenne eine Datei mit einer Bewegung.',
@@ -2296,9 +2316,18 @@ export const diagnostics: Templates = {
     '{rubric}: Die Referenz {file} kann nicht bewertet werden[: {why:problem}].',
   ],
   reference_not_read: ['{rubric}: Die Referenz {file} ist nicht lesbar: {why:problem}.'],
+  required_hidden_lost: ['Ein anderer Test ist nicht bestanden, den dieser verlangt.'],
+  required_lost: ['Der Test „{test}“ ist nicht bestanden, den dieser verlangt.'],
+  requires_circle: [
+    'Er verlangt sich selbst, auf dem Weg über {tests:list}; keiner dieser Tests kann bestanden werden.',
+  ],
+  requires_unknown: [
+    'Er verlangt „{test}“, und so heißt kein anderer Test der Bewertung[; es gibt {known:list}][. Meinst du {close:either}?].',
+  ],
   robot_not_said: [
     "'{file}' sagt nicht, für welchen Roboter sie ist, und die Rubrik auch nicht; ergänze robot: ur5e in der Rubrik, oder bewerte eine Zelle (.yaml).",
   ],
+  stands_still: ['{robot} bewegt sich nicht.'],
   stopped_class: [
     'Abgebrochen: {done:integer} von {all:integer} sind geprüft und bleiben erhalten.',
     'Starte denselben Befehl noch einmal, um fortzufahren.',

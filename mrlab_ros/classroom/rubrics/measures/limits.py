@@ -7,8 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mrlab_ros.classroom.rubrics.diagnostics import LIMIT_NOT_STATED, LIMIT_USED, NO_SUCH_LIMIT
-from mrlab_ros.classroom.rubrics.rubric import SHARE, Ground, Outcome, Threshold, no_motion
+from mrlab_ros.classroom.rubrics.diagnostics import (
+    LIMIT_NOT_STATED,
+    LIMIT_USED,
+    NO_SHARE_OF_LIMITS,
+    NO_SUCH_LIMIT,
+)
+from mrlab_ros.classroom.rubrics.rubric import SHARE, Ground, Outcome, Threshold, no_motion, stands
 from mrlab_ros.classroom.rubrics.sentences import Form
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.checking.check_record import Checked, Motion
@@ -29,6 +34,8 @@ class WithinLimits:
         motions = checked.played(self.robot)
         if not motions:
             return no_motion(self.robot, checked)
+        if standing := stands(motions):
+            return standing
         uses = [use for motion in motions for use in self._uses(motion)]
         if not uses:
             return Outcome(0.0, NO_SUCH_LIMIT(of=self.of[0]), 0.0)
@@ -59,6 +66,8 @@ class WithinLimits:
     def flaws(self, ground: Ground) -> Iterator[Diagnostic]:
         yield from ground.robot_flaws(self.robot)
         yield from self.threshold.flaws()
+        if not 0 < self.threshold.limit <= 1:
+            yield NO_SHARE_OF_LIMITS(value=self.threshold.limit)
         for what in (ACCELERATIONS, JERKS):
             if what not in self.of:
                 continue

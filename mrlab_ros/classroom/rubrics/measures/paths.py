@@ -36,7 +36,7 @@ def _speed(motion: Motion, threshold: Threshold) -> Figure:
 
 
 def _smoothness(motion: Motion, threshold: Threshold) -> Figure:
-    """Return SPARC, 0 where nothing moves, at the largest change of the tool's speed."""
+    """Return SPARC at the largest change of the tool's speed."""
     changes = np.abs(np.diff(motion.figures.speeds))
     time = float(motion.figures.times[int(changes.argmax())])
     return Figure(motion.figures.smoothness or 0.0, time, SMOOTHNESS)
@@ -48,7 +48,7 @@ def _form(text: str, gap: str, quantity: Quantity, figure: Callable[[Motion, Thr
         f"{text} [of ROBOT] {'>' if at_least else '<'} {gap.upper()}",
         lambda gaps, given: WorstFigure(
             gaps.get("robot") or "", figure,
-            Threshold(quantity, gaps[gap], given.until, at_least),
+            Threshold(quantity, gaps[gap], given.until, at_least), moving=True,
         ),
         about, until=quantity,
     )  # fmt: skip

@@ -38,7 +38,7 @@ SAMPLES = 200  # of each motion
 @dataclass(frozen=True, eq=False)
 class Apart:
     """How far aligned motions are apart. most: at `row` of the first motion's samples; rms: over
-    all of them."""
+    all samples of the one from the other, whichever is larger."""
 
     most: float
     rms: float
@@ -77,12 +77,25 @@ def aligned(first: Array, second: Array) -> NDArray[np.intp]:
 
 
 def apart(first: Array, second: Array, *, largest: bool) -> Apart:
-    """Return how far samples (N, D) are from the aligned ones of (M, D).
+    """Return how far samples (N, D) and the aligned ones of (M, D) are apart.
 
-    A sample is compared with the straight way between the samples beside its partner. largest:
-    the largest of the D differences counts; else their Euclidean length.
+    A sample is compared with the straight way between the samples beside its partner, of either
+    motion: a part of the second that the first leaves out counts. largest: the largest of the D
+    differences counts; else their Euclidean length.
     """
     pairs = aligned(first, second)
+    mine = _distances(first, second, pairs, largest=largest)
+    others = _distances(second, first, pairs[:, ::-1], largest=largest)
+    rms = max(float(np.sqrt((each**2).mean())) for each in (mine, others))
+    if mine.max() >= others.max():
+        row = int(mine.argmax())
+    else:
+        row = int(pairs[pairs[:, 1] == others.argmax(), 0][0])
+    return Apart(float(max(mine.max(), others.max())), rms, row)
+
+
+def _distances(first: Array, second: Array, pairs: NDArray[np.intp], *, largest: bool) -> Array:
+    """Return the distance (N,) of each sample of the first from the way of the second."""
     distances = np.full(len(first), np.inf)
     for offset in (-1, 0):
         start = np.clip(pairs[:, 1] + offset, 0, len(second) - 1)
@@ -94,8 +107,7 @@ def apart(first: Array, second: Array, *, largest: bool) -> Apart:
         off = off - share[:, None] * way
         norms = np.abs(off).max(axis=1) if largest else np.linalg.norm(off, axis=1)
         np.minimum.at(distances, pairs[:, 0], norms)
-    row = int(distances.argmax())
-    return Apart(float(distances[row]), float(np.sqrt((distances**2).mean())), row)
+    return distances
 
 
 @dataclass(frozen=True)

@@ -23,6 +23,7 @@ from mrlab_ros.classroom.rubrics.rubric import (
     Outcome,
     Threshold,
     WorstFigure,
+    stands,
 )
 from mrlab_ros.classroom.rubrics.sentences import Form, Gaps, Given
 from mrlab_ros.core.base.diagnostic import Diagnostic
@@ -41,6 +42,8 @@ class TotalTime:
         if stuck:
             robot, wait = next(iter(stuck.items()))
             return Outcome(0.0, MEMBER_WAITS_FOREVER(robot=robot, wait=wait), value)
+        if standing := stands(checked.motions):
+            return standing
         # From the limit on it lasts too long.
         at = min(self.threshold.limit, value)
         return self.threshold.outcome(TOTAL_TIME, value, at)
@@ -85,7 +88,10 @@ FORMS = (
     Form(
         "cycle [of ROBOT] < TIME",
         lambda gaps, given: WorstFigure(
-            gaps.get("robot") or "", _cycle, Threshold(TIME, gaps["time"], given.until)
+            gaps.get("robot") or "",
+            _cycle,
+            Threshold(TIME, gaps["time"], given.until),
+            moving=True,
         ),
         "From the first motion of a joint to the last; of several robots the longest.",
         until=TIME,

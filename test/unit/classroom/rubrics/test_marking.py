@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import json
 import math
+from dataclasses import replace
 
 from hypothesis import given
 from hypothesis import strategies as st
 from made_motions import checked
 
 from mrlab_ros.classroom.rubrics.diagnostics import NO_MOTION_TO_MARK
-from mrlab_ros.classroom.rubrics.marking import mark, points_of
+from mrlab_ros.classroom.rubrics.marking import flaws_of_trials, mark, points_of
 from mrlab_ros.classroom.rubrics.rubric import LENGTH, Outcome, Rubric, Test, Threshold
 from mrlab_ros.core.base.diagnostic import Diagnostic, Severity
 from mrlab_ros.core.checking.check_record import Checked
@@ -56,10 +57,11 @@ def test_marks_are_the_sum_of_their_tests_and_never_more_than_the_points(entries
 
 @given(TESTS)
 def test_what_a_student_sees_holds_nothing_of_hidden_tests_but_hints(entries):
-    marks = mark(rubric(entries), FOUND).public()
+    whole = mark(rubric(entries), FOUND)
+    marks = whole.public()
     hidden = {f"t{i}" for i, e in enumerate(entries) if e[2]}
     assert not hidden & {m.name for m in marks.tests}
-    assert math.isclose(marks.of, sum(p for _, p, h in entries if not h), abs_tol=1e-4)
+    assert (marks.points, marks.of) == (whole.points, whole.of)
     lost = {f"h{i}" for i, (s, _, h) in enumerate(entries) if h and s < 1 - 1e-9}
     assert set(marks.hints) == lost
 
@@ -70,6 +72,52 @@ def test_the_order_of_tests_changes_no_mark(entries, random):
     tests = list(rubric(entries).tests)
     random.shuffle(tests)
     assert {m.name: m.points for m in mark(Rubric("r", tuple(tests)), FOUND).tests} == given_marks
+
+
+def test_a_test_earns_nothing_before_those_that_it_requires():
+    tests = (
+        Test("first", "x", Fixed(1.0), 1.0, requires=("second",)),
+        Test("second", "x", Fixed(1.0), 1.0, requires=("third",)),
+        Test("third", "x", Fixed(0.5, 2.5), 1.0, hidden=True),
+        Test("other", "x", Fixed(0.5), 1.0),
+    )
+    marks = mark(Rubric("r", tests), FOUND)
+    assert [m.points for m in marks.tests] == [0, 0, 0.5, 0.5]
+    # the name of a hidden test is not said
+    assert [m.found.code for m in marks.tests[:2]] == ["required_hidden_lost"] * 2
+    assert [m.time for m in marks.tests[:2]] == [2.5, 2.5]
+    shown = mark(Rubric("r", (*tests[:2], replace(tests[2], hidden=False))), FOUND)
+    assert shown.tests[0].found.values == {"test": "third"}
+
+
+def test_a_lost_gate_leaves_its_own_points_and_a_cap_limits_the_whole():
+    most = Test("most", "x", Fixed(1.0), 8.0)
+    gate = Test("gate", "x", Fixed(0.5), 1.0, gate=True)
+    assert [m.points for m in mark(Rubric("r", (most, gate)), FOUND).tests] == [0, 0.5]
+    passed = replace(gate, measure=Fixed(1.0))
+    assert mark(Rubric("r", (most, passed)), FOUND).points == 9
+    cap = Test("cap", "x", Fixed(0.0), 1.0, cap=3.0)
+    marks = mark(Rubric("r", (most, cap)), FOUND)
+    assert (marks.points, marks.of, marks.tests[1].found.code) == (3, 9, "capped")
+    assert marks.plain()["points"] == marks.public().points == 3
+    kept = replace(cap, measure=Fixed(1.0))
+    assert mark(Rubric("r", (most, kept)), FOUND).points == 9
+
+
+def test_what_stands_still_earns_and_what_no_trial_loses_is_a_flaw():
+    names = ("easy", "never lost", "good")
+    tests = tuple(Test(name, "x", Fixed(1.0), 2.0, line=n) for n, name in enumerate(names))
+    full = mark(Rubric("r", tests), FOUND)
+
+    def losing(*lost):
+        return replace(full, tests=tuple(
+            replace(m, points=0.0, passed=False) if m.name in lost else m for m in full.tests
+        ))  # fmt: skip
+
+    found = list(flaws_of_trials(Rubric("r", tests), losing("good"), [losing("easy"), full]))
+    assert [(f.test, f.found.code) for f in found] == [
+        ("easy", "earned_standing"), ("never lost", "lost_by_none"),
+    ]  # fmt: skip
 
 
 @given(POINTS, st.lists(SHARES, min_size=2, max_size=2))

@@ -7,6 +7,16 @@ import pytest
 from made_motions import QUINTIC, checked, outcome, reach
 
 
+@pytest.mark.parametrize(
+    "sentence",
+    ["smoothness > -9", "path length < 9 m", "tool speed < 1 m/s", "cycle < 9 s",
+     "total time < 9 s", "within 100% of limits"],
+)  # fmt: skip
+def test_a_robot_that_stands_still_earns_nothing(sentence):
+    lost = outcome(sentence, checked(reach(joints=(0.0,) * 6)))
+    assert (lost.share, lost.found.code) == (0.0, "stands_still")
+
+
 def test_figures_of_the_path():
     found = checked()
     length = reach().figures.plain()["path_length"]

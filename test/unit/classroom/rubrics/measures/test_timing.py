@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
-from made_motions import ROBOT, checked, outcome, reach, recorded
+from made_motions import QUINTIC, ROBOT, checked, outcome, reach, recorded
 
 
 @pytest.mark.parametrize(
@@ -12,7 +13,7 @@ from made_motions import ROBOT, checked, outcome, reach, recorded
      "within 100% of limits"],
 )  # fmt: skip
 def test_a_robot_that_waits_for_ever_has_not_played_its_motion(sentence):
-    back = reach(joints=(0.0,) * 6)
+    back = reach(progress=np.concatenate([QUINTIC, QUINTIC[::-1]]))
     stuck = recorded(stuck={"ur5e_1": "frame 0: after kr6_1.frame 9"})
     assert outcome(sentence, checked(back)).share == 1.0
     lost = outcome(sentence, checked(back, record=stuck))
