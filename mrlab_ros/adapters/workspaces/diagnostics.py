@@ -30,14 +30,15 @@ UNSUPPORTED_FORMAT = Code(
     "sqlite=an SQLite database but no whole rosbag2 bag|"
     "html=a web page (was the download page saved instead of the file?)|text=a text file|"
     "unknown=a file of an unknown kind}[ ({detail})], not a MATLAB workspace.",
-    "Save the joint positions in MATLAB, and convert that file.",
+    "Save the joint positions as q, one row a sample, as .mat, .csv, .npz or .json; convert that "
+    "file.",
     meaning="The file is not a MATLAB workspace, and what it is instead.",
     fixes=SAVE_AGAIN,
 )
 UNREADABLE = Code(
     "unreadable",
     "'{file}' is damaged: {why:problem}.",
-    "Copy the file again, or save it again in MATLAB.",
+    "Copy the file again, or save it again[ in Python: {python}].",
     meaning="The file is a workspace but damaged or cut short; nothing of it is taken.",
     fixes=SAVE_AGAIN,
 )

@@ -7,12 +7,19 @@ import importlib
 import io
 import zlib
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import PurePath
 
 from mrlab_ros.adapters.sandbox.inflate import Incomplete, inflate_zstd
 from mrlab_ros.adapters.workspaces import joint_trajectories, messages_as_yaml
 from mrlab_ros.adapters.workspaces.diagnostics import NOT_INFLATED
 from mrlab_ros.adapters.workspaces.matlab import mat5, objects
-from mrlab_ros.adapters.workspaces.matlab.elements import Damaged, NotAWorkspace, TooLarge
+from mrlab_ros.adapters.workspaces.matlab.elements import (
+    Damaged,
+    NotATable,
+    NotAWorkspace,
+    TooLarge,
+)
 from mrlab_ros.adapters.workspaces.matlab.mat73 import read_hdf5
 from mrlab_ros.adapters.workspaces.matlab.recognition import recognise
 from mrlab_ros.adapters.workspaces.sinks import ObjectSink, Sink, View
@@ -47,6 +54,66 @@ def inflate(data: memoryview, form: str, limit: int) -> memoryview:
     return memoryview(inflated)
 
 
+@dataclass(frozen=True)
+class Source:
+    """A file to read. name: without an ending of compression; needs, joints: as for `read`."""
+
+    data: memoryview
+    form: str
+    name: str
+    sink: Sink
+    limit: int
+    needs: Callable[[str], object]
+    joints: Sequence[str]
+
+
+def _mat5(source: Source) -> None:
+    found = ObjectSink(source.sink)
+    mat5.Mat5Reader(found, source.limit).read(source.data)
+    objects.open_objects(source.data, found, source.limit, source.needs)
+
+
+def _hdf5(source: Source) -> None:
+    found = ObjectSink(source.sink)
+    read_hdf5(io.BufferedReader(View(source.data)), found, source.limit)
+    objects.open_objects(source.data, found, source.limit, source.needs)
+
+
+def _bag(source: Source) -> None:
+    source.needs("rosbags")
+    joint_trajectories.read_bag(source.data, source.form, source.sink, source.limit, source.joints)
+
+
+def _cdr(source: Source) -> None:
+    source.needs("rosbags")
+    joint_trajectories.read_cdr(source.data, source.name[: -len(".cdr")], source.sink)
+
+
+def _yaml(source: Source) -> None:
+    source.needs("yaml")
+    messages_as_yaml.read_yaml(source.data, source.sink, source.joints)
+
+
+Reader = Callable[[Source], None]
+# The first bytes say more than the name; a text says what it is by its name, then by its begin.
+BY_CONTENT: dict[str, tuple[str, Reader]] = {
+    "mat4": ("MATLAB v4", lambda s: mat5.read_mat4(s.data, s.sink)),
+    "mat5": ("MATLAB v5 to v7", _mat5),
+    "hdf5": ("MATLAB v7.3", _hdf5),
+    "numpy": ("NumPy npy", lambda s: table.read_npy(s.data, s.sink)),
+    "npz": ("NumPy npz", lambda s: table.read_npz(s.data, s.sink, s.limit)),
+    **dict.fromkeys(joint_trajectories.SUFFIXES, ("rosbag2", _bag)),
+}
+CSV: tuple[str, Reader] = ("CSV", lambda s: table.read_csv(s.data, s.sink))
+JSON: tuple[str, Reader] = ("JSON", lambda s: table.read_json(s.data, s.sink))
+TEXTS_BY_NAME: dict[str, tuple[str, Reader]] = {
+    ".m": ("MATLAB code", lambda s: table.read_matlab(s.data, s.sink)),
+    **dict.fromkeys(messages_as_yaml.SUFFIXES, ("YAML", _yaml)),
+}
+MESSAGE = ".cdr"  # has no first bytes of its own
+JSON_BEGINS = (b"{", b"[")
+
+
 def read(
     data: memoryview,
     name: str,
@@ -66,44 +133,35 @@ def read(
         form = recognise(data)
         for suffix in (".gz", ".zst", ".zstd"):
             name = name.removesuffix(suffix)
-    if form in ("mat5", "hdf5"):
-        found = ObjectSink(sink)
-        if form == "mat5":
-            mat5.Mat5Reader(found, limit).read(data)
-        else:
-            read_hdf5(io.BufferedReader(View(data)), found, limit)
-        objects.open_objects(data, found, limit, needs)
-        return "MATLAB v5 to v7" if form == "mat5" else "MATLAB v7.3"
-    if form == "mat4":
-        mat5.read_mat4(data, sink)
-        return "MATLAB v4"
-    if form in joint_trajectories.SUFFIXES or name.lower().endswith(".cdr"):
-        needs("rosbags")
-    if form in joint_trajectories.SUFFIXES:
-        joint_trajectories.read_bag(data, form, sink, limit, joints)
-        return "rosbag2"
-    if name.lower().endswith(".cdr"):
-        joint_trajectories.read_cdr(data, name[: -len(".cdr")], sink)
-        return "CDR"
-    if form == "numpy":
-        table.read_npy(data, sink)
-        return "NumPy npy"
-    if name.lower().endswith(".npz"):
-        table.read_npz(data, sink, limit)
-        return "NumPy npz"
-    if name.lower().endswith(".json"):
-        table.read_json(data, sink)
-        return "JSON"
-    if form in TEXTS and name.lower().endswith(messages_as_yaml.SUFFIXES):
-        needs("yaml")
-        messages_as_yaml.read_yaml(data, sink, joints)
-        return "YAML"
-    if form in TEXTS and name.lower().endswith(".m"):
-        table.read_matlab(data, sink)
-        return "MATLAB code"
-    # save -ascii of MATLAB writes a table of numbers, and calls it .mat where it is told to.
-    ascii_table = form == TEXTS[0] and bytes(data[:64]).lstrip()[:1] in NUMBER_BEGINS
-    if form in TEXTS and (name.lower().endswith(TABLES) or ascii_table):
-        table.read_csv(data, sink)
-        return "CSV"
-    raise NotAWorkspace(form)
+    source = Source(data, form, name, sink, limit, needs, joints)
+    if form in BY_CONTENT:
+        said, reader = BY_CONTENT[form]
+    elif name.lower().endswith(MESSAGE):
+        said, reader = "CDR", _cdr
+    elif form in TEXTS:
+        return _read_text(source)
+    else:
+        raise NotAWorkspace(form)
+    reader(source)
+    return said
+
+
+def _read_text(source: Source) -> str:
+    """Read a text by its name where that says what it is, else by how it begins."""
+    ending = PurePath(source.name.lower()).suffix
+    begins = bytes(source.data[:64]).lstrip()[:1]
+    is_json = source.form == "text" and begins in JSON_BEGINS and ending not in TEXTS_BY_NAME
+    said, reader = TEXTS_BY_NAME.get(ending, JSON if is_json else CSV)
+    if is_json or ending in (*TEXTS_BY_NAME, *TABLES):
+        reader(source)
+        return said
+    if source.form == "unknown":
+        raise NotAWorkspace(source.form)
+    try:
+        reader(source)
+    except NotATable:
+        # save -ascii of MATLAB writes a table of numbers, and calls it .mat where it is told to
+        if begins in NUMBER_BEGINS:
+            raise
+        raise NotAWorkspace(source.form) from None
+    return said

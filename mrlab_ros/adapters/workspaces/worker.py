@@ -39,6 +39,7 @@ import traceback
 import warnings
 import weakref
 from collections.abc import Callable
+from pathlib import PurePath
 from typing import Any
 
 import numpy as np
@@ -79,6 +80,12 @@ FACTS = ("note", "columns", "units", "time", "is_object", "label", "text")
 # packages that readers of seldom files need, and the exit status that asks for the first of them
 SELDOM = ("matio", "rosbags", "yaml")
 ASKED = 64
+# how a file of this ending is saved in Python
+IN_PYTHON = {
+    ".npy": "np.save('traj.npy', q)",
+    ".npz": "np.savez('traj.npz', q=q, fs=100)",
+    ".json": "json.dump({'q': q.tolist(), 'fs': 100}, file)",
+}
 whole: set[str] = set()  # those of SELDOM that this process has imported
 
 
@@ -193,7 +200,8 @@ def _refusal(name: str, error: Exception) -> Diagnostic:
     if isinstance(error, NotATable):
         return BAD_TABLE(file=name, why=error.args[0])
     if isinstance(error, Damaged):
-        return UNREADABLE(file=name, why=error.args[0])
+        python = IN_PYTHON.get(PurePath(name.lower()).suffix)
+        return UNREADABLE(file=name, why=error.args[0], python=python)
     if isinstance(error, TooLarge):
         return TOO_LARGE(file=name, part=error.part, limit=error.limit, size=error.size)
     return UNREADABLE(file=name, why=READER_FAILED(error=repr(error)))

@@ -42,6 +42,8 @@ from mrlab_ros.core.trajectory.catalogue import checked_id
 from mrlab_ros.core.trajectory.derived_signals import ProxyCoefficients
 from mrlab_ros.core.trajectory.trajectory import Source, Trajectory
 
+OF_PYTHON = (".npy", ".npz", ".json")
+
 
 class Outcome(Enum):
     """How a conversion ended; the values are those of mrlab_msgs/ConvertTrajectory."""
@@ -115,7 +117,7 @@ def convert(
     most_rows: a matrix with more samples is refused.
     """
     trajectory_id = checked_id(trajectory_id or id_from(file))
-    found = _Found()
+    found = _Found(of_python=file.lower().endswith(OF_PYTHON))
 
     def tried(refused: ConversionResult) -> ConversionResult:
         """Return a refusal with those of its fixes that lead to a motion."""
@@ -200,7 +202,8 @@ class _Found:
     """What a conversion has found until it ends: what to say, and the matrix it is about.
 
     workspace: as it was read; None once it is not needed any more.
-    unspeakable: paths of variables that MATLAB would take for more than a name.
+    unspeakable: paths of variables that MATLAB would take for more than a name. of_python: the
+    file was written by Python.
     """
 
     notes: list[Diagnostic] = field(default_factory=list)
@@ -208,18 +211,25 @@ class _Found:
     variable: Variable | None = None
     squeezed: dict[str, picking.Squeezed] = field(default_factory=dict)
     unspeakable: tuple[str, ...] = ()
+    of_python: bool = False
 
     def said(self, notes: list[Diagnostic]) -> list[Diagnostic]:
-        """Return the notes without the lines of MATLAB that hold such a path.
+        """Return the notes without the lines of MATLAB that hold such a path, or help nobody.
 
-        Their reader pastes them: a variable of a file may be called `q; system('...')`.
+        Their reader pastes them: a variable of a file may be called `q; system('...')`. A file
+        of Python has none.
         """
-        if not self.unspeakable:
+        if not (self.unspeakable or self.of_python):
             return notes
-        return [replace(note, fixes=tuple(map(self._without, note.fixes))) for note in notes]
+        return [
+            replace(note, fixes=tuple(filter(None, map(self._without, note.fixes))))
+            for note in notes
+        ]
 
-    def _without(self, fix: Fix) -> Fix:
-        acts = any(path in fix.matlab for path in self.unspeakable)
+    def _without(self, fix: Fix) -> Fix | None:
+        acts = self.of_python or any(path in fix.matlab for path in self.unspeakable)
+        if acts and not (fix.option or fix.command):
+            return None
         return replace(fix, matlab="") if acts else fix
 
 

@@ -3827,11 +3827,11 @@ export const diagnostics: Templates = {
   unloaded: ['entladen'],
   unreadable: [
     "'{file}' ist beschädigt: {why:problem}.",
-    'Kopiere die Datei noch einmal, oder sichere sie in MATLAB noch einmal.',
+    'Kopiere die Datei noch einmal, oder sichere sie noch einmal[, in Python: {python}].',
   ],
   unsupported_format: [
     "'{file}' ist {form:choice folder=ein Ordner|special=keine gewöhnliche Datei|empty=eine leere Datei|version=eine MAT-Datei einer unbekannten Version|header=eine MATLAB-Datei mit beschädigtem Kopf|zip=ein ZIP-Archiv (oder eine Datei aus Office, .mlx oder .slx)|spreadsheet=eine Tabellenkalkulation (sichere das Blatt als CSV UTF-8, und wandle diese Datei um)|numpy=ein NumPy-Array|png=ein PNG-Bild|jpeg=ein JPEG-Bild|gif=ein GIF-Bild|pdf=ein PDF-Dokument|lfs=ein Platzhalter von Git LFS (die Datei selbst wurde nicht heruntergeladen)|octave=eine Octave-Datei (sichere sie mit: save -7 traj.mat q)|seven_zip=ein 7-Zip-Archiv|rar=ein RAR-Archiv|elf=ein Programm|exe=ein Windows-Programm|bzip=ein bzip2-Archiv|xz=ein xz-Archiv|sqlite=eine SQLite-Datenbank, aber kein vollständiges rosbag2-Bag|html=eine Webseite (wurde statt der Datei die Seite zum Herunterladen gesichert?)|text=eine Textdatei|unknown=eine Datei unbekannter Art}[ ({detail})] und kein MATLAB-Workspace.",
-    'Sichere die Gelenkwinkel in MATLAB, und wandle diese Datei um.',
+    'Sichere die Gelenkwinkel als q, eine Zeile je Abtastung, als .mat, .csv, .npz oder .json, und wandle diese Datei um.',
   ],
   unsupported_object: [
     "Nicht zu öffnen: {objects:list} ({why:problem}). Keine andere Matrix in '{file}' ist die Trajektorie.",

@@ -84,10 +84,18 @@ def recognise(data: memoryview) -> str:
         return "mat4"
     if head.startswith(ARCHIVE) and _is_spreadsheet(data):
         return SPREADSHEET
+    if head.startswith(ARCHIVE) and _holds_arrays(head):
+        return "npz"
     for signature, form in SIGNATURES:
         if head.startswith(signature):
             return form
     return _text(head)
+
+
+def _holds_arrays(head: bytes) -> bool:
+    """Return whether the first entry of an archive is an array of NumPy."""
+    length = int.from_bytes(head[26:28], "little")
+    return head[30 : 30 + length].endswith(b".npy")
 
 
 def _is_spreadsheet(archive: memoryview) -> bool:

@@ -14,6 +14,7 @@ from mrlab_ros.adapters.workspaces.diagnostics import CELLS_UNREADABLE, NO_TEXT
 from mrlab_ros.adapters.workspaces.matlab.elements import NotATable
 
 CLOCK = r"(?P<hour>\d{1,2}):(?P<minute>\d\d):(?P<second>\d\d)(?:[.,](?P<fraction>\d{1,9}))?"
+HALF = r"\s*(?P<half>[AaPp])\.?[Mm]\.?"
 ZONE = r"(?:\s*(?:Z|UTC|[+-]\d\d:?\d\d))?"
 DATES = (
     r"(?P<year>\d{4})[-/](?P<month>\d\d?)[-/](?P<day>\d\d?)",  # ISO 8601
@@ -21,7 +22,12 @@ DATES = (
     r"(?P<day>\d\d?)[-/](?P<month>\d\d?)[-/](?P<year>\d{4})",
     r"(?P<day>\d\d?)-(?P<name>[A-Za-z]{3})-(?P<year>\d{4})",  # datetime of MATLAB
 )
-PATTERNS = tuple(re.compile(f"(?:{date}[T ]\\s*)?{CLOCK}{ZONE}$") for date in DATES)
+# who writes a clock of 12 hours writes the month before the day
+AMERICAN = rf"(?P<month>\d\d?)/(?P<day>\d\d?)/(?P<year>\d{{4}})[T ]\s*{CLOCK}{HALF}{ZONE}$"
+PATTERNS = (
+    re.compile(AMERICAN),
+    *(re.compile(f"(?:{date}[T ]\\s*)?{CLOCK}(?:{HALF})?{ZONE}$") for date in DATES),
+)
 DAYS = tuple(re.compile(f"{date}$") for date in DATES)
 MONTHS = ("jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec")
 DAY = 86_400.0
@@ -53,7 +59,7 @@ def seconds(texts: Sequence[str]) -> list[float | None]:
             found.append(None)
             continue
         given = match.groupdict()
-        now = int(given["hour"]) * 3600.0 + int(given["minute"]) * 60 + int(given["second"])
+        now = _hour(given) * 3600.0 + int(given["minute"]) * 60 + int(given["second"])
         now += float(f"0.{given['fraction'] or 0}")
         days = _days(given)
         if days is None:
@@ -66,6 +72,12 @@ def seconds(texts: Sequence[str]) -> list[float | None]:
         before = now
         found.append(round(now - start, 9))
     return found
+
+
+def _hour(given: dict[str, str | None]) -> int:
+    """Return the hour of a day; of a clock of 12 hours 12 is the first of its half."""
+    hour, half = int(str(given["hour"])), given["half"]
+    return hour if half is None else hour % 12 + (12 if half in "Pp" else 0)
 
 
 def _days(given: dict[str, str | None]) -> int | None:

@@ -1,8 +1,10 @@
-"""Reads CSV and NumPy npz files into the same variables as a workspace."""
+"""Reads CSV, JSON, NumPy npy and npz files into the same variables as a workspace."""
 
 from __future__ import annotations
 
+import contextlib
 import io
+import json
 import zipfile
 from typing import Any
 
@@ -24,6 +26,11 @@ TIME_HEADINGS = ("t", "time", "time_from_start")
 
 
 def _add(sink: Sink, name: str, values: Any, columns: tuple[str, ...] = ()) -> None:
+    if values.dtype.names:
+        _add_fields(sink, name, values)
+        return
+    if values.dtype.kind == "f" and values.dtype.str[1:] not in ("f8", "f4"):
+        values = values.astype(np.float32 if values.dtype.itemsize == 2 else np.float64)
     kinds = {"f8": "double", "f4": "single"}
     kind = kinds.get(values.dtype.str[1:], values.dtype.name)
     if values.dtype.kind == "c":
@@ -48,6 +55,20 @@ def _add(sink: Sink, name: str, values: Any, columns: tuple[str, ...] = ()) -> N
     )
     data = np.asfortranarray(values).tobytes(order="F") if kept else None
     sink.add(Found(name, kind, shape, data, values.dtype.str, columns=columns))
+
+
+def _add_fields(sink: Sink, name: str, records: Any) -> None:
+    """Hand a structured array to the sink: its numbers as a table, its matrices by their names."""
+    flat = records.reshape(-1)
+    headings = []
+    for field in records.dtype.names:
+        column = flat[field]
+        if column.ndim == 1 and column.dtype.kind in "fiu" and field.lower() not in TIME_HEADINGS:
+            headings.append(field)
+        elif column.dtype.names is None:
+            _add(sink, field, column)
+    if headings:
+        _add(sink, name, np.column_stack([flat[h] for h in headings]), tuple(headings))
 
 
 def read_csv(data: memoryview, sink: Sink) -> None:
@@ -129,10 +150,10 @@ def read_json(data: memoryview, sink: Sink) -> None:
     A trajectory file of the lab (trajectory.schema.json) gives q in rad, its gripper as the last
     column, the joints' names and fs.
     """
-    try:
-        document = orjson.loads(data)
-    except orjson.JSONDecodeError as error:
-        raise Damaged(LIBRARY_FAILED(part="json", error=str(error))) from None
+    document = _parsed(data)
+    if (rows := _numbers(document)) is not None and rows.ndim == 2:
+        _add(sink, "q", rows)
+        return
     if _are_records(document):
         _add_records(document, sink)
         return
@@ -143,6 +164,18 @@ def read_json(data: memoryview, sink: Sink) -> None:
         _add_frames(document, frames, sink)
         return
     _add_members(document, "", sink, DEEPEST)
+
+
+def _parsed(data: memoryview) -> Any:
+    """Return the document in a JSON file, with NaN and Infinity as Python writes them."""
+    try:
+        return orjson.loads(data)
+    except orjson.JSONDecodeError as error:
+        text = bytes(data)
+        if b"NaN" in text or b"Infinity" in text:
+            with contextlib.suppress(ValueError, RecursionError):
+                return json.loads(text)
+        raise Damaged(LIBRARY_FAILED(part="json", error=str(error))) from None
 
 
 def _add_members(document: dict[str, Any], path: str, sink: Sink, deepest: int) -> None:

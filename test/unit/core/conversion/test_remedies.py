@@ -307,3 +307,15 @@ def test_a_full_turn_between_few_rows_is_unwrapped():
     steps, result = followed([var("q", q), var("fs", [2.0])])
     assert steps == [("unwrap", "true")]
     np.testing.assert_allclose(result.trajectory.positions, Q[::25], atol=1e-12)
+
+
+def test_a_file_of_python_gets_no_lines_of_matlab():
+    workspace = Workspace("NumPy npz", (var("q", 1000 * Q), var("scale", [0.001])), 0, "0" * 64)
+    for file, has_lines in (("traj.npz", False), ("traj.mat", True)):
+        result = conversion_convert.convert(
+            file, lambda: workspace, Options(), ARM, COEFFICIENTS, created_ns=1
+        )
+        fixes = result.diagnostics[0].fixes
+        assert [(f.option, f.value, bool(f.matlab)) for f in fixes] == [
+            ("units", "mrad", has_lines)
+        ]

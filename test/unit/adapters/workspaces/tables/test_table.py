@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from mrlab_ros.adapters.workspaces import file_formats
-from mrlab_ros.adapters.workspaces.matlab.elements import NotATable
+from mrlab_ros.adapters.workspaces.matlab.elements import NotATable, NotAWorkspace
 
 Q = np.arange(12.0).reshape(2, 6) / 7
 
@@ -52,3 +52,56 @@ def test_headings_that_stand_again_are_named():
         read(b"q1,q2\n1,2\n3,4\nq1,q2\n5,6\n", "a.csv")
     found = caught.value.args[0]
     assert (found.code, found.values["line"]) == ("headings_again", 4)
+
+
+def saved(writer, *arrays, **named):
+    file = io.BytesIO()
+    writer(file, *arrays, **named)
+    return file.getvalue()
+
+
+TABLE = b"q1,q2,q3,q4,q5,q6\n" + b"\n".join(",".join(map(str, r)).encode() for r in Q.tolist())
+
+
+@pytest.mark.parametrize(
+    ("data", "endings"),
+    [
+        (saved(np.savez, q=Q), ".npz .npy .mat .csv .json"),
+        (saved(np.save, Q), ".npz .npy .mat .csv .json"),
+        (json.dumps({"q": Q.tolist()}).encode(), ".json .mat .csv .txt .npz"),
+        (json.dumps(Q.tolist()).encode(), ".json .mat"),
+        (TABLE, ".csv .mat .json .npz .dat"),
+    ],
+)
+def test_a_file_is_what_it_holds_whatever_it_is_called(data, endings):
+    for ending in endings.split():
+        np.testing.assert_array_equal(read(data, "a" + ending)["q"], Q, ending)
+
+
+def test_a_text_that_is_no_table_is_refused_as_a_text_where_it_is_not_called_one():
+    for name in ("a.mat", "a.json", "a.npz"):
+        with pytest.raises(NotAWorkspace) as caught:
+            read(b"hello world", name)
+        assert caught.value.args == ("text",)
+
+
+def test_nan_is_read_from_json_as_python_writes_it():
+    rows = Q.tolist()
+    rows[1][2], rows[1][3] = float("nan"), float("-inf")
+    found = read(json.dumps({"q": rows}).encode(), "a.json")["q"]
+    assert np.isnan(found[1, 2])
+    assert found[1, 3] == -np.inf
+
+
+def test_other_floats_and_structured_arrays_are_read():
+    for kind, kept in ((np.float16, np.float32), (np.longdouble, np.float64)):
+        found = read(saved(np.save, Q.astype(kind)), "a.npy")["q"]
+        assert found.dtype == kept
+        np.testing.assert_array_equal(found, Q.astype(kind).astype(kept))
+    fields = [("t", "f8"), ("pose", "f8", 6), *((f"q{i}", "f4") for i in range(6))]
+    records = np.zeros(2, dtype=fields)
+    records["t"], records["pose"], records["q5"] = (0, 0.1), Q, (3, 4)
+    found = read(saved(np.save, records), "a.npy")
+    assert found["t"].ravel().tolist() == [0, 0.1]
+    np.testing.assert_array_equal(found["pose"], Q)
+    np.testing.assert_array_equal(found["q"][:, 5], [3, 4])

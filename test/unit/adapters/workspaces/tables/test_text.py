@@ -178,3 +178,10 @@ def test_instants():
     assert seconds(["05/03/2024 10:00:00", "05/03/2024 10:00:01"]) == [0.0, 1.0]
     assert seconds(["12/31/2024 23:59:59", "01/01/2025 00:00:00"]) == [0.0, 1.0]
     assert seconds(["10:00:00", "x"]) == [0.0, None]
+
+
+def test_a_clock_of_twelve_hours_passes_noon_and_midnight():
+    noon = ["11:59:59.5 AM", "12:00:00 PM", "1:00:00 p.m."]
+    assert seconds(noon) == [0.0, 0.5, 3600.5]
+    night = ["03/05/2024 11:59:59 PM", "03/06/2024 12:00:01 AM"]
+    assert seconds(night) == [0.0, 2.0]
