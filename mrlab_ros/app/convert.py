@@ -30,9 +30,10 @@ from mrlab_ros.adapters.workspaces.reader import (
 )
 from mrlab_ros.adapters.workspaces.results import Task, failed_here, refused, unexpected
 from mrlab_ros.adapters.yaml_files import close_file
-from mrlab_ros.app.diagnostics import ROBOT_NOT_NAMED
+from mrlab_ros.app.diagnostics import OTHER_JOINTS, ROBOT_NOT_NAMED
 from mrlab_ros.core.base.errors import BadInput, Misuse, WrongUsage
 from mrlab_ros.core.base.foreign_text import file_name
+from mrlab_ros.core.conversion import motion_checks
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome, id_from
 from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE, Options
 from mrlab_ros.core.robots.model import RobotModel
@@ -95,6 +96,28 @@ def _accepted(file: Path, found: Trajectory) -> ConversionResult:
     return ConversionResult(
         file_name(file.name), Outcome.ACCEPTED, found, (), tuple(found.warnings)
     )
+
+
+def held_to_robot(result: ConversionResult, library: RobotLibrary) -> ConversionResult:
+    """Return the result of a trajectory file after the checks that all other formats go through.
+
+    Raises BadInput where its robot is unknown.
+    """
+    found = result.trajectory
+    if found is None:
+        return result
+    robot = library.model(found.robot_model)
+    if found.joint_names != robot.joint_names:
+        return replace(result, trajectory=None, outcome=Outcome.REJECTED, diagnostics=(
+            OTHER_JOINTS(file=result.file, model=robot.id, joints=list(found.joint_names)),
+        ))  # fmt: skip
+    said = motion_checks.against_robot(
+        found.positions, found.frame_rate, robot.joints, "positions", robot.id
+    )
+    diagnostics = (*result.diagnostics, *said)
+    if any(one.refuses for one in said):
+        return replace(result, trajectory=None, outcome=Outcome.REJECTED, diagnostics=diagnostics)
+    return replace(result, diagnostics=diagnostics)
 
 
 @dataclass(frozen=True)

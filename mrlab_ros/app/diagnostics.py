@@ -44,3 +44,8 @@ REPLAY_AT = Code("replay_at", "at {position:time}", severity=INFO)
 REPLAY_RATE = Code("replay_rate", "rate {rate:number}", severity=INFO)
 REPLAY_LOOPS = Code("replay_loops", "loops", severity=INFO)
 REPLAY_ONCE = Code("replay_once", "ends at the end", severity=INFO)
+OTHER_JOINTS = Code(
+    "other_joints",
+    "'{file}' has the joints {joints:list}; expected those of {model}.",
+    "Convert the original file again.",
+)

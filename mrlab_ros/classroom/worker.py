@@ -14,6 +14,7 @@ from __future__ import annotations
 import contextlib
 import errno
 import gc
+import hashlib
 import importlib
 import json
 import os
@@ -142,7 +143,7 @@ class Warm:
         self.readable = (*restrictions.libraries(), *share.folders(), *installed.packages())
         convert = Inside(Limits(memory=setup.bounds.memory, time=setup.bounds.wall))
         base = setup.setting(self.share)
-        values = {**vars(base), "convert": convert, "drawn": True}
+        values = {**vars(base), "convert": convert, "drawn": True, "enclosed": True}
         self.setting = Setting(**values)
         self.reference: Checked | None = None
         if setup.reference is not None:
@@ -171,7 +172,7 @@ class Warm:
         if found is None:
             result = without_marks(self.setup.rubric, MARKED, problem or NO_FILE(), file)
         else:
-            result = self._result(found, file, shown, out)
+            result = self._result(found, folder / file, shown, out)
         (out / RESULT).write_bytes(orjson.dumps(result.plain()))
 
     def _first(
@@ -191,7 +192,8 @@ class Warm:
             told = told or (found, name, None)
         return told or (None, "", None)
 
-    def _result(self, found: CheckedFile, file: str, shown: str, out: Path) -> Result:
+    def _result(self, found: CheckedFile, source: Path, shown: str, out: Path) -> Result:
+        file = source.name
         checked = found.checked
         marks = mark(self.setup.rubric, checked, self.reference)
         trajectory, figures = checked.trajectory, checked.figures
@@ -205,7 +207,8 @@ class Warm:
         if figures is not None:
             at = np.linspace(0, len(figures.tool) - 1, MOST_PATH).round().astype(int)
             path = figures.tool[np.unique(at)].round(4).tolist()
-        source = trajectory.source.sha256 if trajectory is not None else ""
+        # of the bytes that were handed in, whatever a trajectory file says of its source
+        sha256 = "" if trajectory is None else hashlib.sha256(source.read_bytes()).hexdigest()
         robot = found.robots[0]
         return Result(
             MARKED,
@@ -213,7 +216,7 @@ class Warm:
             marks.plain(),
             marks.public().plain(),
             file,
-            source,
+            sha256,
             checked.report.verdict,
             str(checked.document["hash"]),
             robot.model.id,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -11,6 +12,7 @@ from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.scenes import files as scene_files
 from mrlab_ros.app.check.diagnostics import (
     MEMBER_FILE_MISSING,
+    MEMBER_FILE_NOT_BESIDE,
     MEMBER_NOT_IN_SCENE,
     MEMBER_REFUSED,
     MEMBER_WITHOUT_MOTION,
@@ -20,7 +22,13 @@ from mrlab_ros.app.check.diagnostics import (
     ROBOTS_TWICE,
 )
 from mrlab_ros.app.check.stage import Played, Stage, first_link
-from mrlab_ros.app.convert import Wanted, convert_files, converted, of_trajectory_file
+from mrlab_ros.app.convert import (
+    Wanted,
+    convert_files,
+    converted,
+    held_to_robot,
+    of_trajectory_file,
+)
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, of_text, plain
 from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.base.foreign_text import for_shell
@@ -135,9 +143,12 @@ def load(
     stage: Stage,
     options: Options,
     convert: Convert = converted,
+    *,
+    enclosed: bool = False,
 ) -> Cell:
     """Convert the motions of all members; files are beside the cell. Raises LabError.
 
+    enclosed: no path leads out of the cell's folder.
     convert: reads a motion; the one that starts a process for it starts several at once.
     """
     robots = [stage.robot(r.name, r.model, r.end_effector, r.pose) for r in scene.robots]
@@ -146,13 +157,17 @@ def load(
     keys: dict[str, Motion] = {}
     for member in system.members:
         robot = by_name[member.robot]
-        path = _path(file, member, loaded[member.robot])
+        path = _path(file, member, loaded[member.robot], enclosed=enclosed)
         keys[member.robot] = (path, robot.model.id, robot.end_effector)
     wanted = list(dict.fromkeys(keys.values()))
     if convert is converted:
         results = _converted(wanted, stage, options)
     else:
         results = {key: convert(*key, options, stage.library) for key in wanted}
+    results = {
+        key: held_to_robot(found, stage.library) if _is_trajectory_file(key) else found
+        for key, found in results.items()
+    }
     found = {name: results[key] for name, key in keys.items()}
     trajectories = {}
     for name, result in found.items():
@@ -167,6 +182,10 @@ def load(
             )
         trajectories[name] = _at_rate(result.trajectory, system.rate)
     return Cell(system.name or file.stem, system, scene, robots, found, trajectories)
+
+
+def _is_trajectory_file(motion: Motion) -> bool:
+    return motion[0].suffix.lower() == ".json"
 
 
 def _converted(
@@ -186,16 +205,23 @@ def _converted(
     return results | dict(zip(wanted, convert_files(list(wanted.values())), strict=True))
 
 
-def _path(file: Path, member: MemberEntry, loaded: str) -> Path:
+def _path(file: Path, member: MemberEntry, loaded: str, *, enclosed: bool) -> Path:
     name = member.trajectory or loaded
     if not name:
         raise BadInput(MEMBER_WITHOUT_MOTION(file=file.name, robot=member.robot))
     path = file.parent / name
+    if enclosed and not (_beside(path, file.parent) and path.is_file()):
+        raise BadInput(MEMBER_FILE_NOT_BESIDE(trajectory=name, robot=member.robot, file=file.name))
     if not path.is_file():
         raise BadInput(
             MEMBER_FILE_MISSING(trajectory=name, robot=member.robot, folder=str(file.parent))
         )
     return path
+
+
+def _beside(path: Path, folder: Path) -> bool:
+    """Return whether a path, links followed, stays in a folder."""
+    return Path(os.path.realpath(path)).is_relative_to(os.path.realpath(folder))
 
 
 def _at_rate(trajectory: Trajectory, rate: float) -> Trajectory:

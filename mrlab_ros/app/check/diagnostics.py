@@ -47,6 +47,11 @@ MEMBER_FILE_MISSING = Code(
     "The trajectory '{trajectory}' of {robot} is no file in {folder}; a check reads files, not "
     "the catalogue of a running lab.",
 )
+MEMBER_FILE_NOT_BESIDE = Code(
+    "member_file_not_beside",
+    "The trajectory '{trajectory}' of {robot} is no file beside {file}; a cell that is handed in "
+    "reaches only files of the same submission.",
+)
 PLAYS_BACKWARDS = Code(
     "plays_backwards",
     "The cell plays backwards (rate {rate:number}); a check plays forwards.",

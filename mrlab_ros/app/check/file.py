@@ -11,7 +11,7 @@ from mrlab_ros.adapters.scenes.files import SceneFiles
 from mrlab_ros.app.check import cell
 from mrlab_ros.app.check.diagnostics import MODEL_NOT_IN_SCENE, MOTION_OF_ANOTHER_ROBOT
 from mrlab_ros.app.check.stage import Played, Stage, first_link
-from mrlab_ros.app.convert import converted
+from mrlab_ros.app.convert import converted, held_to_robot
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
 from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.base.foreign_text import file_name
@@ -39,8 +39,8 @@ class Setting:
     """The surroundings in which files are checked; one for many files.
 
     scene_name: what the scene was asked for by, empty: none. points: m in world, that tool0 shall
-    pass within `within` m. closest: m. drawn: record where everything was. convert: what reads a
-    file; see `app.convert.converted`.
+    pass within `within` m. closest: m. enclosed: a cell reaches only files beside it.
+    drawn: record where everything was. convert: what reads a file; see `app.convert.converted`.
     """
 
     stage: Stage
@@ -54,6 +54,7 @@ class Setting:
     within: float = 0.005
     drawn: bool = True
     convert: cell.Convert = converted
+    enclosed: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,10 +135,10 @@ def check_file(file: Path, setting: Setting) -> CheckedFile:
 
 def _converted(file: Path, entry: RobotEntry, setting: Setting) -> ConversionResult:
     """Return what became of a file; a trajectory file that is damaged is refused as others are."""
+    library = setting.stage.library
     try:
-        return setting.convert(
-            file, entry.model, entry.end_effector, setting.options, setting.stage.library
-        )
+        found = setting.convert(file, entry.model, entry.end_effector, setting.options, library)
+        return held_to_robot(found, library) if file.suffix.lower() == ".json" else found
     except BadInput as error:
         if file.suffix.lower() != ".json" or not file.is_file():
             raise
@@ -158,7 +159,10 @@ def _refused(file: str, why: Diagnostic) -> ConversionResult:
 
 def _cell(file: Path, setting: Setting) -> CheckedFile:
     system, scene = cell.read(file, setting.scene, setting.scene_name)
-    loaded = cell.load(file, system, scene, setting.stage, setting.options, setting.convert)
+    loaded = cell.load(
+        file, system, scene, setting.stage, setting.options, setting.convert,
+        enclosed=setting.enclosed,
+    )  # fmt: skip
     played, pairs, delay = cell.rehearse(loaded, setting.stage, setting.closest)
     inputs = {
         **setting.stage.inputs(loaded.robots, scene),

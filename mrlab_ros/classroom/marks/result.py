@@ -12,6 +12,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from mrlab_ros.classroom.marks.diagnostics import UNREADABLE
 from mrlab_ros.classroom.marks.exports import Roster, Submission, renamed
 from mrlab_ros.classroom.rubrics.marking import Mark, Marks
 from mrlab_ros.classroom.rubrics.rubric import Rubric
@@ -87,8 +88,15 @@ def pseudonymous(roster: Roster, secret: bytes) -> tuple[Roster, dict[str, Submi
         who[name] = submission
         changed.append(renamed(submission, name, f"student-{code.lower()}"))
     changed.sort(key=lambda s: s.key)
-    left_out = tuple((f"file {n}", why) for n, (_, why) in enumerate(roster.left_out, 1))
+    left_out = tuple(
+        (f"file {n}", UNREADABLE() if _names_a_file(why) else why)
+        for n, (_, why) in enumerate(roster.left_out, 1)
+    )
     return Roster(roster.form, tuple(changed), left_out), who
+
+
+def _names_a_file(why: Diagnostic) -> bool:
+    return not {"file", "folder", "why"}.isdisjoint(why.values)
 
 
 def _identity(submission: Submission) -> str:

@@ -170,7 +170,7 @@ def test_cells_of_a_class_reach_their_own_motions_only(tmp_path):
         "  - {name: Nothing is hit, expect: no collision, points: 2}\n"
     )
     handed_in, kept = tmp_path / "submissions", tmp_path / "kept"
-    for name in ("anna", "ben"):
+    for name in ("anna", "ben", "cem"):
         (handed_in / name).mkdir(parents=True)
     kept.mkdir()
     cell = (ROOT / "examples" / "handover_cell.yaml").read_text()
@@ -180,15 +180,46 @@ def test_cells_of_a_class_reach_their_own_motions_only(tmp_path):
     (handed_in / "anna" / "cell.yaml").write_text(cell)
     others = cell.replace("trajectory: ", f"trajectory: {kept}/")
     (handed_in / "ben" / "cell.yaml").write_text(others)
+    upwards = cell.replace("trajectory: ", "trajectory: ../anna/")
+    (handed_in / "cem" / "cell.yaml").write_text(upwards)
     out = tmp_path / "marked"
     said = grade(handed_in, "--rubric", rubric, "--out", out, "--jobs", 1, "--no-pages")
     assert said.exit_code == 0, said.stdout + said.stderr
     found = {s["name"]: s for s in json.loads((out / "class.json").read_text())["students"]}
     assert (found["anna"]["points"], found["anna"]["file"]) == (2, "cell.yaml")
-    assert found["ben"]["points"] == 0
+    assert found["ben"]["points"] == found["cem"]["points"] == 0
+    assert found["cem"]["found"]["code"] == "member_file_not_beside"
     refused = found["ben"]["found"]
-    assert refused["code"] == "member_refused"
-    assert refused["values"]["why"]["code"] == "unreadable"
+    assert refused["code"] == "member_file_not_beside"
+
+
+def test_pseudonyms_hide_names_of_damaged_archives_links_and_cells(tmp_path):
+    rubric = tmp_path / "rubric.yaml"
+    rubric.write_text("scene: handover\ntests: [{expect: no collision, points: 2}]")
+    handed_in, out = tmp_path / "submissions", tmp_path / "shared"
+    for name in ("Janedoe", "Maxroe", "Zoepoe"):
+        (handed_in / name).mkdir(parents=True)
+    cell = (ROOT / "examples" / "handover_cell.yaml").read_text()
+    for motion in ROOT.glob("examples/two_robot_handover_*.mat"):
+        own = f"janedoe_{motion.name}"
+        cell = cell.replace(motion.name, own)
+        shutil.copy(motion, handed_in / "Janedoe" / own)
+    (handed_in / "Janedoe" / "janedoe_cell.yaml").write_text(cell)
+    packed = shutil.make_archive(str(tmp_path / "packed"), "zip", handed_in / "Janedoe")
+    damaged = bytearray(Path(packed).read_bytes())
+    damaged[40:400] = bytes(360)
+    (handed_in / "Maxroe" / "maxroe.zip").write_bytes(bytes(damaged))
+    (handed_in / "Zoepoe" / "zoepoe.zip").write_bytes(b"no archive")
+    (handed_in / "Zoepoe" / "zoepoe.mat").symlink_to("nowhere")
+    said = grade(
+        handed_in, "--rubric", rubric, "--out", out, "--pseudonyms", "--no-pages", "--jobs", 1
+    )
+    assert said.exit_code == 0, said.stdout + said.stderr
+    students = json.loads((out / "class.json").read_text())["students"]
+    assert sorted(s["points"] for s in students)[-1] == 2
+    told = b"\n".join([*results(out).values(), *map(str.encode, results(out))]).lower()
+    told += said.stdout.encode().lower()
+    assert not [n for n in (b"janedoe", b"maxroe", b"zoepoe") if n in told]
 
 
 @pytest.mark.parametrize(

@@ -5,14 +5,18 @@ from __future__ import annotations
 import json
 import re
 import shlex
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
+import scipy.io
 import yaml
 from page_document import document_in
 from refusals import command_refuses
 from typer.testing import CliRunner
 
+from mrlab_ros.adapters.trajectories import formats
 from mrlab_ros.classroom import commands as rubric_command
 from mrlab_ros.classroom.rubrics.document import parse
 from mrlab_ros.cli import make_app
@@ -144,6 +148,34 @@ def test_a_trajectory_file_that_is_damaged_or_of_another_robot_gets_nothing(tmp_
         assert found["note"]["severity"] == "error"
         assert not code or found["note"]["code"] == code
         assert values.items() <= found["note"]["values"].items()
+
+
+def test_a_motion_gets_the_same_marks_in_every_format(tmp_path):
+    """A jump is no less a jump in a trajectory file, which skips the conversion."""
+    run("convert", QUINTIC, "--robot", "ur5e", "--out", tmp_path)
+    good = formats.parse((tmp_path / "quintic_ur5e.json").read_bytes(), "quintic_ur5e.json")
+    jumps = np.array(good.positions)
+    jumps[jumps.shape[0] // 2 :, 0] += 1.0
+    rubric = tmp_path / "r.yaml"
+    rubric.write_text(
+        "robot: ur5e\ntests: [{expect: cycle < 20 s, points: 2}, {expect: ready, points: 1}]"
+    )
+    for positions, expected in ((np.array(good.positions), 3.0), (jumps, 0.0)):
+        times = np.arange(len(positions)) / good.frame_rate
+        scipy.io.savemat(tmp_path / "a.mat", {"q": positions, "fs": good.frame_rate})
+        formats.write(replace(good, positions=positions), tmp_path / "a.json")
+        heads = ",".join(("time", *good.joint_names))
+        table = np.column_stack([times, positions])
+        np.savetxt(tmp_path / "a.csv", table, delimiter=",", header=heads, comments="")
+        said = {
+            suffix: json.loads(mark(tmp_path / f"a.{suffix}", rubric, "--json").stdout)
+            for suffix in ("mat", "json", "csv")
+        }
+        assert {suffix: found["points"] for suffix, found in said.items()} == dict.fromkeys(
+            said, expected
+        )
+        codes = {found["note"]["code"] if found["note"] else "" for found in said.values()}
+        assert codes == {"" if expected else "discontinuity"}
 
 
 def test_what_is_held_may_touch_what_the_gripper_keeps_away_from(tmp_path):

@@ -1930,6 +1930,9 @@ export const diagnostics: Templates = {
   member_file_missing: [
     "Die Trajektorie '{trajectory}' von {robot} ist keine Datei in {folder}; eine Prüfung liest Dateien, nicht den Katalog eines laufenden Labors.",
   ],
+  member_file_not_beside: [
+    "Die Trajektorie '{trajectory}' von {robot} ist keine Datei neben {file}; eine abgegebene Zelle erreicht nur Dateien derselben Abgabe.",
+  ],
   member_lost: ['{robot} hat seine Wiedergabe verloren; Abspielen macht hier weiter'],
   member_lost_at_end: ['{robot} hat seine Wiedergabe verloren; Abspielen beginnt von vorn'],
   member_not_in_scene: [
@@ -2302,6 +2305,10 @@ export const diagnostics: Templates = {
   of_rubric: ['{rubric}: {why:problem}.'],
   option_out_of_range: [
     '--{option} ist {value:number}; erwartet wird {least:number} bis {most:number}.',
+  ],
+  other_joints: [
+    "'{file}' hat die Gelenke {joints:list}; erwartet werden die von {model}.",
+    'Wandle die ursprüngliche Datei noch einmal um.',
   ],
   processes_killed: [
     'Prozesse, die prüfen, wurden {count:integer}-mal beendet; vielleicht reicht der Speicher nicht.',

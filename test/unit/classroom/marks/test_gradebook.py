@@ -52,6 +52,14 @@ def graded(points=(6.0, 0.0)):
     return GradedClass(RUBRIC, "Moodle", tuple(Student(s, r) for s, r in pairs))
 
 
+@pytest.mark.parametrize("name", ["a;=1+1;b.mat", "a\t+1", "=1", 'x;"@SUM(1)', "\uff1d1"])
+def test_no_cell_is_a_formula_whatever_parts_the_cells(name):
+    shown = gradebook.cell(name)
+    for delimiter in ",;\t":
+        row = next(csv.reader(io.StringIO(shown), delimiter=delimiter))
+        assert not [one for one in row if one.lstrip()[:1] in ("=", "+", "-", "@", "\uff1d")]
+
+
 def test_a_table_is_opened_by_excel_and_computes_nothing():
     text = gradebook.table(RUBRIC, graded().students)
     assert text.startswith("\ufeff")
