@@ -27,7 +27,7 @@ import type { Feedback, Surroundings } from './panels/panel'
 import { pauseNews } from './people/pausing'
 import { People } from './people/people'
 import { Alignment, SEATED } from './place/alignment'
-import { SceneAnchor } from './place/anchor'
+import { anchorNews, SceneAnchor } from './place/anchor'
 import { orderSurfaces, RoomScan } from './place/scan'
 import { Spawning } from './place/spawning'
 import { type Ground, type Support, supportsOf } from './place/supports'
@@ -146,7 +146,7 @@ export class Room {
     })
     this.mouse = new Mouse(this.stage, this.targets.all)
     const marked = (point: Vector3) => this.touching.touch(point)
-    this.visit = new Visit(this.stage, this.targets, marked, () => this.left())
+    this.visit = new Visit(this.stage, this.targets, marked, this)
     const ports = this.portsOf(parts, this.sound.feedback)
     const { targets } = this
     this.board = new Board(ports)
@@ -165,9 +165,7 @@ export class Room {
       (robot) => new ControlPanel(ports, robot, this.drawings, (name) => this.objectAt(name)),
     )
     this.systems = new SystemPanels(ports, this.stage.panels, this.scene, targets)
-    this.anchor = new SceneAnchor(this.stage.anchor, (hold) => {
-      ports.say(hold === 'session' ? words.room.anchorSession : words.room.anchorNone)
-    })
+    this.anchor = new SceneAnchor(this.stage.anchor, anchorNews(ports))
     this.objects = new ObjectHandles(
       this.scene,
       ports,
@@ -302,6 +300,10 @@ export class Room {
     this.board.panel.repaint()
   }
 
+  recentred(transform: XRRigidTransform): void {
+    this.anchor.recentre(transform)
+  }
+
   private repaint(): void {
     this.board.panel.repaint()
     this.guide.panel.panel.repaint()
@@ -310,7 +312,7 @@ export class Room {
     this.stage.invalidate()
   }
 
-  private left(): void {
+  left(): void {
     this.people.leave()
     this.touching.cancel()
     this.anchor.end()

@@ -807,6 +807,10 @@ export const words: Words = {
     anchorKept: 'Die Szene behält hier ihren Platz, auch für das nächste Mal.',
     anchorSession:
       'Die Szene behält ihren Platz, bis du gehst; die Brille merkt sich keine weiteren.',
+    earlierPlace:
+      'Der frühere Platz der Szene wurde gefunden. Reiter „Raum“: zurückstellen oder hier lassen.',
+    putBack: 'Zurückstellen',
+    keepHere: 'Hier lassen',
     anchorNone: 'Diese Brille merkt sich keine Plätze: nach dem Zentrieren „Szene hierher holen“.',
     lacks: (features: string) => `Dieser Sitzung fehlt: ${features}`,
     grid: 'Bodenraster',

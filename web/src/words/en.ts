@@ -754,6 +754,10 @@ export const en = {
       'The headset knows no table or wall here. Press "Set up the room" and follow it, or go on without.',
     anchorKept: 'The scene keeps its place here, also for the next time.',
     anchorSession: 'The scene keeps its place until you leave; the headset keeps no more places.',
+    earlierPlace:
+      'The earlier place of the scene was found. Tab "Room": put it back, or keep it here.',
+    putBack: 'Put it back',
+    keepHere: 'Keep it here',
     anchorNone: 'This headset keeps no places: after a recentre, press "Bring the scene here".',
     lacks: (features: string) => `This session came without: ${features}`,
     grid: 'Floor grid',

@@ -50,6 +50,11 @@ export function roomSwitches(
       return touching.canUndo
     },
     undoAlign: () => touching.undo(),
+    get canPutBack() {
+      return anchor.canPutBack
+    },
+    putBack: () => anchor.putBack(),
+    keepHere: () => anchor.keepHere(),
     get scan() {
       const { session } = visit
       if (session?.initiateRoomCapture === undefined) return null

@@ -76,6 +76,11 @@ export interface RoomSwitches {
   align(): void
   readonly canUndo: boolean
   undoAlign(): void
+  /** True if an earlier place of this room is known, and the scene stands elsewhere. */
+  readonly canPutBack: boolean
+  putBack(): void
+  /** Give up the earlier place. */
+  keepHere(): void
   /** null: the device has no room scan of its own. */
   readonly scan: (() => void) | null
   /** Bring the scene's origin to the floor before the person. */
@@ -114,6 +119,11 @@ export function roomTab(ports: Speech, room: RoomSwitches): Tab {
       pen.button('bring', EDGE, third, width, w.bringHere, () => room.bringHere())
       pen.button('forget', right, third, width, w.forgetSurfaces, () => room.forgetSurfaces())
       const fourth = third + HIT + GAP
+      if (room.canPutBack) {
+        const above = top - HIT - GAP
+        pen.button('put_back', EDGE, above, width, w.putBack, () => room.putBack())
+        pen.button('keep_here', right, above, width, w.keepHere, () => room.keepHere())
+      }
       pen.button('leave', EDGE, fourth, width, w.leave, () => room.leave(), {
         enabled: room.canAlign,
       })

@@ -16,7 +16,6 @@ export const SEATED: Viewer = { head: new Vector3(0, 1.6, 0.9), look: new Quater
  * it. */
 export class Alignment {
   private aligned = false
-  private restoring = false
 
   constructor(
     private readonly stage: RoomStage,
@@ -28,16 +27,12 @@ export class Alignment {
   /** A session begins. */
   begin(session: XRSession): void {
     this.aligned = false
-    this.restoring = true
-    this.anchor.restore(session).then(() => {
-      this.restoring = false
-    })
+    this.anchor.restore(session)
   }
 
   /** True if the scene is still to be put before the eyes. */
   get due(): boolean {
-    if (this.restoring || this.anchor.waits) return false
-    return !this.aligned && !this.anchor.found
+    return !this.aligned && !this.anchor.waits && !this.anchor.held
   }
 
   /** Put the scene's middle on the floor before a person. */

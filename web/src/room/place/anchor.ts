@@ -1,64 +1,115 @@
 import { Matrix4, type Object3D, type Quaternion, Vector3 } from 'three'
+import type { Speech } from '../ports'
 
 /** The kind of anchor that holds the scene in place: a persistent one, one of this session, or none
  * but the floor space. */
 export type Hold = 'kept' | 'session' | 'none'
 
 const KEY = 'mrlab.room.anchor'
-/** ms within which the place of an earlier session is found again; otherwise it is another room. */
+/** ms for which the scene waits for the place of an earlier session; the search goes on after it. */
 const FOUND_MS = 4000
+/** ms between two attempts to restore a place that the headset refused. */
+const RETRY_MS = 2000
+/** A headset has few places for all pages and apps. */
+const MOST_PLACES = 4
 const UP = new Vector3(0, 1, 0)
+const ONE = new Vector3(1, 1, 1)
 const matrix = new Matrix4()
+const placed = new Matrix4()
 const scale = new Vector3()
 const forward = new Vector3()
 const offset = new Vector3()
 
+interface AnchorNews {
+  /** The headset does not keep the place, or only for this session. */
+  refused(hold: Hold): void
+  /** An earlier place was found after the scene was placed elsewhere. */
+  returned(): void
+}
+
+/** Return what says the news of an anchor to the person. */
+export function anchorNews({ words: { room }, say }: Speech): AnchorNews {
+  return {
+    refused: (hold) => say(hold === 'session' ? room.anchorSession : room.anchorNone),
+    returned: () => say(room.earlierPlace),
+  }
+}
+
+/** Return the handles of the places that this headset keeps, the newest first. */
+function keptHandles(): string[] {
+  return localStorage.getItem(KEY)?.split('\n') ?? []
+}
+
+function storeHandles(handles: readonly string[]): void {
+  if (handles.length === 0) localStorage.removeItem(KEY)
+  else localStorage.setItem(KEY, handles.join('\n'))
+}
+
 /** Holds the group that contains the whole lab. World poses are stored nowhere: after a recentre
- * the anchor's own pose gives the place of the group. */
+ * the anchor's own pose gives the place of the group. A headset keeps the places of several rooms;
+ * each is searched for during the whole session. */
 export class SceneAnchor {
   hold: Hold = 'none'
   private session: XRSession | null = null
   private anchor: XRAnchor | null = null
+  /** The handle of `anchor`; empty: it is not persistent. */
+  private handle = ''
   private wanted = false
   /** Number of the newest place: an answer about an older one is ignored. */
   private placing = 0
-  /** End of the search for a restored anchor, ms; NaN: it was found, or there is none. */
+  /** End of the wait for a restored anchor, ms; NaN: it is over. */
   private waitsUntil = Number.NaN
+  /** The restored anchors of earlier sessions that were not found in this room yet, by handle. */
+  private readonly restored = new Map<string, XRAnchor>()
+  /** The handle of an earlier place that was found after the scene was placed; empty: none. */
+  private earlier = ''
+  private retryAt = Number.POSITIVE_INFINITY
 
-  /** refused: called if the headset does not keep the place, or only for this session. */
   constructor(
     private readonly group: Object3D,
-    private readonly refused: (hold: Hold) => void,
+    private readonly news: AnchorNews,
   ) {}
 
-  /** True while the anchor of an earlier session is searched for. */
+  /** True while the scene waits for the place of an earlier session. */
   get waits(): boolean {
     return performance.now() < this.waitsUntil
   }
 
-  /** True if the group is at an anchor of an earlier session. */
-  get found(): boolean {
-    return this.anchor !== null && Number.isNaN(this.waitsUntil)
+  /** True if the group is at an anchor. */
+  get held(): boolean {
+    return this.anchor !== null
   }
 
-  /** Restore the anchor of an earlier session, if there is one. */
+  /** True if an earlier place of this room is known, and the scene stands elsewhere. */
+  get canPutBack(): boolean {
+    return this.earlier !== ''
+  }
+
+  /** Restore the anchors of earlier sessions, if there are any. */
   async restore(session: XRSession): Promise<void> {
     this.session = session
     // A place that was chosen without a headset is no place of this room.
     this.wanted = false
-    const place = ++this.placing
-    const handle = localStorage.getItem(KEY)
-    if (handle === null || session.restorePersistentAnchor === undefined) return
-    try {
-      const anchor = await session.restorePersistentAnchor(handle)
-      if (place !== this.placing) return
-      this.anchor = anchor
-      this.hold = 'kept'
-      this.waitsUntil = performance.now() + FOUND_MS
-    } catch {
-      // the headset forgot it
-      this.forget()
-    }
+    this.placing++
+    if (keptHandles().length === 0 || session.restorePersistentAnchor === undefined) return
+    this.waitsUntil = performance.now() + FOUND_MS
+    await this.seek(session)
+  }
+
+  /** Put the scene back at the earlier place, and give up its present one. */
+  async putBack(): Promise<void> {
+    const { earlier, handle } = this
+    const anchor = this.restored.get(earlier)
+    if (anchor === undefined) return
+    this.release()
+    this.wanted = false
+    this.adopt(earlier, anchor)
+    await this.forget(handle)
+  }
+
+  /** Leave the scene at its present place, and give up the earlier one. */
+  async keepHere(): Promise<void> {
+    await this.forget(this.earlier)
   }
 
   /** Put the group's origin on the floor so that `centre`, in the group's frame, is `away`, m,
@@ -82,29 +133,84 @@ export class SceneAnchor {
     this.wanted = true
   }
 
-  /** Follow the anchor; create the wanted one. */
+  /** Follow the anchor; create the wanted one; search for earlier ones. */
   update(frame: XRFrame, space: XRReferenceSpace): void {
     if (this.wanted) {
       this.wanted = false
       this.make(frame, space)
     }
+    this.find(frame, space)
     if (this.anchor === null) return
     const pose = frame.getPose(this.anchor.anchorSpace, space)
     // Not tracked: it stays at its last place.
     if (pose === undefined) return
     matrix.fromArray(pose.transform.matrix)
     matrix.decompose(this.group.position, this.group.quaternion, scale)
-    this.waitsUntil = Number.NaN
+  }
+
+  /** The origin of the floor space has moved; transform: the new origin in the old space. Nothing
+   * moves in the real room, even while no anchor is tracked. */
+  recentre({ matrix: moved }: XRRigidTransform): void {
+    const { group } = this
+    matrix.fromArray(moved).invert()
+    matrix.multiply(placed.compose(group.position, group.quaternion, ONE))
+    matrix.decompose(group.position, group.quaternion, scale)
   }
 
   /** Forget the anchors of a session that ended. */
   end(): void {
     this.session = null
     this.anchor = null
+    this.handle = ''
     this.wanted = false
     this.hold = 'none'
     this.waitsUntil = Number.NaN
+    this.retryAt = Number.POSITIVE_INFINITY
+    this.restored.clear()
+    this.earlier = ''
     this.placing++
+  }
+
+  /** Ask the headset for each kept place that it has not restored. A refusal may pass: it is asked
+   * again. */
+  private async seek(session: XRSession): Promise<void> {
+    this.retryAt = Number.POSITIVE_INFINITY
+    let refusals = 0
+    for (const handle of keptHandles()) {
+      if (handle === this.handle || this.restored.has(handle)) continue
+      try {
+        const anchor = await session.restorePersistentAnchor?.(handle)
+        if (session !== this.session) return
+        if (anchor !== undefined) this.restored.set(handle, anchor)
+      } catch {
+        refusals++
+      }
+    }
+    if (refusals > 0 && session === this.session) this.retryAt = performance.now() + RETRY_MS
+  }
+
+  /** Take the first earlier place that is tracked; offer it if the scene was placed meanwhile. */
+  private find(frame: XRFrame, space: XRReferenceSpace): void {
+    if (this.session !== null && performance.now() >= this.retryAt) this.seek(this.session)
+    if (this.earlier !== '') return
+    for (const [handle, anchor] of this.restored) {
+      if (frame.getPose(anchor.anchorSpace, space) === undefined) continue
+      if (this.waits) this.adopt(handle, anchor)
+      else {
+        this.earlier = handle
+        this.news.returned()
+      }
+      return
+    }
+  }
+
+  private adopt(handle: string, anchor: XRAnchor): void {
+    this.restored.delete(handle)
+    this.earlier = ''
+    this.anchor = anchor
+    this.handle = handle
+    this.hold = 'kept'
+    this.waitsUntil = Number.NaN
   }
 
   private release(): void {
@@ -116,11 +222,12 @@ export class SceneAnchor {
     anchor?.delete()
   }
 
-  /** Delete the kept place: a headset has few for all pages and apps, and deletes none itself. */
-  private async forget(): Promise<void> {
-    const handle = localStorage.getItem(KEY)
-    if (handle === null) return
-    localStorage.removeItem(KEY)
+  /** Delete a kept place: a headset deletes none itself. */
+  private async forget(handle: string): Promise<void> {
+    if (handle === '') return
+    this.restored.delete(handle)
+    if (this.earlier === handle) this.earlier = ''
+    storeHandles(keptHandles().filter((each) => each !== handle))
     await this.session?.deletePersistentAnchor?.(handle).catch(() => undefined)
   }
 
@@ -145,17 +252,21 @@ export class SceneAnchor {
       this.anchor = anchor
       this.hold = 'session'
       if (anchor.requestPersistentHandle === undefined) return
-      await this.forget()
+      const { handle: before } = this
+      this.handle = ''
+      await this.forget(before)
+      for (const old of keptHandles().slice(MOST_PLACES - 1)) await this.forget(old)
       const handle = await anchor.requestPersistentHandle()
       if (place !== this.placing) {
         await this.session?.deletePersistentAnchor?.(handle)
         return
       }
-      localStorage.setItem(KEY, handle)
+      storeHandles([handle, ...keptHandles()])
+      this.handle = handle
       this.hold = 'kept'
     } catch {
       // As if all places of the headset were taken.
-      if (place === this.placing) this.refused(this.hold)
+      if (place === this.placing) this.news.refused(this.hold)
     }
   }
 }

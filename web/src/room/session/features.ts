@@ -1,12 +1,6 @@
 /** Features that a session requires, and features that it requests. */
 export const REQUIRED = ['local-floor'] as const
-export const WANTED = [
-  'hand-tracking',
-  'anchors',
-  'plane-detection',
-  'mesh-detection',
-  'hit-test',
-] as const
+export const WANTED = ['hand-tracking', 'anchors', 'plane-detection', 'mesh-detection'] as const
 
 /** Optional features that improve the picture. */
 export const EXTRA = ['light-estimation'] as const

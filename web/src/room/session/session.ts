@@ -32,9 +32,26 @@ export async function enter(
   }
   const session = await xr.requestSession(mode, wanted)
   session.addEventListener('end', onEnd, { once: true })
+  muteLightProbe(session)
   await renderer.xr.setSession(session)
   await settle(session)
   return { session, mode, missing: missingOf(session.enabledFeatures, asked) }
+}
+
+/** The part of a session that estimates light; TypeScript's types of WebXR lack it. */
+type LightSession = Partial<XRSession> & {
+  requestLightProbe?: (options?: object) => Promise<object>
+}
+
+/** Leave a refused light probe unanswered: many headsets estimate no light, and three.js does not
+ * handle the rejection. */
+export function muteLightProbe(session: LightSession): void {
+  if (session.requestLightProbe === undefined) return
+  const request = session.requestLightProbe.bind(session)
+  session.requestLightProbe = (options) =>
+    new Promise((resolve) => {
+      request(options).then(resolve, () => undefined)
+    })
 }
 
 /** Run at 72 Hz if the device offers it: each picture then has 13.9 ms. */

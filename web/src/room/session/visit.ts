@@ -10,6 +10,14 @@ import { enter, type RoomSession } from './session'
 /** Height of standing eyes above sitting ones, m. */
 const LIFT = 0.4
 
+/** The room of a visit. */
+interface Visited {
+  /** A session has ended. */
+  left(): void
+  /** The floor space has moved; transform: its new origin in the old space. */
+  recentred(transform: XRRigidTransform): void
+}
+
 /** A person's stay in the room with a headset: the session and its pointers. */
 export class Visit {
   /** True while a headset is in the room. */
@@ -21,12 +29,12 @@ export class Visit {
   /** The session's own floor space. */
   private floor: XRReferenceSpace | null = null
 
-  /** marked: as of XrInputs. left: a session has ended. */
+  /** marked: as of XrInputs. */
   constructor(
     private readonly stage: RoomStage,
     private readonly targets: Targets,
     private readonly marked: (point: Vector3) => boolean,
-    private readonly left: () => void,
+    private readonly visited: Visited,
   ) {}
 
   get session(): XRSession | null {
@@ -56,6 +64,9 @@ export class Visit {
     this.stage.controls.enabled = false
     this.stage.setPassthrough(this.passthrough)
     this.floor = this.stage.renderer.xr.getReferenceSpace()
+    this.floor?.addEventListener('reset', ({ transform }) => {
+      if (transform) this.visited.recentred(transform)
+    })
     this.seat(seated)
     this.enteredAt = now
     this.inside.value = true
@@ -96,6 +107,6 @@ export class Visit {
     this.stage.controls.enabled = true
     this.stage.setPassthrough(false)
     this.inside.value = false
-    this.left()
+    this.visited.left()
   }
 }

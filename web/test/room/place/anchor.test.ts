@@ -1,5 +1,5 @@
 import { Object3D, Quaternion, Vector3 } from 'three'
-import { beforeEach, describe, expect, it, vi } from 'vitest'
+import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest'
 import { SceneAnchor } from '../../../src/room/place/anchor'
 
 const KEY = 'mrlab.room.anchor'
@@ -11,6 +11,7 @@ class Headset {
   readonly places = new Set<string>()
   readonly session = {
     restorePersistentAnchor: async (handle: string) => {
+      if (this.refusals-- > 0) throw new DOMException('later', 'OperationError')
       if (!this.places.has(handle)) throw new DOMException('unknown', 'InvalidStateError')
       return this.anchor()
     },
@@ -24,6 +25,7 @@ class Headset {
   } as unknown as XRFrame
   pose = new Object3D().matrix.clone().makeTranslation(1, 0, 2)
   tracked = true
+  refusals = 0
   private made = 0
 
   constructor(private readonly most: number) {}
@@ -44,9 +46,14 @@ class Headset {
 
 const settled = () => new Promise((resolve) => setTimeout(resolve))
 
+afterEach(() => {
+  vi.useRealTimers()
+})
+
 describe('the anchor of the scene', () => {
   let group: Object3D
   let refusals: string[]
+  let returns: number
   let anchor: SceneAnchor
 
   async function placeAt(headset: Headset, x: number): Promise<void> {
@@ -63,9 +70,14 @@ describe('the anchor of the scene', () => {
       removeItem: (key: string) => kept.delete(key),
     })
     vi.stubGlobal('XRRigidTransform', class {})
+    vi.useFakeTimers({ toFake: ['performance'] })
     group = new Object3D()
     refusals = []
-    anchor = new SceneAnchor(group, (hold) => refusals.push(hold))
+    returns = 0
+    anchor = new SceneAnchor(group, {
+      refused: (hold) => refusals.push(hold),
+      returned: () => returns++,
+    })
   })
 
   it('takes one place of the headset however often the scene is moved', async () => {
@@ -89,7 +101,7 @@ describe('the anchor of the scene', () => {
     await settled()
     expect(kept.get(KEY)).toBe(handle)
     expect(group.position.toArray()).toEqual([1, 0, 2])
-    expect(anchor.found).toBe(true)
+    expect(anchor.held).toBe(true)
     // a recentre moves the anchor in the floor space, and the scene with it
     headset.pose.makeTranslation(4, 0, 5)
     anchor.update(headset.frame, floor)
@@ -101,20 +113,74 @@ describe('the anchor of the scene', () => {
     expect(group.position.toArray()).toEqual([4, 0, 5])
   })
 
-  it('is looked for a while, and then given up: another room', async () => {
-    vi.useFakeTimers({ toFake: ['performance'] })
-    const headset = new Headset(8)
-    headset.places.add('elsewhere')
-    kept.set(KEY, 'elsewhere')
+  /** Place the scene where the place of an earlier session is not tracked in time. */
+  async function placeElsewhere(headset: Headset): Promise<void> {
+    headset.places.add('earlier')
+    kept.set(KEY, 'earlier')
     headset.tracked = false
     await anchor.restore(headset.session)
     anchor.update(headset.frame, floor)
-    expect([anchor.waits, anchor.found]).toEqual([true, false])
+    expect([anchor.waits, anchor.held]).toEqual([true, false])
     vi.advanceTimersByTime(5000)
-    expect([anchor.waits, anchor.found]).toEqual([false, false])
-    vi.useRealTimers()
+    expect([anchor.waits, anchor.held]).toEqual([false, false])
     await placeAt(headset, 1)
-    expect([...headset.places]).toEqual([kept.get(KEY)])
+    expect(kept.get(KEY)).toBe('place 0\nearlier')
+    expect(returns).toBe(0)
+    headset.tracked = true
+    anchor.update(headset.frame, floor)
+    anchor.update(headset.frame, floor)
+    expect([anchor.canPutBack, returns]).toEqual([true, 1])
+  }
+
+  it('of an earlier session that is found late is offered, and taken back', async () => {
+    const headset = new Headset(8)
+    await placeElsewhere(headset)
+    await anchor.putBack()
+    expect([...headset.places]).toEqual(['earlier'])
+    expect([kept.get(KEY), anchor.canPutBack, anchor.hold]).toEqual(['earlier', false, 'kept'])
+  })
+
+  it('of an earlier session that is found late is given up on request only', async () => {
+    const headset = new Headset(8)
+    await placeElsewhere(headset)
+    await anchor.keepHere()
+    expect([...headset.places]).toEqual(['place 0'])
+    expect([kept.get(KEY), anchor.canPutBack]).toEqual(['place 0', false])
+  })
+
+  it('survives five refusals of the headset', async () => {
+    const headset = new Headset(8)
+    headset.places.add('earlier')
+    headset.refusals = 5
+    kept.set(KEY, 'earlier')
+    await anchor.restore(headset.session)
+    for (let i = 0; i < 5; i++) {
+      expect([anchor.held, kept.get(KEY)]).toEqual([false, 'earlier'])
+      vi.advanceTimersByTime(2000)
+      anchor.update(headset.frame, floor)
+      await settled()
+    }
+    anchor.update(headset.frame, floor)
+    expect([anchor.canPutBack, returns, kept.get(KEY)]).toEqual([true, 1, 'earlier'])
+  })
+
+  it('gives up the oldest of too many rooms', async () => {
+    const headset = new Headset(8)
+    for (const handle of ['d', 'c', 'b', 'a']) headset.places.add(handle)
+    kept.set(KEY, 'd\nc\nb\na')
+    headset.tracked = false
+    await anchor.restore(headset.session)
+    await placeAt(headset, 1)
+    expect(kept.get(KEY)).toBe('place 0\nd\nc\nb')
+    expect(headset.places.has('a')).toBe(false)
+  })
+
+  it('moves nothing in the real room when the floor space is recentred', () => {
+    anchor.put(new Vector3(1, 0, 2), new Quaternion())
+    const moved = new Object3D().matrix.makeRotationY(Math.PI / 2).setPosition(1, 0, 0)
+    anchor.recentre({ matrix: new Float32Array(moved.toArray()) } as unknown as XRRigidTransform)
+    const at = group.position.clone().applyMatrix4(moved)
+    expect(at.distanceTo(new Vector3(1, 0, 2))).toBeLessThan(1e-6)
   })
 
   it('says so where the headset keeps no more places, and holds for this session', async () => {

@@ -25,7 +25,7 @@ describe('the way into the room', () => {
 })
 
 it('what a session did not grant is known; one that does not tell is believed', () => {
-  expect(missingOf(['local-floor', 'anchors', 'hit-test'])).toEqual([
+  expect(missingOf(['local-floor', 'anchors'])).toEqual([
     'hand-tracking',
     'plane-detection',
     'mesh-detection',
