@@ -10,7 +10,6 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-import jsonschema
 import numpy as np
 import orjson
 from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
@@ -36,6 +35,8 @@ NUMPY = orjson.OPT_SERIALIZE_NUMPY
 @cache
 def schema() -> Any:
     """Return the validator of trajectory.schema.json."""
+    import jsonschema  # only what reads a trajectory file needs it
+
     return jsonschema.Draft202012Validator(orjson.loads(_schema_file().read_bytes()))
 
 
@@ -72,11 +73,13 @@ def check(document: Any, name: str) -> None:
     The schema checks the metadata and the first two frames. `document.trajectory` checks all
     frames with numpy: jsonschema would take minutes for a million of them.
     """
+    from jsonschema.exceptions import best_match
+
     sample = document
     if isinstance(document, dict) and isinstance(document.get("frames"), dict):
         head = {k: v[:2] if isinstance(v, list) else v for k, v in document["frames"].items()}
         sample = {**document, "frames": head}
-    error = jsonschema.exceptions.best_match(schema().iter_errors(sample))
+    error = best_match(schema().iter_errors(sample))
     if error is not None:
         place = "/".join(str(p) for p in error.absolute_path)
         raise BadInput(NOT_AS_SCHEMA(file=name, place=place, error=f"{error.message:.200}"))

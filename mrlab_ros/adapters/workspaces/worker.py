@@ -315,6 +315,7 @@ def warm_up() -> None:
 
     Libraries load and cache on their first call; a fork would do it again for each file.
     """
+    second_reader.import_scipy()
     import scipy.io
 
     load_encodings()

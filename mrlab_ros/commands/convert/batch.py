@@ -20,7 +20,6 @@ from functools import partial
 from pathlib import Path
 
 import orjson
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 
 from mrlab_ros.adapters import share
 from mrlab_ros.adapters.robots.library import RobotLibrary
@@ -280,13 +279,17 @@ def _with_progress(
     converted: Iterator[tuple[Input, Task, ConversionResult]], count: int, request: Request
 ) -> Iterator[tuple[Input, Task, ConversionResult]]:
     """Yield the results, with a bar where there are several and stdout is a terminal."""
+    if count < 2 or request.as_json or not sys.stderr.isatty():
+        yield from converted
+        return
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
+
     bar = Progress(
         TextColumn("{task.description}"),
         BarColumn(),
         MofNCompleteColumn(),
         console=output.console(stderr=True),
         transient=True,
-        disable=count < 2 or request.as_json or not sys.stderr.isatty(),
     )
     with bar:
         yield from bar.track(converted, total=count, description="Converting")
