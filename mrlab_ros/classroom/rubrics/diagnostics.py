@@ -318,6 +318,10 @@ HIDDEN_WITHOUT_HINT = Code(
     "It is hidden and has no hint, so a student learns nothing from it; add hint:",
     severity=WARNING,
 )
+FALLS = Code(
+    "falls",
+    "{object} falls by {value:length} when it is let go; expected at most {limit:length}.",
+)
 STANDS_STILL = Code("stands_still", "{robot} does not move.")
 REQUIRED_LOST = Code("required_lost", "The test '{test}' is not passed, which this one requires.")
 REQUIRED_HIDDEN_LOST = Code(

@@ -73,8 +73,6 @@ export function ClassReport({ graded }: { graded: ClassDocument }) {
           <Lost graded={graded} />
           <Common graded={graded} />
         </div>
-        <Students graded={graded} />
-        <Alike graded={graded} />
         {graded.left_out_count > 0 && (
           <details class="card report-fold">
             <summary>
@@ -89,6 +87,8 @@ export function ClassReport({ graded }: { graded: ClassDocument }) {
             </ul>
           </details>
         )}
+        <Students graded={graded} />
+        <Alike graded={graded} />
       </Page>
     </Drawn.Provider>
   )

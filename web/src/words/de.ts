@@ -1475,6 +1475,9 @@ export const diagnostics: Templates = {
   ],
   enumeration: ['eine Aufzählung: {names:list}'],
   exited: ['Exit-Code {exit_code:integer}'],
+  falls: [
+    '{object} fällt um {value:length}, wenn es losgelassen wird; erwartet werden höchstens {limit:length}.',
+  ],
   fault: ['Das Labor ist an {service} gescheitert ({error}); Näheres steht in seinem Protokoll.'],
   few_rows: ['sie hat nur {rows:count Zeile|Zeilen}'],
   field: ['{place:problem}: {key}'],
