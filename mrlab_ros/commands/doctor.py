@@ -67,6 +67,7 @@ def doctor(
 
 def gather(url: str, certificate: Path | None, state_dir: Path | None) -> Facts:
     """Return the facts of this machine and of the gateway at `url`, else of its own lab."""
+    from mrlab_ros.adapters.sandbox import restrictions
     from mrlab_ros.gateway.pages import pages_folder
     from mrlab_ros.processes.run_file import RunFile
     from mrlab_ros.ros.environment import domain_id
@@ -94,6 +95,7 @@ def gather(url: str, certificate: Path | None, state_dir: Path | None) -> Facts:
         state_dir=str(folder),
         state_writable=os.access(there, os.W_OK),
         free_bytes=shutil.disk_usage(there).free,
+        sandbox=restrictions.layers(),
     )
 
 

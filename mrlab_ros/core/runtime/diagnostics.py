@@ -217,3 +217,18 @@ DISK_FULL = Code(
     "disk: {free:bytes} free; expected {least:bytes} at least",
     "Make room: bags and uploads need it.",
 )
+SANDBOX_HAS = Code("sandbox_has", "sandbox of files from outside: {layers:list}", severity=INFO)
+NO_LANDLOCK = Code(
+    "no_landlock",
+    "sandbox of files from outside: the kernel has no Landlock; a reader of bags, meshes or "
+    "submissions can open every file of this user, and a xacro is refused",
+    "Use Linux 5.13 or newer with Landlock, or a container that allows its system calls; until "
+    "then read files only from people whom you trust.",
+)
+NO_SECCOMP = Code(
+    "no_seccomp",
+    "sandbox of files from outside: the kernel takes no filter of system calls; a reader can open "
+    "sockets and change the modes of files, and a xacro is refused",
+    "Use a kernel with seccomp on x86_64 or aarch64; until then read files only from people whom "
+    "you trust.",
+)

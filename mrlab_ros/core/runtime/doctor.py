@@ -19,6 +19,8 @@ SOON = 14 * 24 * 3600.0
 # Modules that a lab cannot do without, and those of its physics.
 NEEDED = ("rclpy", "mrlab_msgs", "zenoh", "numpy")
 OPTIONAL = ("pybullet",)
+# Layers of the sandbox of readers of files, and the consequences where the kernel lacks them.
+WITHOUT_LAYER = {"landlock": say.NO_LANDLOCK, "seccomp": say.NO_SECCOMP}
 # By which nodes find each other.
 GROUP = "239.255.0.1"
 
@@ -57,7 +59,10 @@ class Certificate:
 
 @dataclass(frozen=True)
 class Facts:
-    """Facts of a machine. multicast: why a packet did not come back; None: it did."""
+    """Facts of a machine. multicast: why a packet did not come back; None: it did.
+
+    sandbox: the layers of the sandbox of readers of files, and whether the kernel has them.
+    """
 
     python: tuple[int, int]
     modules: Mapping[str, bool]
@@ -72,6 +77,7 @@ class Facts:
     state_dir: str
     state_writable: bool
     free_bytes: int
+    sandbox: Mapping[str, bool]
 
 
 def examine(facts: Facts) -> Iterator[Diagnostic]:
@@ -99,6 +105,7 @@ def examine(facts: Facts) -> Iterator[Diagnostic]:
         yield say.DISK_ROOM(free=facts.free_bytes)
     else:
         yield say.DISK_FULL(free=facts.free_bytes, least=LEAST_DISK)
+    yield from _sandbox(facts.sandbox)
 
 
 def _python(facts: Facts) -> Diagnostic:
@@ -120,6 +127,15 @@ def _modules(facts: Facts) -> Iterator[Diagnostic]:
             yield say.MODULE_WITHOUT_WHEEL(module=name)
         else:
             yield say.MODULE_MISSING(module=name)
+
+
+def _sandbox(layers: Mapping[str, bool]) -> Iterator[Diagnostic]:
+    there = [name for name in WITHOUT_LAYER if layers.get(name)]
+    if there:
+        yield say.SANDBOX_HAS(layers=there)
+    for name, without in WITHOUT_LAYER.items():
+        if name not in there:
+            yield without()
 
 
 def _middleware(facts: Facts) -> Diagnostic:

@@ -2143,6 +2143,10 @@ export const diagnostics: Templates = {
     "{file}: Bevor sich die Ketten am Glied '{link}' teilen, bewegt sich kein Gelenk, wie bei einem Greifer oder einem Fahrzeug.",
     'Importiere einen Arm, oder nenne sein letztes Glied.',
   ],
+  no_landlock: [
+    'Sandbox für fremde Dateien: Der Kernel hat kein Landlock; ein Leser von Bags, Meshes oder Abgaben kann jede Datei dieses Benutzers öffnen, und ein Xacro wird abgelehnt',
+    'Nimm Linux ab 5.13 mit Landlock, oder einen Container, der dessen Systemaufrufe zulässt; lies bis dahin nur Dateien von Leuten, denen du vertraust.',
+  ],
   no_log_folder: [
     'ROS kann sein Protokoll nicht nach {folder} schreiben: {why:problem}.',
     'Mach den Ordner für diesen Benutzer beschreibbar, oder setze ROS_LOG_DIR auf einen, der es ist.',
@@ -2301,6 +2305,10 @@ export const diagnostics: Templates = {
   no_robot_in_rubric: [
     "'{file}' sagt nicht, für welchen Roboter sie ist; nenne einen in der Rubrik: robot: ur5e",
   ],
+  no_seccomp: [
+    'Sandbox für fremde Dateien: Der Kernel nimmt keinen Filter für Systemaufrufe; ein Leser kann Sockets öffnen und die Rechte von Dateien ändern, und ein Xacro wird abgelehnt',
+    'Nimm einen Kernel mit seccomp auf x86_64 oder aarch64; lies bis dahin nur Dateien von Leuten, denen du vertraust.',
+  ],
   no_share_of_limits: [
     '{value:share} einer Grenze sind keine Schranke; wähle einen Anteil über 0 % und bis 100 %.',
   ],
@@ -2341,6 +2349,7 @@ export const diagnostics: Templates = {
   robot_not_said: [
     "'{file}' sagt nicht, für welchen Roboter sie ist, und die Rubrik auch nicht; ergänze robot: ur5e in der Rubrik, oder bewerte eine Zelle (.yaml).",
   ],
+  sandbox_has: ['Sandbox für fremde Dateien: {layers:list}'],
   stands_still: ['{robot} bewegt sich nicht.'],
   stopped_class: [
     'Abgebrochen: {done:integer} von {all:integer} sind geprüft und bleiben erhalten.',

@@ -25,6 +25,7 @@ WELL = Facts(
     state_dir="/lab",
     state_writable=True,
     free_bytes=50_000_000_000,
+    sandbox={"landlock": True, "seccomp": True},
 )
 
 
@@ -63,6 +64,8 @@ def test_a_machine_that_is_well_has_nothing_to_do():
         ({"certificate": Certificate("c", "2026-02-26", -3 * DAY)}, "certificate_ends", {}),
         ({"state_writable": False}, "store_read_only", {"folder": "/lab"}),
         ({"free_bytes": 10}, "disk_almost_full", {"free": 10}),
+        ({"sandbox": {"landlock": False, "seccomp": True}}, "no_landlock", {}),
+        ({"sandbox": {"landlock": True, "seccomp": False}}, "no_seccomp", {}),
     ],
 )
 def test_what_is_wrong_is_named_alone_with_what_to_do(change, code, values):
