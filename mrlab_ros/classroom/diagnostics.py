@@ -12,10 +12,10 @@ NO_SUBMISSIONS = Code(
     "folder or file for each student.",
 )
 UNKNOWN_FORM = Code("unknown_form", "The form of the export is '{form}'; expected {known:either}.")
-REFERENCE_IS_CELL = Code(
-    "reference_is_cell",
-    "{rubric}: the reference {file} is a cell; a class is compared with one motion.",
-    "Leave reference out, or name a file with one motion.",
+REFERENCE_APART = Code(
+    "reference_apart",
+    "{rubric}: the reference {file} names the motion {motion}, which does not lie beside it.",
+    "Put the motions of the cell beside it.",
 )
 REFERENCE_NOT_READ = Code(
     "reference_not_read", "{rubric}: the reference {file} cannot be read: {why:problem}."

@@ -18,6 +18,7 @@ import orjson
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 from mrlab_ros.adapters import share
+from mrlab_ros.app.check import cell
 from mrlab_ros.app.check.file import CELLS
 from mrlab_ros.app.convert import SUFFIXES
 from mrlab_ros.classroom import grader, words, worker
@@ -26,7 +27,7 @@ from mrlab_ros.classroom.diagnostics import (
     KEY_TABLE_NOT_WRITTEN,
     NO_SUBMISSIONS,
     PROCESSES_KILLED,
-    REFERENCE_IS_CELL,
+    REFERENCE_APART,
     REFERENCE_NOT_READ,
     STOPPED,
     UNKNOWN_FORM,
@@ -155,18 +156,35 @@ def of_rubric(
     rubric: Rubric, scene: SceneDocument, options: Options, bounds: Bounds, *, pages: bool
 ) -> Setup:
     """Return the setup of a rubric, with the bytes of its reference. Raises BadInput."""
-    reference = None
-    if rubric.reference:
-        path = Path(rubric.reference)
-        if path.suffix.lower() in CELLS:
-            raise BadInput(REFERENCE_IS_CELL(rubric=rubric.origin, file=path.name))
-        try:
-            reference = (path.name, path.read_bytes())
-        except OSError as error:
-            raise BadInput(
-                REFERENCE_NOT_READ(rubric=rubric.origin, file=str(path), why=error.strerror)
-            ) from None
-    return Setup(rubric, scene, options, reference, bounds, pages)
+    if not rubric.reference:
+        return Setup(rubric, scene, options, None, bounds, pages)
+    path = Path(rubric.reference)
+    reference, *beside = (
+        (each.name, _reference(rubric, each)) for each in (path, *_motions(rubric, scene, path))
+    )
+    return Setup(rubric, scene, options, reference, bounds, pages, tuple(beside))
+
+
+def _motions(rubric: Rubric, scene: SceneDocument, path: Path) -> list[Path]:
+    """Return the motions of a reference that is a cell; raise LabError where one is elsewhere."""
+    if path.suffix.lower() not in CELLS:
+        return []
+    system, placed = cell.read(path, scene, rubric.scene)
+    loaded = {robot.name: robot.trajectory for robot in placed.robots}
+    names = {member.trajectory or loaded[member.robot] for member in system.members}
+    for name in names:
+        if "/" in name:
+            raise BadInput(REFERENCE_APART(rubric=rubric.origin, file=path.name, motion=name))
+    return [path.parent / name for name in sorted(names) if name]
+
+
+def _reference(rubric: Rubric, path: Path) -> bytes:
+    try:
+        return path.read_bytes()
+    except OSError as error:
+        raise BadInput(
+            REFERENCE_NOT_READ(rubric=rubric.origin, file=str(path), why=error.strerror)
+        ) from None
 
 
 def _results(
@@ -272,8 +290,7 @@ def _task(
 ) -> Task:
     """Return the task of a submission with its bytes, None: of the reference."""
     if submission is None:
-        assert setup.reference is not None
-        return Task(key, setup.reference[0], (setup.reference,))
+        return Task(key, setup.references[0][0], setup.references)
     chosen = submission.candidates[:MOST_CANDIDATES]
     names = [file_label(PurePosixPath(entry.path).name) for entry in chosen]
     files: list[tuple[str, bytes]] = []

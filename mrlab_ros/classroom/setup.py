@@ -63,7 +63,8 @@ class Bounds:
 class Setup:
     """How a class is checked. reference: name and bytes of the solution, None where there is none.
 
-    pages: write a page for each. It travels to the processes that check, so it holds everything.
+    beside: names and bytes of the motions of a reference that is a cell. pages: write a page for
+    each. It travels to the processes that check, so it holds everything.
     """
 
     rubric: Rubric
@@ -72,6 +73,12 @@ class Setup:
     reference: tuple[str, bytes] | None = None
     bounds: Bounds = field(default_factory=Bounds)
     pages: bool = True
+    beside: tuple[tuple[str, bytes], ...] = ()
+
+    @property
+    def references(self) -> tuple[tuple[str, bytes], ...]:
+        """Return all files of the solution, the one that is marked first."""
+        return (self.reference, *self.beside) if self.reference is not None else ()
 
     @cached_property
     def digest(self) -> str:
@@ -84,7 +91,9 @@ class Setup:
             stage = setting.stage
             robot = stage.robot(entry.name, entry.model, entry.end_effector, entry.pose)
             inputs = stage.inputs([robot], self.scene)
-        reference = hashlib.sha256(self.reference[1]).hexdigest() if self.reference else ""
+        reference = [
+            [name, hashlib.sha256(content).hexdigest()] for name, content in self.references
+        ]
         return digest(
             {
                 "version": mrlab_ros.__version__,

@@ -147,12 +147,14 @@ class Warm:
         self.setting = Setting(**values)
         self.reference: Checked | None = None
         if setup.reference is not None:
-            name, content = setup.reference
-            file = scratch / name
-            file.write_bytes(content)
+            folder = scratch / "reference"
+            folder.mkdir()
+            for name, content in setup.references:
+                (folder / name).write_bytes(content)
+            name = setup.reference[0]
             # the converter's second reader takes what is left of this
             signal.setitimer(signal.ITIMER_REAL, setup.bounds.wall)
-            found = check_rubric_file(file, setup.rubric, self.setting)
+            found = check_rubric_file(folder / name, setup.rubric, self.setting)
             if found.played is None:
                 raise BadInput(
                     REFERENCE_NOT_MARKED(rubric=setup.rubric.origin, file=name, why=found.why)

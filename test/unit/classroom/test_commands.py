@@ -165,9 +165,11 @@ def test_a_class_goes_on_where_it_was(tmp_path, monkeypatch):
 
 def test_cells_of_a_class_reach_their_own_motions_only(tmp_path):
     rubric = tmp_path / "rubric.yaml"
+    reference = ROOT / "examples" / "handover_cell.yaml"
     rubric.write_text(
-        "name: A cell\nscene: handover\ntests:\n"
-        "  - {name: Nothing is hit, expect: no collision, points: 2}\n"
+        f"name: A cell\nscene: handover\nreference: {reference}\ntests:\n"
+        "  - {name: Nothing is hit, expect: no collision, points: 1}\n"
+        "  - {name: Like it, expect: joints within 1 deg of the reference, points: 1}\n"
     )
     handed_in, kept = tmp_path / "submissions", tmp_path / "kept"
     for name in ("anna", "ben", "cem"):
@@ -187,10 +189,24 @@ def test_cells_of_a_class_reach_their_own_motions_only(tmp_path):
     assert said.exit_code == 0, said.stdout + said.stderr
     found = {s["name"]: s for s in json.loads((out / "class.json").read_text())["students"]}
     assert (found["anna"]["points"], found["anna"]["file"]) == (2, "cell.yaml")
+    assert json.loads((out / "class.json").read_text())["reference"]["points"] == 2
     assert found["ben"]["points"] == found["cem"]["points"] == 0
     assert found["cem"]["found"]["code"] == "member_file_not_beside"
     refused = found["ben"]["found"]
     assert refused["code"] == "member_file_not_beside"
+
+
+def test_the_motions_of_a_reference_that_is_a_cell_lie_beside_it(tmp_path):
+    (tmp_path / "submissions" / "anna").mkdir(parents=True)
+    shutil.copy(PICK, tmp_path / "submissions" / "anna")
+    cell = (ROOT / "examples" / "handover_cell.yaml").read_text()
+    (tmp_path / "cell.yaml").write_text(cell.replace("trajectory: ", "trajectory: ../"))
+    rubric = tmp_path / "rubric.yaml"
+    rubric.write_text(
+        "scene: handover\nreference: cell.yaml\ntests: [{expect: no collision, points: 1}]"
+    )
+    with command_refuses(commands, "reference_apart", file="cell.yaml"):
+        assert grade(tmp_path / "submissions", "--rubric", rubric).exit_code == 2
 
 
 def test_pseudonyms_hide_names_of_damaged_archives_links_and_cells(tmp_path):

@@ -2330,9 +2330,9 @@ export const diagnostics: Templates = {
     'Fertiges bleibt erhalten: Starte denselben Befehl noch einmal mit weniger Prozessen.',
   ],
   ready_for_robot: ['Die Prüfung hat keinen Befund, der die Bewegung sperrt.'],
-  reference_is_cell: [
-    '{rubric}: Die Referenz {file} ist eine Zelle; eine Klasse wird mit einer Bewegung verglichen.',
-    'Lass die Referenz weg, oder nenne eine Datei mit einer Bewegung.',
+  reference_apart: [
+    '{rubric}: Die Referenz {file} nennt die Bewegung {motion}, die nicht neben ihr liegt.',
+    'Lege die Bewegungen der Zelle neben sie.',
   ],
   reference_not_marked: [
     '{rubric}: Die Referenz {file} kann nicht bewertet werden[: {why:problem}].',
