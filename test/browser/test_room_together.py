@@ -71,11 +71,12 @@ def test_two_people_make_a_system_by_touch_see_each_other_and_use_their_hands(
     second.wait_for(f"room.board.notice.includes('paused {system}')")
     first.wait_for("room.follower.systems.value[0].system.label === 'PAUSED'")
 
-    # Each measured the room for itself: neither took the other's table away.
+    # Nobody knows yet that the second one is in the same place: its surfaces do not count.
     devices = [each.page.evaluate("localStorage['mrlab.room.device']") for each in headsets_here]
     tables = "room.surfaces.filter(({ label }) => label === 'table').map(({ source }) => source)"
-    for device in devices:
-        first.wait_for(f"{tables}.includes('{device}')")
+    first.wait_for(f"{tables}.includes('{devices[0]}')")
+    first.wait_for("room.people.present[0].aligned === false")
+    assert not first.page.evaluate(f"{tables}.includes('{devices[1]}')")
     # The same two points in the same order: the same place for the lab. Undone, it is as before.
     second.act(BOARD, "tab room")
     before = second.page.evaluate("room.stage.anchor.position.toArray()")
@@ -94,8 +95,12 @@ def test_two_people_make_a_system_by_touch_see_each_other_and_use_their_hands(
         "room.stage.world.localToWorld(room.head.clone().set(1, 0, 0)).toArray()"
     )
     assert hypot(ahead[0] + 1.0, ahead[2] - 2.0) < 0.01, "x points to the second point"
+    # Each measured the room for itself: neither took the other's table away.
+    for device in devices:
+        first.wait_for(f"{tables}.includes('{device}')")
+    first.wait_for("room.people.present[0].aligned")
     second.act(BOARD, "undo_align")
-    second.frames()
+    first.wait_for(f"!{tables}.includes('{devices[1]}')")
     after = second.page.evaluate("room.stage.anchor.position.toArray()")
     assert max(abs(a - b) for a, b in zip(before, after, strict=True)) < 1e-6
 

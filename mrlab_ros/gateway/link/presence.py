@@ -81,7 +81,9 @@ class Displays:
         self._seen[token] = message.id, now
         message.name = person.name
         message.part = part_of(person.role)
-        message.header.frame_id = FRAME
+        # A display that is not aligned with the others says so by a frame of its own.
+        if message.header.frame_id != message.id:
+            message.header.frame_id = FRAME
         if message.away:
             del self._seen[token]
         return self._definitions.encode(TYPE, message)

@@ -1111,7 +1111,7 @@ export const playbackStateReader: MessageReader<PlaybackState> = /* @__PURE__ */
 
 /** mrlab_msgs/msg/Presence: Where somebody in the room is. A display sends it at most 20 times a second while it is in the lab. */
 export interface Presence {
-  /** when it was measured, lab time; frame_id is world */
+  /** when it was measured, lab time; frame_id is world, or id where it is not aligned */
   header: Header
   /** of the display, unique in the lab */
   id: string

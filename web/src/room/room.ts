@@ -28,7 +28,8 @@ import { pauseNews } from './people/pausing'
 import { People } from './people/people'
 import { Alignment, SEATED } from './place/alignment'
 import { anchorNews, SceneAnchor } from './place/anchor'
-import { orderSurfaces, RoomScan } from './place/scan'
+import { CommonPlace } from './place/common_place'
+import { RoomScan } from './place/scan'
 import { Spawning } from './place/spawning'
 import { type Ground, type Support, supportsOf } from './place/supports'
 import { TouchAlignment } from './place/touch_alignment'
@@ -99,6 +100,7 @@ export class Room {
   readonly stage: RoomStage
   readonly scan: RoomScan
   readonly anchor: SceneAnchor
+  readonly common: CommonPlace
   readonly scene: LabScene
   readonly robots: RoomRobots
   readonly visit: Visit
@@ -145,8 +147,7 @@ export class Room {
       for (const pointer of this.visit.pointers()) pointer.forget(target)
     })
     this.mouse = new Mouse(this.stage, this.targets.all)
-    const marked = (point: Vector3) => this.touching.touch(point)
-    this.visit = new Visit(this.stage, this.targets, marked, this)
+    this.visit = new Visit(this.stage, this.targets, this)
     const ports = this.portsOf(parts, this.sound.feedback)
     const { targets } = this
     this.board = new Board(ports)
@@ -188,14 +189,13 @@ export class Room {
       this.creation,
       (pointer, axis) => this.visit.inputs?.stick(pointer, axis) ?? 0,
     )
+    this.scan = new RoomScan(this.stage.world, (surfaces) => this.common.tell(surfaces))
     const device = deviceId()
-    this.scan = new RoomScan(this.stage.world, (surfaces) => {
-      orderSurfaces(ports, device, surfaces)
-    })
     const display = `${device}.${randomId(3)}`
     this.people = new People(link, this.stage.world, display, words, repaint)
     const { anchor, panels } = this.stage
     this.touching = new TouchAlignment(this.anchor, anchor, this.scan, panels, ports)
+    this.common = new CommonPlace(ports, device, this.people, this.scan, this.touching)
     const bases = () => this.robots.bases()
     this.alignment = new Alignment(this.stage, this.anchor, this.scan, bases)
     this.spawning = new Spawning(ports, repaint)
@@ -253,6 +253,7 @@ export class Room {
       performance.now() / 1000,
       this.settings.seated.value,
     )
+    this.common.begin(performance.now() / 1000)
     this.alignment.begin(session)
     this.showSurfaces()
     this.board.panel.repaint()
@@ -300,10 +301,6 @@ export class Room {
     this.board.panel.repaint()
   }
 
-  recentred(transform: XRRigidTransform): void {
-    this.anchor.recentre(transform)
-  }
-
   private repaint(): void {
     this.board.panel.repaint()
     this.guide.panel.panel.repaint()
@@ -314,7 +311,7 @@ export class Room {
 
   left(): void {
     this.people.leave()
-    this.touching.cancel()
+    this.common.end()
     this.anchor.end()
     this.alignment.align(SEATED)
     this.showSurfaces()
@@ -442,6 +439,7 @@ export class Room {
         this.boardPlace.face(this.look)
       }
     }
+    this.common.update(now)
     this.scan.update(frame, space, now)
     const { inputs } = this.visit
     inputs?.update(frame, space, now)

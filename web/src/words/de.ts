@@ -807,6 +807,9 @@ export const words: Words = {
     anchorKept: 'Die Szene behält hier ihren Platz, auch für das nächste Mal.',
     anchorSession:
       'Die Szene behält ihren Platz, bis du gehst; die Brille merkt sich keine weiteren.',
+    notAligned: 'nicht ausgerichtet',
+    alignToCount:
+      'Andere sind hier. Deine Flächen und dein Avatar zählen, sobald du dich ausrichtest: Reiter „Raum“.',
     earlierPlace:
       'Der frühere Platz der Szene wurde gefunden. Reiter „Raum“: zurückstellen oder hier lassen.',
     putBack: 'Zurückstellen',

@@ -34,14 +34,16 @@ export function peopleTab(
     words: w.people,
     draw: (pen) => {
       let y = TOP + 12
-      const line = (part: Part, name: string, ink: string) => {
-        const words = `${PART_ICONS[part]}  ${name} · ${w.parts[part]}`
+      const line = (part: Part, name: string, ink: string, aligned = true) => {
+        const place = aligned ? '' : ` · ${w.notAligned}`
+        const words = `${PART_ICONS[part]}  ${name} · ${w.parts[part]}${place}`
         pen.text(EDGE, y, words, TEXT.body, undefined, ink, 600)
         y += ROW
       }
       line(own.part, `${named(own.name)} (${w.you})`, 'ink')
       const { present } = people
-      for (const { name, part } of present.slice(0, MOST_LISTED)) line(part, named(name), 'ink')
+      for (const { name, part, aligned } of present.slice(0, MOST_LISTED))
+        line(part, named(name), 'ink', aligned)
       const more = present.length - MOST_LISTED
       if (more > 0) pen.text(EDGE, y, w.andMore(more), TEXT.small, undefined, 'second')
       if (present.length === 0) pen.lines(EDGE, y, w.alone, TEXT.small, undefined, 'second')

@@ -19,6 +19,7 @@ const LEVEL = new Quaternion()
 
 interface Person {
   readonly avatar: Avatar
+  aligned: boolean
   seenAt: number
 }
 
@@ -31,7 +32,11 @@ interface Hands {
 interface Present {
   readonly name: string
   readonly part: Part
+  readonly aligned: boolean
 }
+
+/** The frame of displays that are in the same place; any other one is a display's own. */
+const COMMON = 'world'
 
 /** The other people in the room: receives their presence and publishes ours. */
 export class People {
@@ -51,20 +56,36 @@ export class People {
     private readonly changed: () => void,
   ) {
     this.own.id = id
-    this.own.header.frame_id = 'world'
+    this.own.header.frame_id = COMMON
     this.undo = link.subscribe('presence', presenceReader, (message) => this.take(message))
   }
 
   /** The others. */
   get present(): Present[] {
-    return [...this.people.values()].map(({ avatar: { name, part } }) => ({ name, part }))
+    return [...this.people.values()].map(({ avatar: { name, part }, aligned }) => {
+      return { name, part, aligned }
+    })
+  }
+
+  /** True if nobody else is in the common place, and nobody with a lower id waits for it. */
+  get isFirst(): boolean {
+    for (const [id, { aligned }] of this.people) if (aligned || id < this.id) return false
+    return true
+  }
+
+  /** Set if this display is in the same place as the others: avatars are drawn between displays in
+   * one place only. */
+  setAligned(aligned: boolean): void {
+    this.own.header.frame_id = aligned ? COMMON : this.id
   }
 
   /** Before each picture: update avatars, and remove silent people. Returns whether any is drawn.
    * now, step: s. */
   update(now: number, step: number): boolean {
     this.now = now
-    for (const [id, { avatar, seenAt }] of this.people) {
+    const inPlace = this.own.header.frame_id === COMMON
+    for (const [id, { avatar, aligned, seenAt }] of this.people) {
+      avatar.group.visible = aligned && inPlace
       if (now - seenAt > GONE) this.remove(id)
       else avatar.update(step)
     }
@@ -126,9 +147,14 @@ export class People {
     }
     if (person === undefined) {
       const avatar = new Avatar(this.shapes, name, part, this.words.room.parts[part])
-      person = { avatar, seenAt: 0 }
+      person = { avatar, aligned: true, seenAt: 0 }
       this.people.set(message.id, person)
       this.world.add(avatar.group)
+      this.changed()
+    }
+    const aligned = message.header.frame_id === COMMON
+    if (aligned !== person.aligned) {
+      person.aligned = aligned
       this.changed()
     }
     // Not the time of the last frame: a software renderer may take seconds for one.

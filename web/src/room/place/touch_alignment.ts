@@ -59,6 +59,12 @@ export class TouchAlignment {
     this.ports.say(this.words.alignFirst, false)
   }
 
+  /** The session has ended. */
+  end(): void {
+    this.before = null
+    this.cancel()
+  }
+
   cancel(): void {
     this.awaited = 'nothing'
     this.show(0, null)

@@ -3,6 +3,8 @@ import type { Vector3 } from 'three'
 import type { Pointer } from '../input/pointer'
 import { XrInputs } from '../input/sources'
 import type { Targets } from '../input/targets'
+import type { SceneAnchor } from '../place/anchor'
+import type { TouchAlignment } from '../place/touch_alignment'
 import type { RoomStage } from '../scene/stage'
 import type { Feature, Mode } from './features'
 import { enter, type RoomSession } from './session'
@@ -14,8 +16,8 @@ const LIFT = 0.4
 interface Visited {
   /** A session has ended. */
   left(): void
-  /** The floor space has moved; transform: its new origin in the old space. */
-  recentred(transform: XRRigidTransform): void
+  readonly anchor: Pick<SceneAnchor, 'recentre'>
+  readonly touching: Pick<TouchAlignment, 'touch'>
 }
 
 /** A person's stay in the room with a headset: the session and its pointers. */
@@ -29,11 +31,9 @@ export class Visit {
   /** The session's own floor space. */
   private floor: XRReferenceSpace | null = null
 
-  /** marked: as of XrInputs. */
   constructor(
     private readonly stage: RoomStage,
     private readonly targets: Targets,
-    private readonly marked: (point: Vector3) => boolean,
     private readonly visited: Visited,
   ) {}
 
@@ -60,12 +60,13 @@ export class Visit {
   async enter(mode: Mode, now: number, seated: boolean): Promise<XRSession> {
     this.current = await enter(this.stage.renderer, mode, this.depth, () => this.end())
     const { session } = this.current
-    this.inputs = new XrInputs(session, this.stage.scene, this.targets.all, this.marked)
+    const marked = (point: Vector3) => this.visited.touching.touch(point)
+    this.inputs = new XrInputs(session, this.stage.scene, this.targets.all, marked)
     this.stage.controls.enabled = false
     this.stage.setPassthrough(this.passthrough)
     this.floor = this.stage.renderer.xr.getReferenceSpace()
     this.floor?.addEventListener('reset', ({ transform }) => {
-      if (transform) this.visited.recentred(transform)
+      if (transform) this.visited.anchor.recentre(transform)
     })
     this.seat(seated)
     this.enteredAt = now
