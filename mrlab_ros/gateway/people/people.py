@@ -14,6 +14,8 @@ from fastapi.requests import HTTPConnection
 
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.gateway.people.accounts import Accounts, Passwords
+from mrlab_ros.gateway.people.known_browsers import LIFETIME_S as BROWSER_LIFETIME_S
+from mrlab_ros.gateway.people.known_browsers import KnownBrowsers
 from mrlab_ros.gateway.people.pairing import Pairings
 from mrlab_ros.gateway.people.person import LOCAL, Limit, Person, RateLimit
 from mrlab_ros.gateway.people.sign_ins import (
@@ -54,6 +56,7 @@ class People:
         self.accounts = Accounts(self.database, passwords or Passwords())
         self.sign_ins = SignIns(self.database)
         self.pairings = Pairings()
+        self._browsers = KnownBrowsers(self.database.secret)
         self.sign_ins_by_address = RateLimit(SIGN_INS_BY_ADDRESS)
         self.sign_ins_by_name = RateLimit(SIGN_INS_BY_NAME)
         self.links_by_address = RateLimit(LINKS_BY_ADDRESS)
@@ -61,7 +64,9 @@ class People:
         # Cookies ignore ports, so several labs of one machine need names of their own. Browsers
         # take __Host- from this very host over HTTPS only, never from a neighbour of its domain.
         self.secure = settings.https or settings.public_url.startswith("https:")
-        self.cookie = f"{'__Host-' if self.secure else ''}mrlab-{self.database.lab_id}"
+        prefix = "__Host-" if self.secure else ""
+        self.cookie = f"{prefix}mrlab-{self.database.lab_id}"
+        self.browser_cookie = f"{prefix}mrlab-browser-{self.database.lab_id}"
         # With --insecure whoever reaches this gateway may do everything, as over zenoh.
         self._open = not settings.signs_in and not is_loopback(settings.host)
 
@@ -75,12 +80,32 @@ class People:
 
     def secret(self, cookies: str) -> str:
         """Return the secret in a Cookie header; empty: there is none."""
-        try:
-            found = SimpleCookie(cookies).get(self.cookie)
-        except CookieError:
-            return ""
+        found = _value(cookies, self.cookie)
         # A token is a program's: its requests bring no CSRF token.
-        return "" if found is None or found.value.startswith(TOKEN_PREFIX) else found.value
+        return "" if found.startswith(TOKEN_PREFIX) else found
+
+    def check_attempt(self, name: str, connection: HTTPConnection, now: float) -> None:
+        """Count an attempt to sign in with a password; raises TooMany.
+
+        A browser in which this person has signed in before has attempts of its own. Other attempts
+        count for the address, and for the name at that address, so that nobody elsewhere locks
+        the name.
+        """
+        place = self._known_browser(name, connection)
+        if not place:
+            place = address_of(connection)
+            self.sign_ins_by_address.check(place, now)
+        self.sign_ins_by_name.check(f"{name.lower()} {place}", now)
+
+    def remember_browser(self, name: str, connection: HTTPConnection, response: Response) -> None:
+        """Let the browser keep attempts of its own after its person has proved the password."""
+        if not self._known_browser(name, connection):
+            cookie = self._browsers.new(name)
+            self._set_cookie(response, self.browser_cookie, cookie, BROWSER_LIFETIME_S)
+
+    def _known_browser(self, name: str, connection: HTTPConnection) -> str:
+        cookie = _value(connection.headers.get("cookie", ""), self.browser_cookie)
+        return self._browsers.number(name, cookie)
 
     def csrf_matches(self, token: str, cookies: str) -> bool:
         """Return whether a CSRF token is the one for a Cookie header."""
@@ -100,16 +125,19 @@ class People:
         secret = self.sign_ins.begin(
             name, role, self.clock(), device=device, let_in_by=let_in_by, lifetime=lifetime
         )
+        self._set_cookie(response, self.cookie, secret, lifetime)
+        return self.sign_ins.csrf(secret)
+
+    def _set_cookie(self, response: Response, name: str, value: str, lifetime: float) -> None:
         response.set_cookie(
-            self.cookie,
-            secret,
+            name,
+            value,
             max_age=int(lifetime),
             path="/",
             secure=self.secure,
             httponly=True,
             samesite="strict",
         )
-        return self.sign_ins.csrf(secret)
 
     def program(
         self,
@@ -144,6 +172,15 @@ class People:
         while True:
             await asyncio.sleep(FOLLOW_PERIOD_S)
             await self.sign_ins.check(self.clock())
+
+
+def _value(cookies: str, name: str) -> str:
+    """Return the value of a cookie in a Cookie header; empty: there is none."""
+    try:
+        found = SimpleCookie(cookies).get(name)
+    except CookieError:
+        return ""
+    return "" if found is None else found.value
 
 
 def token_of(authorization: str) -> str:

@@ -46,15 +46,12 @@ def sign_in(
 ) -> answers.Session:
     """Sign in with name and password."""
     check_signs_in(people)
-    now = people.steady()
-    address = address_of(request)
-    people.sign_ins_by_address.check(address, now)
-    # With the address: nobody can lock somebody else out.
-    people.sign_ins_by_name.check(f"{body.name.lower()} {address}", now)
+    people.check_attempt(body.name, request, people.steady())
     account = people.accounts.matching(body.name, body.password)
     if account is None:
         raise NotSignedIn(WRONG_PASSWORD())
     csrf = people.sign_in(response, account.name, account.role)
+    people.remember_browser(account.name, request, response)
     person = Person(account.name, account.role, id=account.id)
     return session_answer(request, people, person, csrf)
 
@@ -85,6 +82,7 @@ def accept_invitation(
     people.links_by_address.check(address_of(request), people.steady())
     account = people.accounts.accept(token, body.password, people.clock())
     csrf = people.sign_in(response, account.name, account.role)
+    people.remember_browser(account.name, request, response)
     person = Person(account.name, account.role, id=account.id)
     return session_answer(request, people, person, csrf)
 
