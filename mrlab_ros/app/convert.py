@@ -54,12 +54,21 @@ def converted(
     robot: a model; empty: the one that a trajectory file names. Raises BadInput where the file or
     the model is unknown, and WrongUsage where a model is needed.
     """
+    file = bag_in(file)
     result = of_trajectory_file(file)
     if result is not None:
         return result
     if not robot:
         raise WrongUsage(ROBOT_NOT_NAMED(file=file.name, known=list(library.ids())))
     return convert_file(file, library.model(robot), options, end_effector or None)
+
+
+def bag_in(path: Path) -> Path:
+    """Return the one file of the folder that ROS 2 records a bag into; another path as it is."""
+    if not os.path.isdir(path):
+        return path
+    inside = [p for p in path.iterdir() if p.name.lower().endswith(SUFFIXES)]
+    return inside[0] if len(inside) == 1 else path
 
 
 def of_trajectory_file(file: Path) -> ConversionResult | None:

@@ -11,7 +11,7 @@ from mrlab_ros.adapters.scenes.files import SceneFiles
 from mrlab_ros.app.check import cell
 from mrlab_ros.app.check.diagnostics import MODEL_NOT_IN_SCENE, MOTION_OF_ANOTHER_ROBOT
 from mrlab_ros.app.check.stage import Played, Stage, first_link
-from mrlab_ros.app.convert import converted, held_to_robot
+from mrlab_ros.app.convert import bag_in, converted, held_to_robot
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
 from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.base.foreign_text import file_name
@@ -87,6 +87,7 @@ def check_file(file: Path, setting: Setting) -> CheckedFile:
 
     Raises LabError where the setting does not fit: no such file, robot or scene, no pybullet.
     """
+    file = bag_in(file)
     if file.suffix.lower() in CELLS:
         return _cell(file, setting)
     stage, scene = setting.stage, setting.scene

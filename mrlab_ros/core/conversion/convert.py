@@ -20,7 +20,9 @@ from mrlab_ros.core.conversion import (
 )
 from mrlab_ros.core.conversion.candidates import Candidate, Preview, contents, preview
 from mrlab_ros.core.conversion.diagnostics import (
+    DISCONTINUITY,
     DOUBTFUL_VALUES,
+    JUMP_FULL_TURN,
     NO_MOTION,
     REPEATED_PIECES,
     TOO_MANY_ROWS,
@@ -40,7 +42,7 @@ from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory import derived_signals
 from mrlab_ros.core.trajectory.catalogue import checked_id
 from mrlab_ros.core.trajectory.derived_signals import ProxyCoefficients
-from mrlab_ros.core.trajectory.trajectory import Source, Trajectory
+from mrlab_ros.core.trajectory.trajectory import Array, Source, Trajectory
 
 OF_PYTHON = (".npy", ".npz", ".json")
 
@@ -287,12 +289,13 @@ def _checked(
         workspace.confirm(sources)
     notes += questions.asked(workspace, variable, survey.name(variable), robot, options)
     layout = lay_out(chosen, survey, options, notes)
+    points = layout.arm
     layout, rate = resampling.at_a_rate(
         survey, chosen, layout, options, default_frame_rate, file, notes
     )
     notes += joining.rows_left_out(stored, wanted, transposed=options.transpose)
     notes += questions.unread(survey, variable, rate, options, notes)
-    notes += _against_robot(layout, rate, variable.path, robot, notes)
+    notes += _against_robot(points, layout, rate, variable.path, robot, notes)
     notes += kinematics_match.findings(workspace, robot)
     found.notes = notes = found.said(picking.with_lines(notes, squeezed))
     errors = [n for n in notes if n.severity is Severity.ERROR]
@@ -305,13 +308,29 @@ def _checked(
 
 
 def _against_robot(
-    layout: Layout, rate: float, path: str, robot: RobotModel, notes: list[Diagnostic]
+    points: Array,
+    layout: Layout,
+    rate: float,
+    path: str,
+    robot: RobotModel,
+    notes: list[Diagnostic],
 ) -> list[Diagnostic]:
-    """Return what is said of the frames, at `rate` Hz, against what the robot can do."""
-    why = motion_checks.fault(layout.arm, rate, robot)
+    """Return what is said of the frames, at `rate` Hz, against what the robot can do.
+
+    points: (K, J) rad, of which the frames were made: lines between random ones look like a
+    motion, and half of a full turn like a jump.
+    """
+    points_rate = rate * (len(points) - 1) / max(len(layout.arm) - 1, 1)
+    why = motion_checks.fault(points, points_rate, robot)
     if why:
         return [NO_MOTION(variable=path, why=why)]
     found = motion_checks.against_robot(layout.arm, rate, robot.joints, path, robot.id)
+    if len(points) != len(layout.arm):
+        of_points = motion_checks.against_robot(points, points_rate, robot.joints, path, robot.id)
+        turns = [f for f in of_points if f.code == JUMP_FULL_TURN.code]
+        turned = {f.joint for f in turns}
+        jumps = [f for f in found if not (f.code == DISCONTINUITY.code and f.joint in turned)]
+        found = [*turns, *jumps]
     if any(n.code == WAYPOINTS.code for n in notes):
         # the time between waypoints is not known, so their speed is not either
         return [f for f in found if f.code != "velocity_limit"]

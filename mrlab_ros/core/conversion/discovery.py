@@ -187,5 +187,7 @@ def _similar(workspace: Workspace, path: str) -> list[str]:
     """Return paths of matrices, those first that are spelled almost like `path`."""
     wanted = path.lower().rpartition(".")[2]
     matrices = [v.path for v in workspace.variables if v.values is not None and v.values.size > 1]
+    messages = tuple(f"{v.path}." for v in workspace.variables if v.is_message)
+    matrices = [p for p in matrices if not p.startswith(messages)]
     same = [p for p in matrices if p.lower().rpartition(".")[2] == wanted]
     return (same + [p for p in matrices if p not in same])[:5]

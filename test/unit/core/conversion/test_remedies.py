@@ -11,7 +11,7 @@ from mrlab_ros.core.conversion import convert as conversion_convert
 from mrlab_ros.core.conversion.convert import Outcome
 from mrlab_ros.core.conversion.evidence import joining
 from mrlab_ros.core.conversion.options import Options
-from mrlab_ros.core.conversion.workspace import Variable, Workspace
+from mrlab_ros.core.conversion.workspace import JOINT_TRAJECTORY, Variable, Workspace
 
 COEFFICIENTS = load_coefficients(corpus.ROOT / "config" / "torque_proxy.yaml")
 ARM = make_model(6)  # 6 joints, -3 to 3 rad, 2 rad/s
@@ -319,3 +319,22 @@ def test_a_file_of_python_gets_no_lines_of_matlab():
         assert [(f.option, f.value, bool(f.matlab)) for f in fixes] == [
             ("units", "mrad", has_lines)
         ]
+
+
+def message(positions):
+    times = np.arange(len(positions)) / 40.0  # not the default rate: frames are made between them
+    points = Variable("/jt", JOINT_TRAJECTORY, positions.shape, positions, columns=ARM.joint_names)
+    return points, var("/jt.time_from_start", times)
+
+
+def test_points_of_a_message_are_checked_before_lines_join_them():
+    turned = Q.copy()
+    turned[150:, 5] += 2 * np.pi
+    assert followed(message(turned))[0] == [("unwrap", "true")]
+    random = np.random.default_rng(3).uniform(-2, 2, Q.shape)
+    assert codes(convert(*message(random)))[0] == "no_motion"
+
+
+def test_a_topic_that_is_not_there_offers_the_topics_alone():
+    result = convert(*message(Q), variable="/nope")
+    assert [f.value for f in result.diagnostics[0].fixes] == ["/jt"]
