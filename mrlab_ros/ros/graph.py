@@ -18,6 +18,7 @@ from mrlab_ros.core.base.errors import Misuse
 from mrlab_ros.core.base.names import close_to
 from mrlab_ros.messages import qos
 from mrlab_ros.ros.calls import NoAnswer
+from mrlab_ros.ros.decoding import undecoded
 from mrlab_ros.ros.diagnostics import NO_LAB_ANSWERS, NOT_AS_AWAITED, NOTHING_CAME
 
 if TYPE_CHECKING:
@@ -149,6 +150,9 @@ class GraphClient(ABC):
         try:
             robots = watch.wait(lambda _: True, timeout).robots
         except NoAnswer:
+            for foreign in undecoded():
+                if foreign.values["topic"] == "/robots":
+                    raise NoAnswer(foreign) from None
             raise NoAnswer(NO_LAB_ANSWERS(domain=self.domain, fixes=self.advice())) from None
         return robots
 

@@ -9,6 +9,8 @@ from mrlab_msgs import msg
 from mrlab_ros.core.runtime.bucket import Occurrences
 from mrlab_ros.messages import qos
 from mrlab_ros.ros import decoding
+from mrlab_ros.ros.calls import NoAnswer
+from mrlab_ros.ros.graph_node import Graph
 
 GARBAGE = b"\x00\x01\x00\x00" + b"\xff" * 80
 
@@ -50,3 +52,11 @@ def test_a_decoder_without_a_node_counts_too():
     assert heard == []
     (said,) = decoding.undecoded()
     assert said.values["count"] == 2
+
+
+def test_who_asks_for_robots_hears_of_garbage_in_their_place(graph):
+    publisher = graph.client.create_publisher(msg.Robots, "/robots", qos.LATCHED)
+    publisher.publish(GARBAGE)
+    with Graph() as client, pytest.raises(NoAnswer) as refused:
+        client.robots(2.0)
+    assert refused.value.diagnostic.code == "undecodable"

@@ -22,7 +22,7 @@ from math import isfinite
 from typing import Any, Protocol
 
 from mrlab_ros.core.base.foreign_text import visible
-from mrlab_ros.core.base.phrase import Phrase, Value, phrase
+from mrlab_ros.core.base.phrase import Phrase, Value, ended, phrase
 
 # Text that MATLAB takes for a variable or a part of one, and for nothing else; pasted text
 # may hold no other name of a file, such as `q; system('...')`.
@@ -78,7 +78,7 @@ class Diagnostic:
     fixes: tuple[Fix, ...] = ()
 
     def __str__(self) -> str:
-        return f"{self.message} {self.remedy}".strip()
+        return f"{ended(self.message)} {self.remedy}" if self.remedy else self.message
 
     @property
     def refuses(self) -> bool:

@@ -260,3 +260,8 @@ UNITS = {
     "rad/s^2": "turn_acceleration",
     "rad/s^3": "turn_jerk",
 }
+
+
+def ended(text: str) -> str:
+    """Return a text as a sentence that another may follow; a list's line has no full stop."""
+    return text if not text or text.endswith((".", ":", "!", "?")) else f"{text}."

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from mrlab_ros.core.base.phrase import phrase
+from mrlab_ros.core.base.phrase import ended, phrase
 
 CASES = json.loads(Path(__file__).with_name("phrases.json").read_text())
 
@@ -36,3 +36,12 @@ def test_nothing_in_a_value_acts_on_a_terminal():
 @pytest.mark.parametrize("value", [float("nan"), float("inf")])
 def test_a_number_that_is_none_is_shown(value):
     assert phrase("{a:length}").fill({"a": value}).startswith(f"{value:g}")
+
+
+@pytest.mark.parametrize("text", ["", "It is.", "Is it?", "as follows:"])
+def test_a_whole_sentence_stays(text):
+    assert ended(text) == text
+
+
+def test_a_line_of_a_list_becomes_a_sentence():
+    assert ended("disk: 3 GB free") == "disk: 3 GB free."
