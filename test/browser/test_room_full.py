@@ -95,6 +95,7 @@ def test_a_person_works_with_a_robot_on_a_table(headset: Headset, lab: ServedLab
     headset.wait_for("room.supports.some(({ name }) => name === 'table_1')")
 
     headset.press(ROBOT, "remove")
+    headset.press(ROBOT, "remove")
     headset.wait_for("room.handles.size === 0")
     page.evaluate("headset.device.quaternion.set(-0.26, 0, 0, 0.965)")  # looks down at the table
     if "robot ur5e" not in page.evaluate("room.board.panel.ids"):

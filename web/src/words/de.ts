@@ -701,6 +701,11 @@ export const words: Words = {
     scenes: 'Szenen',
     saveScene: 'Diese Szene sichern',
     savedScene: (name: string) => `Gesichert als ${name}.`,
+    asksLoad: (name: string) =>
+      `${name} ersetzt alle Roboter, Objekte und Flächen. Zum Laden noch einmal drücken.`,
+    asksClear: 'Alle Objekte verschwinden. Noch einmal drücken.',
+    asksForget: 'Das Labor vergisst alle Flächen. Noch einmal drücken.',
+    asksRemove: 'Der Roboter verschwindet. Noch einmal drücken.',
     loadScene: (name: string) => `${name} laden`,
     noScenes: 'Noch ist keine Szene gesichert.',
     record: 'Aufzeichnen',

@@ -653,6 +653,11 @@ export const en = {
     scenes: 'Scenes',
     saveScene: 'Save this scene',
     savedScene: (name: string) => `Saved as ${name}.`,
+    asksLoad: (name: string) =>
+      `${name} replaces all robots, objects and surfaces. Press again to load it.`,
+    asksClear: 'All objects go. Press again.',
+    asksForget: 'The lab forgets all surfaces. Press again.',
+    asksRemove: 'The robot goes. Press again.',
     loadScene: (name: string) => `Load ${name}`,
     noScenes: 'No scene is saved yet.',
     record: 'Record',

@@ -2,6 +2,7 @@ import { order } from '../../lab/commands'
 import type { Pose } from '../../protocol/geometry_msgs'
 import { type ObjectType, spawnObjectType, triggerType } from '../../protocol/mrlab_msgs'
 import { named } from '../../words/words'
+import { Asking } from '../panels/asking'
 import { GAP, HIT, TEXT } from '../panels/pen'
 import type { Catalogue, Entry, Lab, Speech } from '../ports'
 import { BOTTOM, drawCards, EDGE, type Tab, TOP } from './board'
@@ -47,6 +48,7 @@ export function objectsTab(
   poseFor: () => Pose,
   count: () => { readonly here: number; readonly most: number },
 ): Tab {
+  const asking = new Asking(ports.say)
   const page = { value: 0 }
   return {
     id: 'objects',
@@ -82,7 +84,9 @@ export function objectsTab(
       const words = ports.words.room.objectCount(here, most)
       pen.lines(EDGE + 250 + GAP, BOTTOM - HIT / 2 - 12, words, TEXT.small, 250, 'second', 2)
       pen.button('clear_objects', EDGE, BOTTOM - HIT, 250, ports.words.room.clearObjects, () => {
-        order(ports, 'physics/clear_objects', triggerType, {})
+        asking.press('clear_objects', ports.words.room.asksClear, () => {
+          order(ports, 'physics/clear_objects', triggerType, {})
+        })
       })
     },
   }

@@ -1,4 +1,5 @@
 import { sentence } from '../../words/diagnostic'
+import { Asking } from '../panels/asking'
 import type { Alignment } from '../place/alignment'
 import type { SceneAnchor } from '../place/anchor'
 import { orderSurfaces, type RoomScan } from '../place/scan'
@@ -24,6 +25,7 @@ export function roomSwitches(
   stage: RoomStage,
   surfaces: () => number,
 ): RoomSwitches {
+  const asking = new Asking(ports.say)
   return {
     lines: () => {
       const standing = {
@@ -63,10 +65,11 @@ export function roomSwitches(
       }
     },
     bringHere: () => alignment.align(ports),
-    forgetSurfaces: () => {
-      orderSurfaces(ports, '', [])
-      scan.tellAgain()
-    },
+    forgetSurfaces: () =>
+      asking.press('forget', ports.words.room.asksForget, () => {
+        orderSurfaces(ports, '', [])
+        scan.tellAgain()
+      }),
     leave: () => visit.leave(),
   }
 }

@@ -11,6 +11,7 @@ import {
   triggerType,
 } from '../../protocol/mrlab_msgs'
 import { fixed } from '../../words/words'
+import { Asking } from '../panels/asking'
 import { Notice } from '../panels/notice'
 import { type Choice, PagedList } from '../panels/paged_list'
 import type { Surroundings } from '../panels/panel'
@@ -44,6 +45,7 @@ export class ControlPanel {
   readonly collisions: number[] = []
   private view: View = 'control'
   private readonly notice = new Notice(() => this.panel.repaint())
+  private readonly asking = new Asking(this.notice.say)
   private readonly lab: Lab
   private paintedAt = 0
   private robot: RobotView
@@ -139,7 +141,9 @@ export class ControlPanel {
   }
 
   private remove(): void {
-    order(this.lab, 'lab/remove_robot', removeType, { name: this.name })
+    this.asking.press('remove', this.ports.words.room.asksRemove, () => {
+      order(this.lab, 'lab/remove_robot', removeType, { name: this.name })
+    })
   }
 
   private draw(pen: Pen): void {
