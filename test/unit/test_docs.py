@@ -44,3 +44,16 @@ def test_every_block_of_commands_says_whether_it_is_run(page: Path) -> None:
 def test_no_block_of_commands_is_indented_past_its_mark(page: Path) -> None:
     outside = re.sub(r"^```.*?^```$", "", page.read_text(), flags=re.M | re.S)
     assert re.findall(r"^ {3,}(?:```|mrlab |ros2 |make |python3? ).*", outside, re.M) == []
+
+
+def test_the_tests_of_the_threat_model_exist():
+    text = (ROOT / "docs/security.md").read_text()
+    model = text.partition("## Threat model")[2].partition("\n## ")[0]
+    named = re.findall(r"`(unit/\S+\.py|node/\S+\.py|test_\w+)`", model)
+    assert len(named) > 30
+    tests = ""
+    for name in named:
+        if name.endswith(".py"):
+            tests = (ROOT / "test" / name).read_text()
+        else:
+            assert f"def {name}" in tests, name
