@@ -119,14 +119,15 @@ export function roomTab(ports: Speech, room: RoomSwitches): Tab {
       pen.button('bring', EDGE, third, width, w.bringHere, () => room.bringHere())
       pen.button('forget', right, third, width, w.forgetSurfaces, () => room.forgetSurfaces())
       const fourth = third + HIT + GAP
-      if (room.canPutBack) {
-        const above = top - HIT - GAP
-        pen.button('put_back', EDGE, above, width, w.putBack, () => room.putBack())
-        pen.button('keep_here', right, above, width, w.keepHere, () => room.keepHere())
-      }
       pen.button('leave', EDGE, fourth, width, w.leave, () => room.leave(), {
         enabled: room.canAlign,
       })
+      if (!room.canPutBack) return
+      const half = (width - GAP) / 2
+      const small = { small: true }
+      pen.button('put_back', right, fourth, half, w.putBack, () => room.putBack(), small)
+      const last = right + half + GAP
+      pen.button('keep_here', last, fourth, half, w.keepHere, () => room.keepHere(), small)
     },
   }
 }
