@@ -268,6 +268,15 @@ UNIT_CONFLICT = Code(
     meaning="Two places of the file say different units of the same matrix.",
     fixes=(("units", "{stated}", ""), ("units", "{second}", "")),
 )
+UNITS_DIFFER = Code(
+    "units_differ",
+    "The file gives columns {columns} of '{variable}' in {stated:choice " + ANGLES + "} and "
+    "columns {others} in {second:choice " + ANGLES + "}; each was taken in its own unit.",
+    "Check that all joints move as they should. If one unit is right for all, name it.",
+    severity=WARNING,
+    meaning="The columns of one matrix have different units; each was converted by its own.",
+    fixes=(("units", "{stated}", ""), ("units", "{second}", "")),
+)
 UNIT_UNREAD = Code(
     "unit_unread",
     "'{source}' says '{words}' of '{variable}', which is no unit of angles that is known; "

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -33,16 +34,18 @@ from mrlab_ros.core.conversion.diagnostics import (
     UNIT_STATED,
     UNIT_UNREAD,
     UNITS_APPLIED,
+    UNITS_DIFFER,
     UNWRAP_APPLIED,
 )
 from mrlab_ros.core.conversion.evidence import statements
 from mrlab_ros.core.conversion.evidence import unit_range as units
 from mrlab_ros.core.conversion.evidence import units as spellings
 from mrlab_ros.core.conversion.evidence.assessment import Assessment
-from mrlab_ros.core.conversion.evidence.headings import BRACKETS, said_by_units
+from mrlab_ros.core.conversion.evidence.headings import BRACKETS, said_by_units, units_of
 from mrlab_ros.core.conversion.evidence.joining import first_path
 from mrlab_ros.core.conversion.evidence.statements import Statement, UnitClaim
 from mrlab_ros.core.conversion.options import UNITS, Options, columns_text
+from mrlab_ros.core.conversion.workspace import Variable
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.trajectory import Array
 
@@ -57,10 +60,12 @@ def in_radians(
     robot: RobotModel,
     said: list[Statement],
     notes: list[Diagnostic],
-) -> tuple[Array, float]:
+    columns: Sequence[int],
+) -> tuple[Array, float | Array]:
     """Bring joints to rad and m; raise BadInput where a unit has to be named first.
 
-    said: what the file states beside the matrix.
+    said: what the file states beside the matrix. columns: those of the matrix, from 0, that the
+    joints are.
     """
     path = assessment.path
     unit, factor = options.factor()
@@ -71,6 +76,8 @@ def in_radians(
         notes += _as_asked(arm, unit, factor, assessment, notes)
         notes += _stated_otherwise(unit, assessment, said)
         arm *= factor
+    elif (each := _factor_of_each(assessment.variable, columns, notes)) is not None:
+        return arm * each, each
     else:
         factor = _stated_factor(assessment, said, notes) or 1.0
         if factor != 1.0:
@@ -112,6 +119,31 @@ def _stated_otherwise(
         _doubtful(assessment.path, UNIT_STATED(source=c.source, stated=c.unit.name))
         for c in others[:1]
     ]
+
+
+def _factor_of_each(
+    variable: Variable, columns: Sequence[int], notes: list[Diagnostic]
+) -> Array | None:
+    """Return the factors to rad of columns whose headings give different units, else None.
+
+    Raises BadInput where one of them has no unit, or one without a factor.
+    """
+    given = units_of(variable, columns)
+    stated = list(dict.fromkeys(u for u in given if u is not None))
+    if len(stated) < 2:
+        return None
+    first, second = stated[:2]
+    listed = [columns_text([c for c, u in zip(columns, given, strict=True) if u == s])
+              for s in (first, second)]  # fmt: skip
+    values: dict[str, Any] = {"variable": variable.path, "columns": listed[0], "others": listed[1]}
+    values |= {"stated": first.name, "second": second.name}
+    factors = np.array([u.factor if u is not None else 0.0 for u in given])
+    if not factors.all():
+        path = variable.path
+        values = {"source": path, "other": path, "stated": first.name, "second": second.name}
+        raise BadInput(UNIT_CONFLICT(variable=path, **values))
+    notes.append(UNITS_DIFFER(**values))
+    return factors
 
 
 def unit_claims(assessment: Assessment, said: list[Statement]) -> list[UnitClaim]:

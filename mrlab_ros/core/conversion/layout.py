@@ -60,15 +60,15 @@ class Layout:
 
     arm: (K, J) rad, in the robot's order. gripper: (K,) true where closed, or None. times: the
     column that holds time, as MATLAB writes it and as stored, or None. source_columns: which
-    columns of the variable, from 0, the joints were. scale: what the joints were multiplied by to
-    be rad or m.
+    columns of the variable, from 0, the joints were. scale: what the joints, or each of them, were
+    multiplied by to be rad or m.
     """
 
     arm: Array
     gripper: NDArray[np.bool_] | None
     times: tuple[str, NDArray[Any]] | None
     source_columns: list[int]
-    scale: float = 1.0
+    scale: float | Array = 1.0
 
 
 def lay_out(chosen: Chosen, survey: Survey, options: Options, notes: list[Diagnostic]) -> Layout:
@@ -119,7 +119,7 @@ def lay_out(chosen: Chosen, survey: Survey, options: Options, notes: list[Diagno
     if column is None and not chosen.without_gripper:
         notes += _gripper_beside(survey.workspace, path, len(arm))
     stated = statements.about(survey.workspace, first_path(path))
-    arm, scale = in_radians(arm, options, assessment, robot, stated, notes)
+    arm, scale = in_radians(arm, options, assessment, robot, stated, notes, by_name[:joints])
     return Layout(arm, held, times, [chosen.picked[i] for i in by_name[:joints]], scale)
 
 

@@ -146,10 +146,14 @@ def _beside(found: Ledger, path: str) -> list[Diagnostic]:
             )
         )
     for e in found.unread(End.TEXT)[:MOST_CLAIMS]:
-        words = e.variable.text.strip()[:80]
+        words = e.variable.text.strip()[:80] or _number(e.variable)
         listed = shortened([f"'{word}'" for word in e.words])
         notes.append(TEXT_UNREAD(variable=path, source=e.path, words=words, unread=listed))
     return notes
+
+
+def _number(v: Variable) -> str:
+    return "" if v.values is None else f"{float(v.values.reshape(-1)[0]):g}"
 
 
 def _answered(found: Diagnostic) -> Diagnostic:

@@ -125,7 +125,7 @@ def at_a_rate(
         return layout, options.frame_rate
     # what the options took of the matrix, in rad; with a column of time or in degrees all is far
     assessment = replace(survey.of(variable), coarse=is_coarse(layout.arm))
-    if layout.scale != 1.0:
+    if np.any(layout.scale != 1.0):
         # a derivative in rad/s of positions in another unit says nothing of the rate
         assessment = replace(assessment, rates=())
     found = frame_rate.find(survey, assessment, variable.path, rows, layout.times, default, file)

@@ -3872,6 +3872,10 @@ export const diagnostics: Templates = {
     "{found:list} {count:choice one=enthält eine Zahl je Gelenk|more=enthalten eine Zahl je Gelenk|factor=kann ein Faktor davon sein}[, und {unread:list} ist unbekannt]: '{variable}' wurde so genommen, wie sie ist.",
     'Sind es Nullpunkte, Vorzeichen oder Faktoren der Gelenke, wende sie an und speichere das Ergebnis als q.',
   ],
+  units_differ: [
+    "Die Datei gibt die Spalten {columns} von '{variable}' in {stated:choice rad=Radiant|deg=Grad|mrad=Milliradiant|urad=Mikroradiant|gon=Gon|turn=Umdrehungen|halfturn=halbe Umdrehungen|cdeg=Hundertstel Grad|mdeg=Tausendstel Grad|arcmin=Bogenminuten|arcsec=Bogensekunden|counts=Zählschritte|%=Prozent|normalized=Anteile eines Bereichs|mm=mm} an, die Spalten {others} aber in {second:choice rad=Radiant|deg=Grad|mrad=Milliradiant|urad=Mikroradiant|gon=Gon|turn=Umdrehungen|halfturn=halbe Umdrehungen|cdeg=Hundertstel Grad|mdeg=Tausendstel Grad|arcmin=Bogenminuten|arcsec=Bogensekunden|counts=Zählschritte|%=Prozent|normalized=Anteile eines Bereichs|mm=mm}; jede wurde in ihrer Einheit genommen.",
+    'Prüfe, ob sich alle Gelenke richtig bewegen. Gilt eine Einheit für alle, nenne sie.',
+  ],
   unwrap_applied: ["Wie gewünscht wurden die Sprünge um 2*pi in '{variable}' entfernt."],
   upload_broke_off: [
     "Das Senden von '{file}' brach ab; nichts wurde behalten.",

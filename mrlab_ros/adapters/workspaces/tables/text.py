@@ -168,6 +168,11 @@ def parsed(data: bytes) -> TextTable:
         lines.pop()
     stated: dict[str, float] = {}
     comments: list[str] = []
+    while len(lines) > 1 and lines[-1].lstrip()[:1] in ("#", "%", ""):
+        below = lines.pop().strip().lstrip("#% ")
+        if below:
+            _state(below, stated)
+            comments.append(below)
     begin, asked, units = labview(lines, stated)
     if not begin:
         begin, asked = marked(lines, stated, comments)

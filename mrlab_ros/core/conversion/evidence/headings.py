@@ -222,6 +222,16 @@ def said_by_units(given: tuple[str, ...]) -> Name:
     return Name(Hint.NEUTRAL, unit=unit if unit is not None and unit.is_angle else None)
 
 
+def units_of(variable: Variable, columns: Sequence[int]) -> list[units.Unit | None]:
+    """Return the unit of angles that the file gives for each of some columns, from 0."""
+    if len(variable.units) == variable.shape[1] > 1:
+        given = [units.parse(text) for text in variable.units]
+        return [u if (u := given[c]) is not None and u.is_angle else None for c in columns]
+    if len(variable.columns) == variable.shape[1]:
+        return [plain(variable.columns[c])[1] for c in columns]
+    return [None] * len(columns)
+
+
 GRIPPER = "gripper"
 
 

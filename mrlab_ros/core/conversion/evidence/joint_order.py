@@ -240,8 +240,14 @@ def _named_as_joints(v: Variable, headings: tuple[str, ...], robot: RobotModel) 
     names = list(headings)
     for joint, column in zip(joints, found, strict=True):
         names[column] = joint
-    given = next((unit for c in found if (unit := plain(headings[c])[1])), None)
-    return replace(v, columns=tuple(names), units=(given.name,) if given else v.units)
+    return replace(v, columns=tuple(names), units=_units_of(headings, found) or v.units)
+
+
+def _units_of(headings: Sequence[str], joints: list[int]) -> tuple[str, ...]:
+    """Return the unit that the headings of joints give, or that of each where they differ."""
+    given = [unit.name if (unit := plain(h)[1]) else "" for h in headings]
+    of_joints = {given[c] for c in joints if given[c]}
+    return tuple(given) if len(of_joints) > 1 else tuple(of_joints)
 
 
 def _affixed(headings: list[str], joints: tuple[str, ...]) -> list[int] | None:

@@ -106,6 +106,8 @@ TIMED = re.compile(
 )
 LEAST_STEP, MOST_STEP = 1e-4, 0.5  # s; of a number that no word explains
 ENOUGH = 8  # numbers of a vector that rises
+ANGLE_FACTORS = (np.pi / 180, 180 / np.pi, np.pi / 200, 200 / np.pi)
+FLAGS = (Class.UNIT_FLAG, Class.ANGLE, Class.UNIT_KEY)
 MOST_ENTRIES = 3000
 SAME = 0.01
 FAR = 99  # how near what belongs to another struct is
@@ -132,6 +134,7 @@ class _Matrix:
     assumed: bool
     robot: frozenset[str]
     ends: NDArray[Any]
+    unit_stated: bool = False
 
     def begins_or_ends_at(self, posture: NDArray[Any]) -> bool:
         """Say whether one number a joint, such as q0, is its first or its last row."""
@@ -158,7 +161,10 @@ def read(
     values = None if held is None else held.values
     ends = np.empty((2, 0)) if values is None or values.ndim != 2 else values[[0, -1]]
     assumed = rate.standing is Standing.ASSUMED
-    matrix = _Matrix(own, *size, float(rate.value), assumed, frozenset(parts(robot)), ends)
+    unit_stated = any(c.about is About.UNIT for c in claims)
+    matrix = _Matrix(
+        own, *size, float(rate.value), assumed, frozenset(parts(robot)), ends, unit_stated
+    )
     known = {c.source for c in claims} | set(told) | {own, path}
     near = {v.path: n for n, v in reversed(statements.nearby(workspace, own))}
     listed = [v for v in workspace.variables if v.path in near or assumed]
@@ -217,6 +223,10 @@ def _number(s: Statement, matrix: _Matrix) -> Entry:
     v, words = s.variable, s.words
     assert v.values is not None
     number = float(np.asarray(v.values).reshape(-1)[0])
+    if s.near <= 2 and not matrix.unit_stated and number in ANGLE_FACTORS:
+        return Entry(v, End.FACTOR)
+    if number == 1.0 and s.near <= 2 and (done := _may_be_done(words)):
+        return Entry(v, End.TEXT, done)
     counts = (0.0, 1.0, matrix.rows, matrix.joints, matrix.joints + 1)
     if not np.isfinite(number) or number in counts:
         return Entry(v, End.HARMLESS)
@@ -242,6 +252,18 @@ def _number(s: Statement, matrix: _Matrix) -> Entry:
     if touching or factor or of_angles or (not settled and _unread(words)):
         return Entry(v, End.FACTOR, _unread(words))
     return Entry(v, End.HARMLESS)
+
+
+def _may_be_done(words: Sequence[Word]) -> tuple[str, ...]:
+    """Return the words of a flag that is set and may change a motion: rad2deg_applied = 1."""
+    if len(words) < 2 or not any(w.unit is not None and w.unit.is_angle for w in words):
+        return ()
+    flags = all(w.can_be(*FLAGS) or w.unit is not None for w in words)
+    return () if flags and len({w.unit for w in words if w.unit}) == 1 else _texts(words)
+
+
+def _texts(words: Sequence[Word]) -> tuple[str, ...]:
+    return tuple(w.text for w in words)
 
 
 def _may_be_time(number: float) -> bool:

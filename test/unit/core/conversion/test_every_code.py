@@ -121,6 +121,7 @@ EXAMPLES = {
     "doubtful_values": Example([var("q", np.tile(Q[:1], (ROWS, 1)))]),
     "tool_path_differs": Example([var("q", Q), var("tcp", POSES[::-1] * 1.5)]),
     "unit_unread": Example([var("q", Q), text("unit", "ells")]),
+    "units_differ": Example([var("q", Q, units=("rad",) * 5 + ("deg",))]),
     "order_stated": Example([var("q", Q), var("joint_order", [2, 1, 3, 4, 5, 6])]),
     "motor_side": Example([var("q", Q), var("gear_ratio", [100.0])]),
     "text_unread": Example([var("q", Q), text("note", "mirrored for the left arm")]),

@@ -7,6 +7,7 @@ import pytest
 from fakes import make_model
 
 from mrlab_ros.adapters.trajectories.files import load_coefficients
+from mrlab_ros.adapters.workspaces.tables.text import parsed
 from mrlab_ros.core.conversion import convert as conversion_convert
 from mrlab_ros.core.conversion.convert import Outcome
 from mrlab_ros.core.conversion.options import Options
@@ -183,3 +184,37 @@ def test_columns_of_poses_are_doubted():
     stack = np.hstack([Q[:, :3], turns])
     taken = accepted(var("traj", stack), variable="traj", columns="1:6")
     assert "doubtful_values" in {w.code for w in taken.warnings}
+
+
+UNITS = ["rad", "rad", "rad", "deg", "deg", "deg"]
+
+
+def test_each_column_is_taken_in_the_unit_of_its_heading():
+    small = Q / 10
+    mixed = np.column_stack([small[:, :3], np.degrees(small[:, 3:])])
+    found = table(*(f"q{n + 1} [{unit}]" for n, unit in enumerate(UNITS)), values=mixed)
+    assert found.trajectory is not None
+    assert "units_differ" in codes(found)
+    assert np.allclose(found.trajectory.positions, small)
+
+
+def test_units_stay_with_their_columns_where_names_change_the_order():
+    small = Q / 10
+    mixed = np.column_stack([small[:, :3], np.degrees(small[:, 3:])])[:, ::-1]
+    headings = [f"q{n} [{unit}]" for n, unit in zip(range(1, 7), UNITS, strict=True)]
+    found = table(*headings[::-1], values=mixed)
+    assert found.trajectory is not None
+    assert "units_differ" in codes(found)
+    assert np.allclose(found.trajectory.positions, small)
+
+
+def test_columns_without_a_unit_beside_different_ones_are_asked_about():
+    found = table("q1 [rad]", "q2 [deg]", "q3", "q4", "q5", "q6")
+    assert codes(found) == {"unit_conflict"}
+
+
+def test_a_unit_below_a_table_is_obeyed():
+    body = "".join(",".join(f"{x:.6f}" for x in row) + "\n" for row in np.degrees(Q))
+    read = parsed(("j1,j2,j3,j4,j5,j6\n" + body + "# unit: deg\n").encode())
+    assert read.values.shape == Q.shape
+    assert read.comments == ["unit: deg"]
