@@ -31,7 +31,7 @@ from mrlab_ros.core.conversion.diagnostics import (
 )
 from mrlab_ros.core.conversion.evidence import joining, other_columns
 from mrlab_ros.core.conversion.evidence.assessment import Assessment
-from mrlab_ros.core.conversion.evidence.headings import split_tables
+from mrlab_ros.core.conversion.evidence.headings import split_tables, with_stamps
 from mrlab_ros.core.conversion.evidence.joint_order import with_headings, with_statements
 from mrlab_ros.core.conversion.evidence.survey import Survey, fits, survey
 from mrlab_ros.core.conversion.layout import Layout, lay_out
@@ -357,7 +357,7 @@ def _prepared(
 
     The second is the path of the matrix that the options name, or empty.
     """
-    workspace = other_columns.with_times(workspace)
+    workspace = with_stamps(other_columns.with_times(workspace))
     workspace = split_tables(with_headings(workspace, robot), robot)
     wanted = options.variable
     if workspace.find(wanted) is None:

@@ -10,12 +10,14 @@ from typing import Any
 
 import numpy as np
 import orjson
+from numpy.typing import NDArray
 
 from mrlab_ros.adapters.workspaces.diagnostics import LIBRARY_FAILED, NO_JSON_OBJECT, NO_MATRIX_Q
 from mrlab_ros.adapters.workspaces.matlab.elements import Damaged, TooLarge, is_vector
 from mrlab_ros.adapters.workspaces.matlab.mat5 import INTEGERS, LONGEST_TEXT
 from mrlab_ros.adapters.workspaces.sinks import Found, Sink, View
 from mrlab_ros.adapters.workspaces.tables import matlab_text, text
+from mrlab_ros.adapters.workspaces.tables.cells import is_instant, seconds
 from mrlab_ros.core.conversion.evidence.headings import GRIPPER
 from mrlab_ros.core.conversion.workspace import COMMENT
 
@@ -133,6 +135,8 @@ def _add_records(records: list[Any], sink: Sink) -> None:
         name, column = str(key), [record.get(key) for record in records]
         if isinstance(column[0], str) and column.count(column[0]) == len(column):
             sink.add(Found(name, "string", (1, 1), text=column[0][:LONGEST_TEXT]))
+        elif (times := _instants(column)) is not None:
+            _add(sink, name, times)
         elif (values := _numbers(column)) is None:
             sink.add(Found(name, "cell", (len(column), 1)))
         elif values.ndim == 2 or name.lower() in TIME_HEADINGS:
@@ -142,6 +146,14 @@ def _add_records(records: list[Any], sink: Sink) -> None:
     if headings:
         # no name that says more than the headings
         _add(sink, RECORDS, np.column_stack(list(headings.values())), tuple(headings))
+
+
+def _instants(column: list[Any]) -> NDArray[np.float64] | None:
+    """Return dates and times of day as s since the first, or None where they are none."""
+    if not all(isinstance(text, str) and is_instant(text) for text in column):
+        return None
+    found = [s for s in seconds(column) if s is not None]
+    return np.array(found, dtype=np.float64) if len(found) == len(column) else None
 
 
 def read_json(data: memoryview, sink: Sink) -> None:
@@ -189,7 +201,8 @@ def _add_members(document: dict[str, Any], path: str, sink: Sink, deepest: int) 
             kind = "string" if isinstance(content, str) else "logical"
             sink.add(Found(name, kind, (1, 1), text=said[:LONGEST_TEXT]))
         elif isinstance(content, list) and content and all(isinstance(c, str) for c in content):
-            _add(sink, name, np.array(content[:MOST_COMMENTS]))
+            times = _instants(content)
+            _add(sink, name, np.array(content[:MOST_COMMENTS]) if times is None else times)
         elif _are_records(content):
             _add_records(content, sink)
         elif (values := _numbers(content)) is not None:

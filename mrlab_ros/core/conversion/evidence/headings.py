@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import itertools
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
@@ -127,6 +127,35 @@ def _stamps(table: Variable) -> list[Variable]:
             times = whole - whole[0] + table.values[:, c + 1 : c + 2] * 1e-9
             return [Variable("stamp", table.kind, times.shape, times - times[0])]
     return []
+
+
+def _paired_stamps(workspace: Workspace) -> Iterator[Variable]:
+    """Yield the times whose seconds and nanoseconds are two vectors, as ROS has it."""
+    vectors = {
+        v.path: v for v in workspace.variables if v.values is not None and min(v.shape) == 1
+    }
+    for path, v in vectors.items():
+        match = re.search(r"(?:^|[._])([a-z]+)$", path.lower())
+        if match is None or match[1] not in SECONDS or v.values is None or v.values.size < 3:
+            continue
+        begin = path[: match.start(1)]
+        other = next((o for n in NANOSECONDS if (o := vectors.get(begin + n))), None)
+        if other is None or other.values is None or other.values.size != v.values.size:
+            continue
+        whole = v.values.reshape(-1, 1).astype(float)
+        times = whole - whole[0] + other.values.reshape(-1, 1) * 1e-9
+        stamp = f"{begin}stamp"
+        yield Variable(stamp, v.kind, times.shape, times - times[0], label=f"{path} {other.path}")
+
+
+def with_stamps(workspace: Workspace) -> Workspace:
+    """Return the workspace with each pair of seconds and nanoseconds as one vector of times."""
+    stamps = [s for s in _paired_stamps(workspace) if workspace.find(s.path) is None]
+    parts = {path for stamp in stamps for path in stamp.label.split()}
+    if not stamps:
+        return workspace
+    kept = tuple(v for v in workspace.variables if v.path not in parts)
+    return replace(workspace, variables=(*kept, *(replace(s, label="") for s in stamps)))
 
 
 def split_tables(workspace: Workspace, robot: RobotModel) -> Workspace:

@@ -245,6 +245,8 @@ def _number(s: Statement, matrix: _Matrix) -> Entry:
         return Entry(v, End.EXPLAINED)
     if s.near > 2:
         return Entry(v, End.HARMLESS)
+    if timed and rate_scalars.FOREIGN & {w.text for w in words}:
+        return Entry(v, End.HARMLESS)
     if timed and (words[-1].text in TIME_UNITS or not factor):
         likely = rate_scalars.LIKELY_RATES[0] <= rate <= rate_scalars.LIKELY_RATES[1]
         rated = any(w.can_be(Class.PERIOD, Class.RATE) and len(w.text) > 1 for w in words)

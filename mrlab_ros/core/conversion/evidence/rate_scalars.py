@@ -43,7 +43,10 @@ DURATION_NAMES = words(
 SPANS = words("tspan timespan tintervall zeitbereich")
 LIKELY_OF_DURATION = (5.0, 1000.0)  # Hz
 # structures whose steps and rates are not those of a trajectory
-FOREIGN = words("controller regler filter emg cam camera kamera force kraft ft imu audio plot")
+FOREIGN = words(
+    "controller regler filter emg eeg cam camera kamera camara fotocamera force kraft ft imu "
+    "audio plot video mocap optitrack vicon lidar mic microphone mikrofon sound forces torque"
+)
 OF_RATES = (
     Class.CLOCK, Class.PERIOD, Class.RATE, Class.SAMPLING, Class.KEPT, Class.ROLE, Class.ARM,
     Class.SYMBOL, Class.JOINT,
@@ -114,7 +117,8 @@ def scalars(workspace: Workspace, path: str, rows: int, coarse: bool) -> list[Sc
             rate, sure = 0.0, False
         if rate and not LEAST_RATE <= rate <= MOST_RATE:
             rate = 0.0
-        foreign = sure and _is_foreign(workspace, v.path, near, rows)
+        foreign = bool(FOREIGN & set(said))
+        foreign = foreign or (sure and _is_foreign(workspace, v.path, near, rows))
         sure = sure and not foreign
         scalar = Scalar(v.path, snapped(rate) if rate else 0.0, sure, foreign)
         found.append((not sure, v.path.rpartition(".")[0] != near, scalar))

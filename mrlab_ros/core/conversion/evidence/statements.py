@@ -77,7 +77,8 @@ def nearby(workspace: Workspace, matrix: str) -> list[tuple[int, Variable]]:
         found += [(steps, v) for v in small.get(place, ())]
         for struct in workspace.small:
             inside = struct.startswith(f"{place}." if place else "") and struct != place
-            if inside and struct[-1:] not in ")}" and _is_about(struct[len(place) :]):
+            own = struct.endswith(f".{matrix}")  # features.q.names is about q
+            if inside and struct[-1:] not in ")}" and (own or _is_about(struct[len(place) :])):
                 found += [(steps + 1, v) for v in small[struct]]
         if not place:
             return found

@@ -105,3 +105,11 @@ def test_other_floats_and_structured_arrays_are_read():
     assert found["t"].ravel().tolist() == [0, 0.1]
     np.testing.assert_array_equal(found["pose"], Q)
     np.testing.assert_array_equal(found["q"][:, 5], [3, 4])
+
+
+def test_dates_in_json_are_seconds_since_the_first():
+    dates = ["2026-01-01T23:59:59.900Z", "2026-01-02T00:00:00.100Z"]
+    records = [{"date": date, "q": list(row)} for date, row in zip(dates, Q, strict=True)]
+    for document in (records, {"date": dates, "q": Q.tolist()}):
+        found = read(json.dumps(document).encode(), "a.json")
+        np.testing.assert_allclose(found["date"].ravel(), [0, 0.2], atol=1e-9)

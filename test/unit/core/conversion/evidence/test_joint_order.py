@@ -218,3 +218,26 @@ def test_a_unit_below_a_table_is_obeyed():
     read = parsed(("j1,j2,j3,j4,j5,j6\n" + body + "# unit: deg\n").encode())
     assert read.values.shape == Q.shape
     assert read.comments == ["unit: deg"]
+
+
+@pytest.mark.parametrize("names", [("sec", "nanosec"), ("log.t_secs", "log.t_nsecs")])
+def test_seconds_and_nanoseconds_are_one_time(names):
+    ns = 20_000_000 * np.arange(len(Q))
+    first, second = (n.reshape(-1, 1).astype(float) for n in np.divmod(ns, 1_000_000_000))
+    path = "log.q" if "." in names[0] else "q"
+    found = accepted(var(path, Q), var(names[0], first + 1.7e9), var(names[1], second))
+    assert found.frame_rate == 50
+
+
+def test_the_rate_of_a_camera_is_not_that_of_the_joints():
+    found = convert(var("q", Q), var("camera_fps", np.array([[60.0]])))
+    assert found.trajectory is not None
+    assert found.trajectory.frame_rate == 100
+    assert "rate_unclear" in codes(found)
+
+
+@pytest.mark.parametrize("path", ["features.q.names", "meta.data.q.names"])
+def test_names_in_a_struct_called_as_the_matrix_are_its_columns(path):
+    names = [text(f"{path}{{{n}}}", f"j{7 - n}") for n in range(1, 7)]
+    found = accepted(var("q", Q[:, ::-1]), *names)
+    assert np.allclose(found.positions, Q)

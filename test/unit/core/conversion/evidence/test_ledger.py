@@ -51,6 +51,7 @@ def test_what_may_be_a_time_is_unread_where_nothing_states_the_rate(path, values
         ("step", 20.0, End.EXPLAINED),
         ("duration", (ROWS - 1) / 50, End.EXPLAINED),
         ("cycle_time", 0.008, End.TIME),
+        ("emg_fs", 1000.0, End.HARMLESS),
         ("mass", 2.5, End.HARMLESS),
         ("k", np.pi / 180, End.FACTOR),
         ("rad2deg_applied", 1.0, End.TEXT),
