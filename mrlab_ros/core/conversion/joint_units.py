@@ -206,11 +206,15 @@ def _unread_in_headings(assessment: Assessment) -> list[tuple[str, str]]:
     found = []
     for heading in assessment.variable.columns:
         match = BRACKETS.search(heading)
-        unit = spellings.parse(match[1]) if match else None
-        known = unit is not None and (unit.is_angle or unit.quantity in ("none", spellings.TIMES))
-        if match and match.start() and not match[1].isdigit() and not known:
+        if match and match.start() and not match[1].isdigit():
             found.append((heading, match[1]))
-    return found
+    found += [(assessment.path, text) for text in assessment.variable.units if text.strip()]
+    return [(source, text) for source, text in found if not _may_be_of_joints(text)]
+
+
+def _may_be_of_joints(text: str) -> bool:
+    unit = spellings.parse(text)
+    return unit is not None and (unit.is_angle or unit.quantity in ("none", spellings.TIMES))
 
 
 def _refuse_other_units(

@@ -23,7 +23,7 @@ from mrlab_ros.core.conversion.diagnostics import (
     TEXT_UNREAD,
     UNUSED_BESIDE,
 )
-from mrlab_ros.core.conversion.evidence import joining, joint_order, ledger, statements
+from mrlab_ros.core.conversion.evidence import headings, joining, joint_order, ledger, statements
 from mrlab_ros.core.conversion.evidence.joining import first_path
 from mrlab_ros.core.conversion.evidence.ledger import About, Claim, End, Ledger, Standing
 from mrlab_ros.core.conversion.evidence.names import Name
@@ -223,7 +223,7 @@ def _orders(said: list[Statement], variable: Variable, robot: RobotModel) -> lis
         )
         return [ORDER_UNCLEAR(joints=joints, fixes=fixes, **words)]
     if variable.columns:
-        return []
+        return _headings(variable, robot)
     for names in joint_order.names_claims(said, variable.shape[1])[:MOST_CLAIMS]:
         meant = names.names[:joints]
         if joint_order.order_of_names(meant, robot) is None and not _numbers_alone(meant):
@@ -238,6 +238,24 @@ def _orders(said: list[Statement], variable: Variable, robot: RobotModel) -> lis
                 )
             ]
     return []
+
+
+def _headings(variable: Variable, robot: RobotModel) -> list[Diagnostic]:
+    """Return the question of headings that number other joints than the robot has."""
+    joints = len(robot.joints)
+    names = [headings.plain(h)[0] for h in variable.columns[:joints]]
+    if headings.names_joints(variable, robot) or not joint_order.counts_otherwise(names, robot):
+        return []
+    return [
+        NAMES_OTHER(
+            variable=variable.path,
+            source=variable.path,
+            words=" ".join(shortened(list(variable.columns))),
+            model=robot.id,
+            joints=list(robot.joint_names),
+            fixes=_yes(variable),
+        )
+    ]
 
 
 def _numbers_alone(names: tuple[str, ...]) -> bool:

@@ -11,7 +11,14 @@ import numpy as np
 
 from mrlab_ros.core.conversion.evidence import joining, statements, units
 from mrlab_ros.core.conversion.evidence.glossary import Class
-from mrlab_ros.core.conversion.evidence.headings import GRIPPER, MOST_HEADINGS, names_joints, plain
+from mrlab_ros.core.conversion.evidence.headings import (
+    BRACKETS,
+    GRIPPER,
+    MOST_HEADINGS,
+    foreign_quantity,
+    names_joints,
+    plain,
+)
 from mrlab_ros.core.conversion.evidence.names import Hint, describe, described, spelled
 from mrlab_ros.core.conversion.evidence.statements import Statement
 from mrlab_ros.core.conversion.evidence.time_vectors import is_time_name
@@ -22,6 +29,14 @@ SPLIT = re.compile(r"[\n;,|]+|\s{1,}(?=\D)")
 NUMBERED = re.compile(r"(?P<before>\D*)(?P<number>\d+)(?P<after>\D*)$")
 # joints by their place in an arm, from the base to the flange
 PLACES = ("base", "shoulder", "elbow", "wrist", "wrist", "wrist")
+PLACE_WORDS = {
+    "base": "base basis sockel socle",
+    "shoulder": "shoulder schulter epaule hombro spalla ombro schouder bark",
+    "elbow": "elbow ellbogen ellenbogen coude codo gomito cotovelo elleboog lokiec",
+    "wrist": "wrist handgelenk poignet muneca polso pulso punho pols nadgarstek",
+}
+FEWEST_NUMBERED = 3  # of one name, such as q1 to q3
+PLACE_OF = {word: place for place, words in PLACE_WORDS.items() for word in words.split()}
 
 
 @dataclass(frozen=True)
@@ -88,11 +103,9 @@ def names_claims(said: list[Statement], count: int) -> list[NamesClaim]:
 
 def order_of_names(names: Sequence[str], robot: RobotModel) -> tuple[int, ...] | None:
     """Return the joint, from 0, that each name means; None where they are not the robot's."""
-    joints = [set(_tokens(j)) for j in robot.joint_names]
-    tokens = [set(_tokens(n)) for n in names]
-    exact = [_only([i for i, j in enumerate(joints) if j == t]) for t in tokens]
-    if None not in exact and len(set(exact)) == len(joints):
-        return tuple(i for i in exact if i is not None)
+    by_words = order_of_words(names, robot)
+    if by_words is not None:
+        return by_words
     numbers = [NUMBERED.match(n.strip()) for n in names]
     if all(numbers) and len({spelled(m["before"] + m["after"]) for m in numbers if m}) == 1:
         said = described(numbers[0]["before"]) if numbers[0] else []
@@ -108,19 +121,49 @@ def order_of_names(names: Sequence[str], robot: RobotModel) -> tuple[int, ...] |
             and sorted(counted) == list(range(first, first + len(counted)))
         ):
             return tuple(n - first for n in counted)
-        return None
-    part = [_only([i for i, j in enumerate(joints) if t and t <= j]) for t in tokens]
-    if None not in part and len(set(part)) == len(joints):
-        return tuple(i for i in part if i is not None)
-    if len(names) == len(PLACES) and all(p in t for p, t in zip(PLACES, tokens, strict=True)):
-        return tuple(range(len(names)))
     return None
+
+
+def order_of_words(names: Sequence[str], robot: RobotModel) -> tuple[int, ...] | None:
+    """Return the joint, from 0, that each name means by its words, such as elbow; else None."""
+    joints = [set(_tokens(j)) for j in robot.joint_names]
+    tokens = [set(_tokens(n)) for n in names]
+    exact = [_only([i for i, j in enumerate(joints) if j == t]) for t in tokens]
+    part = [_only([i for i, j in enumerate(joints) if t and t <= j]) for t in tokens]
+    for found in (exact, part):
+        if None not in found and len(set(found)) == len(joints):
+            return tuple(i for i in found if i is not None)
+    places = [_only([PLACES.index(p) for p in PLACE_WORDS if p in t]) for t in tokens]
+    known = [p for p in places if p is not None]
+    if len(joints) != len(PLACES) or sorted(known) != sorted(map(PLACES.index, PLACES)):
+        return None
+    numbers = [max((int(t) for t in words if t.isdigit()), default=0) for words in tokens]
+    ranked = sorted(range(len(known)), key=lambda c: (known[c], numbers[c]))
+    return tuple(ranked.index(c) for c in range(len(known)))
+
+
+def counts_otherwise(names: Sequence[str], robot: RobotModel) -> bool:
+    """Say whether names of columns that are numbered do not count all joints, from 0 or 1.
+
+    So do q1 to q5 and temp, q2 to q7, and q1 to q3 and dq1 to dq3.
+    """
+    if order_of_names(names, robot) is not None:
+        return False
+    found = [re.search(r"\d+(?=\D*$)", name) for name in names]
+    around = [(m.string[: m.start()], m.string[m.end() :]) for m in found if m]
+    if not around or max(Counter(around).values()) < FEWEST_NUMBERED:
+        return False
+    numbers = sorted(int(m[0]) for m in found if m)
+    first = numbers[0]
+    counted = first in (0, 1) and numbers == list(range(first, first + len(names)))
+    return len(set(around)) > 1 or not counted
 
 
 def _tokens(text: str) -> list[str]:
     spaced = re.sub(r"(?<=[a-z])(?=[A-Z])", "_", text)
     found = [p for p in re.split(r"[\W_]+|(?<=[a-z])(?=\d)", spelled(spaced)) if p]
-    return [p for p in found if p not in ("joint", "position", "pos", "q", "angle")]
+    kept = [p for p in found if p not in ("joint", "position", "pos", "q", "angle")]
+    return [PLACE_OF.get(p, p) for p in kept]
 
 
 def _only(found: list[int]) -> int | None:
@@ -234,7 +277,7 @@ def _named_as_joints(v: Variable, headings: tuple[str, ...], robot: RobotModel) 
     bare = [plain(h)[0] for h in headings]
     found = _affixed(bare, joints)
     if found is None:
-        found = _numbered(bare, len(joints))
+        found = _numbered(bare, len(joints)) or _worded(bare, headings, robot)
     if found is None:
         return v
     names = list(headings)
@@ -245,9 +288,17 @@ def _named_as_joints(v: Variable, headings: tuple[str, ...], robot: RobotModel) 
 
 def _units_of(headings: Sequence[str], joints: list[int]) -> tuple[str, ...]:
     """Return the unit that the headings of joints give, or that of each where they differ."""
-    given = [unit.name if (unit := plain(h)[1]) else "" for h in headings]
+    given = [_unit_in(h) for h in headings]
     of_joints = {given[c] for c in joints if given[c]}
     return tuple(given) if len(of_joints) > 1 else tuple(of_joints)
+
+
+def _unit_in(heading: str) -> str:
+    """Return the unit of angles in a heading, or what stands in brackets instead; or empty."""
+    unit, match = plain(heading)[1], BRACKETS.search(heading)
+    if unit is not None:
+        return unit.name
+    return match[1] if match and match.start() and not match[1].isdigit() else ""
 
 
 def _affixed(headings: list[str], joints: tuple[str, ...]) -> list[int] | None:
@@ -270,6 +321,15 @@ def _affixed(headings: list[str], joints: tuple[str, ...]) -> list[int] | None:
 def _is_foreign(affix: str) -> bool:
     text = re.sub(r"[^0-9A-Za-zÀ-ɏ]+", "_", affix).strip("_")
     return bool(text) and describe(text).hint in UNLIKELY
+
+
+def _worded(bare: list[str], headings: Sequence[str], robot: RobotModel) -> list[int] | None:
+    """Return the columns of elbow, shoulder, base and the like in the robot's order, or None."""
+    columns = [c for c, name in enumerate(bare) if not is_time_name(name)][: len(robot.joints)]
+    order = order_of_words([bare[c] for c in columns], robot)
+    if order is None or foreign_quantity(headings):
+        return None
+    return [columns[order.index(j)] for j in range(len(order))]
 
 
 def _numbered(headings: list[str], joints: int) -> list[int] | None:

@@ -241,3 +241,36 @@ def test_names_in_a_struct_called_as_the_matrix_are_its_columns(path):
     names = [text(f"{path}{{{n}}}", f"j{7 - n}") for n in range(1, 7)]
     found = accepted(var("q", Q[:, ::-1]), *names)
     assert np.allclose(found.positions, Q)
+
+
+@pytest.mark.parametrize(
+    "headings",
+    [
+        ["q1", "q2", "q3", "q4", "q5", "temp"],
+        ["q1", "q2", "q3", "q4", "q5", "q7"],
+        ["q1", "q2", "q3", "q4", "q5", "q5"],
+        ["q2", "q3", "q4", "q5", "q6", "q7"],
+        ["q1", "q2", "q3", "dq1", "dq2", "dq3"],
+    ],
+)
+def test_headings_that_number_other_joints_are_asked_about(headings):
+    found = table(*headings)
+    assert found.outcome is Outcome.AMBIGUOUS
+    assert "names_other" in codes(found)
+    assert accepted(var("q", Q, columns=tuple(headings)), variable="q").positions.shape == Q.shape
+
+
+@pytest.mark.parametrize(
+    "headings",
+    [
+        ["elbow", "shoulder", "base", "wrist_1", "wrist_2", "wrist_3"],
+        ["Coude", "Épaule", "Base", "Poignet1", "Poignet2", "Poignet3"],
+        ["codo", "hombro", "base", "muñeca 1", "muñeca 2", "muñeca 3"],
+        ["Ellbogen", "Schulter", "Basis", "Handgelenk1", "Handgelenk2", "Handgelenk3"],
+    ],
+)
+def test_places_in_the_arm_are_its_joints_in_several_languages(headings):
+    found = table(*headings, values=Q[:, [2, 1, 0, 3, 4, 5]])
+    assert found.trajectory is not None
+    assert codes(found) == {"joints_matched", "rate_default"}
+    assert np.allclose(found.trajectory.positions, Q)
