@@ -281,14 +281,11 @@ def _gripper_beside(workspace: Workspace, path: str, rows: int) -> list[Diagnost
     for v in workspace.variables:
         if v.values is None or v.values.size != rows or min(v.shape) != 1:
             continue
-        if any(word.can_be(Class.GRIPPER) for word in described(v.label or v.path)):
-            column = matlab_name(v.path) + "(:)"
+        words = described(v.label or v.path)
+        opens = bool(OPENING & {w.text for w in words}) and len(np.unique(v.values)) == 2
+        if opens or any(word.can_be(Class.GRIPPER) for word in words):
+            column = f"{'1 - ' if opens else ''}{matlab_name(v.path)}(:)"
             line = f"q = [{matlab_name(path)} {column}]; save('traj.mat', 'q')"
-            return [
-                GRIPPER_BESIDE(
-                    variable=v.path,
-                    size=v.size,
-                    fixes=(Fix("gripper", v.path, line),),
-                )
-            ]
+            fix = Fix(matlab=line) if opens else Fix("gripper", v.path, line)
+            return [GRIPPER_BESIDE(variable=v.path, size=v.size, fixes=(fix,))]
     return []

@@ -335,3 +335,15 @@ _PROSE = """
     elke
     """
 PROSE = frozenset(_PROSE.split())
+
+# words that say what may still have to be done to a motion; they do not explain a name
+_PENDING = """
+    flip flipped flipud fliplr mirror mirrored mirroring invert inverted inverse reverse reversed
+    negate swap swapped relative incremental increment increments delta deltas interp interpolate
+    interpolation upsample downsample upsampling downsampling decimate decimation stride unwrap
+    rotate offset shift spiegeln gespiegelt spiegel spiegelung invertieren invertiert umkehren
+    umgekehrt rueckwaerts relativ inkrementell miroir inverser inversee relatif
+    incrementale espejo invertir invertido invertida relativo relativa specchio speculare
+    invertito invertita espelho inverso
+    """
+PENDING = frozenset(_PENDING.split())

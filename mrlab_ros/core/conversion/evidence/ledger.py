@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrlab_ros.core.conversion.evidence import rate_scalars, statements, units
-from mrlab_ros.core.conversion.evidence.glossary import PROSE, Class
+from mrlab_ros.core.conversion.evidence.glossary import PENDING, PROSE, Class
 from mrlab_ros.core.conversion.evidence.joining import first_path
 from mrlab_ros.core.conversion.evidence.names import Hint, Word, described, hint, leaf, parts
 from mrlab_ros.core.conversion.evidence.statements import ELEMENT, Statement
@@ -107,6 +107,7 @@ TIMED = re.compile(
 LEAST_STEP, MOST_STEP = 1e-4, 0.5  # s; of a number that no word explains
 ENOUGH = 8  # numbers of a vector that rises
 ANGLE_FACTORS = (np.pi / 180, 180 / np.pi, np.pi / 200, 200 / np.pi)
+NOTHING = frozenset(("none", "no", "off", "false", "linear", "0", "keine", "aus", "aucun"))
 FLAGS = (Class.UNIT_FLAG, Class.ANGLE, Class.UNIT_KEY)
 MOST_ENTRIES = 3000
 SAME = 0.01
@@ -225,7 +226,7 @@ def _number(s: Statement, matrix: _Matrix) -> Entry:
     number = float(np.asarray(v.values).reshape(-1)[0])
     if s.near <= 2 and not matrix.unit_stated and number in ANGLE_FACTORS:
         return Entry(v, End.FACTOR)
-    if number == 1.0 and s.near <= 2 and (done := _may_be_done(words)):
+    if number and s.near <= 2 and not _is_timed(words) and (done := _may_be_done(words, number)):
         return Entry(v, End.TEXT, done)
     counts = (0.0, 1.0, matrix.rows, matrix.joints, matrix.joints + 1)
     if not np.isfinite(number) or number in counts:
@@ -256,12 +257,19 @@ def _number(s: Statement, matrix: _Matrix) -> Entry:
     return Entry(v, End.HARMLESS)
 
 
-def _may_be_done(words: Sequence[Word]) -> tuple[str, ...]:
-    """Return the words of a flag that is set and may change a motion: rad2deg_applied = 1."""
-    if len(words) < 2 or not any(w.unit is not None and w.unit.is_angle for w in words):
-        return ()
-    flags = all(w.can_be(*FLAGS) or w.unit is not None for w in words)
-    return () if flags and len({w.unit for w in words if w.unit}) == 1 else _texts(words)
+def _may_be_done(words: Sequence[Word], number: float) -> tuple[str, ...]:
+    """Return the words of a number that may still change a motion: flip = 1, interp = 10.
+
+    So may a flag that is set and is not known at all, or is about angles: rad2deg_applied.
+    """
+    pending = tuple(w.text for w in words if w.text in PENDING)
+    if pending or number != 1.0:
+        return pending if len(pending) == len(words) or number == 1.0 else ()
+    if all(w.unread and len(w.text) > 1 for w in words):
+        return _texts(words)
+    given = {w.unit for w in words if w.unit is not None}
+    flags = all(w.can_be(*FLAGS) or w.unit is not None for w in words) and len(given) == 1
+    return () if flags or len(words) < 2 or not any(u.is_angle for u in given) else _texts(words)
 
 
 def _texts(words: Sequence[Word]) -> tuple[str, ...]:
@@ -339,6 +347,8 @@ def _text(s: Statement, matrix: _Matrix) -> Entry:
     v, text = s.variable, s.text
     if v.kind == "logical":
         of_angles = tuple(w.text for w in s.words if w.unit is not None and w.unit.is_angle)
+        if statements.TRUTHS.get(text.lower()) and not of_angles:
+            of_angles = _may_be_done(s.words, 1.0)
         return Entry(v, End.TEXT if of_angles and s.near <= 2 else End.HARMLESS, of_angles)
     rate = rate_scalars.rate_in(text)
     if matrix.assumed:
@@ -371,6 +381,8 @@ def _words_that_matter(s: Statement, matrix: _Matrix) -> Iterator[str]:
     unread ones.
     """
     spoken = statements.words_of_text(s.text)
+    if not NOTHING & set(s.text.lower().split()):
+        yield from (w.text for w in s.words if w.text in PENDING)
     found = [w for w in spoken if w.text not in PROSE and w.text not in matrix.robot]
     reads_all = s.near == 0 or s.names(Class.ABOUT, Class.ARM, Class.ORDER, *TELLING)
     named = s.names(Class.NAMES) and not s.names(Class.ARM)
@@ -379,5 +391,6 @@ def _words_that_matter(s: Statement, matrix: _Matrix) -> Iterator[str]:
         other = w.quantity and not w.can_be(Class.ROLE, Class.KEPT, Class.PLACE)
         changes = w.can_be(*CHANGES) and not w.can_be(Class.KEPT, Class.SAMPLING, Class.TABLE)
         counted = w.unit is not None and not w.unit.factor
-        if other or changes or counted or (reads_all and w.unread):
+        pending = w.text in PENDING and not w.can_be(Class.KEPT)
+        if other or changes or counted or pending or (reads_all and w.unread):
             yield w.text

@@ -274,3 +274,9 @@ def test_places_in_the_arm_are_its_joints_in_several_languages(headings):
     assert found.trajectory is not None
     assert codes(found) == {"joints_matched", "rate_default"}
     assert np.allclose(found.trajectory.positions, Q)
+
+
+@pytest.mark.parametrize("name", ["open", "ouvert", "closed"])
+def test_states_of_a_gripper_that_say_open_are_named(name):
+    found = convert(var("q", Q), var(name, (U > 0.5).astype(float)))
+    assert "gripper_beside" in codes(found)
