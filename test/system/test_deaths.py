@@ -3,7 +3,9 @@
 The end is published before anything follows from it, the system stands where its members stood,
 and plays on from that one place. Random faults in random states follow: MRLAB_DEATHS of them, two
 unless it says otherwise, by MRLAB_DEATHS_SEED. Each prints how long its steps took.
-MRLAB_DEATHS_FREEZE: how long a freeze lasts, s.
+MRLAB_DEATHS_FREEZE: how long a freeze lasts, s. MRLAB_DEATHS_STATE: a folder on a small file
+system for the lab's state, which is then filled before some faults. The lab's wall clock is set
+before some, too.
 """
 
 from __future__ import annotations
@@ -11,8 +13,10 @@ from __future__ import annotations
 import os
 import random
 import signal
+import subprocess
 import time
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -32,6 +36,7 @@ from mrlab_ros.ros.graph_node import Graph
 
 MOTION = Path(__file__).parents[2] / "examples" / "quintic_ur5e.mat"
 FREEZE_S = float(os.environ.get("MRLAB_DEATHS_FREEZE", "3"))
+STATE_DIR = os.environ.get("MRLAB_DEATHS_STATE", "")
 FAULTS = ("SIGKILL", "SIGTERM", "SIGSTOP")
 # Two clocks agree to the nanosecond where the rounding of their stamps is allowed for, s.
 NANOSECOND = 2e-9
@@ -117,11 +122,28 @@ class Watched:
         )
 
 
+def built_clock(folder: Path) -> Path:
+    """Compile the library that shifts a process's wall clock."""
+    source = Path(__file__).parents[1] / "support" / "labs" / "wall_clock.c"
+    library = folder / "wall_clock.so"
+    subprocess.run(("gcc", "-shared", "-fPIC", "-O2", "-o", library, source, "-ldl"), check=True)
+    return library
+
+
+def set_clock(seconds: int) -> None:
+    """Set the wall clock of the lab's processes, by so much from the true one."""
+    Path(os.environ["WALL_CLOCK"]).write_text(str(seconds))
+
+
 @pytest.fixture(scope="module")
 def watched(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Watched]:
     folder = tmp_path_factory.mktemp("deaths")
     with pytest.MonkeyPatch.context() as patch:
-        options = ("--robots", "ur5e,ur5e", "--no-physics", "--state-dir", folder / "state")
+        patch.setenv("WALL_CLOCK", str(folder / "wall_clock"))
+        patch.setenv("LD_PRELOAD", str(built_clock(folder)))
+        set_clock(0)
+        state = Path(STATE_DIR or folder) / "state"
+        options = ("--robots", "ur5e,ur5e", "--no-physics", "--state-dir", state)
         with launched_lab(folder, patch, *options):
             done("play", "ur5e_1", MOTION)
             done("stop", "ur5e_1")
@@ -242,6 +264,22 @@ def enter(watched: Watched, state: str) -> None:
         watched.until("PAUSED")
 
 
+@contextmanager
+def full_disk(full: bool) -> Iterator[None]:
+    """Fill the file system of the lab's state for a while."""
+    if not full:
+        yield
+        return
+    filler = Path(STATE_DIR) / "filler"
+    try:
+        with suppress(OSError), filler.open("wb", buffering=0) as file:
+            while file.write(b"0" * 4096):
+                pass
+        yield
+    finally:
+        filler.unlink()
+
+
 COUNT = int(os.environ.get("MRLAB_DEATHS", "2"))
 SEED = int(os.environ.get("MRLAB_DEATHS_SEED", "1"))
 
@@ -258,22 +296,25 @@ def test_faults_in_random_states_leave_every_clock_on_one_line(watched):
         time.sleep(dice.uniform(0.0, 0.8))
         since, was = len(watched.events), watched.system.label
         frozen = fault == "SIGSTOP" and not pair
+        full = bool(STATE_DIR) and dice.random() < 0.2
+        set_clock(dice.choice((-600, 0, 600)))
         is_back = back(watched, pair or victim, since, frozen=frozen)
         struck_ns = time.monotonic_ns()
-        if pair:
-            os.kill(pid_of(pair), signal.SIGKILL)
-        strike(fault, victim)
-        at_ns, down = watched.first(since, victim)
-        took = ((down.down_steady_ns - struck_ns) / 1e6, (at_ns - down.down_steady_ns) / 1e6)
-        if victim == "lab" and fault == "SIGSTOP":
-            # The members play on while their system's node does not run; so does the system.
-            time.sleep(1.0)
-            if watched.system.label == "PLAYING":
-                watched.order(Trigger, "pause")
-        try:
-            wait_for(is_back, "the return", RECOVERY_S)
-        except AssertionError as error:
-            wrong.append((number, victim, fault, was, str(error)))
+        with full_disk(full):
+            if pair:
+                os.kill(pid_of(pair), signal.SIGKILL)
+            strike(fault, victim)
+            at_ns, down = watched.first(since, victim)
+            took = ((down.down_steady_ns - struck_ns) / 1e6, (at_ns - down.down_steady_ns) / 1e6)
+            if victim == "lab" and fault == "SIGSTOP":
+                # The members play on while their system's node does not run; so does the system.
+                time.sleep(1.0)
+                if watched.system.label == "PLAYING":
+                    watched.order(Trigger, "pause")
+            try:
+                wait_for(is_back, "the return", RECOVERY_S)
+            except AssertionError as error:
+                wrong.append((number, victim, fault, was, str(error)))
         returned = (time.monotonic_ns() - struck_ns) / 1e9
         time.sleep(0.3)
         inside = watched.system.label == "PAUSED"
@@ -286,9 +327,11 @@ def test_faults_in_random_states_leave_every_clock_on_one_line(watched):
             watched.play()
         wait_for(lambda: watched.apart() < NANOSECOND, "one line")
         jump = abs(watched.system.clock.position - place) if inside else 0.0
+        where = f"{was}, disk full" if full else was
         print(
-            f"{number} {victim} {pair} {fault} in {was}: seen after {took[0]:.1f} ms, heard after "
-            f"{took[1]:.1f} ms, back after {returned:.1f} s, at {place:.4f} s, "
+            f"{number} {victim} {pair} {fault} in {where}: "
+            f"seen after {took[0]:.1f} ms, heard after {took[1]:.1f} ms, "
+            f"back after {returned:.1f} s, at {place:.4f} s, "
             f"apart {apart:.1e} s, play from {jump:.1e} s away"
         )
         if apart > NANOSECOND or jump > NANOSECOND:

@@ -60,11 +60,15 @@ class CatalogueWriter(Catalogue):
         self._recent: deque[tuple[int, str, str]] = deque(maxlen=MOST_RECENT)
 
     def open(self) -> None:
-        """Read the whole catalogue and begin to count its changes anew; raise StoreFailure."""
+        """Read the whole catalogue and begin to count its changes anew; raise StoreFailure.
+
+        A store that cannot be written, such as one on a full disk, is still read.
+        """
         with self._changing:
             self._replace(self._read_all())
             self._epoch, self._number = keys.unique(), 0
-            self.store.put(keys.CHANGES, changes_document(self._epoch, self._number, ()))
+            self._recent.clear()
+            self._announce()
 
     def refresh(self) -> bool:
         """Do nothing: what this process writes it knows."""

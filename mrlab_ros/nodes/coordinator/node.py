@@ -90,7 +90,7 @@ class CoordinatorNode(
         self._robots: dict[str, msg.Robot] = {}
         self._checks = MemberChecks(self.caller.node)
         # Every use of a system runs in this one thread, one after another.
-        self.worker = Worker("coordinator", self._poll, self._poll_period)
+        self.worker = Worker("coordinator", self._poll, self._poll_period, on_error=self._named)
         self._turns = Turns(self, self.worker)
         self._topic = self.create_publisher(msg.RobotSystems, "/systems", qos.LATCHED)
         subscribe(self, msg.Robots, "/robots", self._on_robots, qos.LATCHED)
@@ -321,6 +321,11 @@ class CoordinatorNode(
             if self._failures.again((str(error),), time.monotonic()) is not None:
                 self.get_logger().warning(str(error))
         except Exception as error:
+            self._named(error)
+
+    def _named(self, error: Exception) -> None:
+        """Name an error in the log, unless the graph was left meanwhile, which is no fault."""
+        if self.context.ok():
             threads.name_error("coordinator", error)
 
     def _on_robots(self, message: msg.Robots) -> None:

@@ -198,6 +198,20 @@ def test_a_store_that_fails_in_between_changes_nothing_or_all(store, writer, lef
     assert ids(reader_of(store)) == ids(writer)
 
 
+def test_a_store_on_a_full_disk_is_read(store, writer, tmp_path, log):
+    kept = Kept(writer, TrajectoryFiles(store, tmp_path))
+    kept.save(make("pick", 1))
+    store.writes_left = 0
+    again = Kept(CatalogueWriter(store, log.append), TrajectoryFiles(store, tmp_path))
+    again.catalogue.open()
+    assert again.load("pick").positions[0, 0] == 1
+    assert len(log) == 1
+    store.writes_left = None
+    again.catalogue.sweep(1e9, 1e9)
+    again.save(make("pick", 2))
+    assert ids(reader_of(store)) == ids(again.catalogue)
+
+
 def test_a_write_whose_answer_was_lost_is_looked_up(store, writer):
     """The store has the new record, and its writer was told that it failed."""
     key = draft_of(store, "anna", make("pick"))
