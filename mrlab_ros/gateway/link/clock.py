@@ -21,10 +21,10 @@ from mrlab_ros.gateway.lab.connection import LabConnection, Phase
 WINDOW_S = 30.0
 # s of correction a second: a clock that is read for motion must not jump.
 SLEW = 0.05
-# An error from which on it jumps, s.
+# An error from which on it jumps all the same, s, as after a sleep of the machine.
 JUMP_S = 0.5
 # Two exchanges that differ by more than their round trips explain, and by this, s, have one of the
-# clocks set between them: the older one says nothing any more.
+# clocks set between them: the older one says nothing any more, and the offset jumps.
 SET_S = 0.05
 
 
@@ -44,10 +44,9 @@ def exchange(asked: float, came: float, answered: float, back: float) -> Exchang
 
 
 def _agree(older: Exchange, newer: Exchange) -> bool:
-    """Return whether `older` still counts beside `newer`."""
+    """Return whether no clock was set between two exchanges."""
     explained = (older.round_trip + newer.round_trip) / 2 + SET_S
-    recent = older.at >= newer.at - WINDOW_S
-    return recent and abs(older.offset - newer.offset) <= explained
+    return abs(older.offset - newer.offset) <= explained
 
 
 class ClockOffset:
@@ -71,9 +70,12 @@ class ClockOffset:
     def add(self, found: Exchange) -> None:
         """Take another exchange into account."""
         current = self.offset(found.at)
-        self._window = [each for each in self._window if _agree(each, found)] + [found]
+        recent = [each for each in self._window if each.at >= found.at - WINDOW_S]
+        agreeing = [each for each in recent if _agree(each, found)]
+        self._window = [*agreeing, found]
         self._target = min(self._window, key=lambda each: each.round_trip).offset
-        jumps = math.isnan(current) or abs(self._target - current) > JUMP_S
+        was_set = len(agreeing) < len(recent)
+        jumps = was_set or math.isnan(current) or abs(self._target - current) > JUMP_S
         self._held = self._target if jumps else current
         self._held_at = found.at
 

@@ -5,10 +5,10 @@
 const WINDOW_S = 30
 /** s of correction a second: a clock that is read for motion must not jump. */
 const SLEW = 0.05
-/** An error from which on it jumps, s. */
+/** An error from which on it jumps all the same, s, as after a sleep of the machine. */
 const JUMP_S = 0.5
 /** Two exchanges that differ by more than their round trips explain, and by this, s, have one of
- * the clocks set between them: the older one says nothing any more. */
+ * the clocks set between them: the older one says nothing any more, and the offset jumps. */
 const SET_S = 0.05
 
 /** One question and answer. at: s on the own clock; offset: s, theirs minus own. */
@@ -27,10 +27,10 @@ export function exchange(asked: number, came: number, answered: number, back: nu
   }
 }
 
-/** Return whether `older` still counts beside `newer`. */
+/** Return whether no clock was set between two exchanges. */
 function agree(older: Exchange, newer: Exchange): boolean {
   const explained = (older.roundTrip + newer.roundTrip) / 2 + SET_S
-  return older.at >= newer.at - WINDOW_S && Math.abs(older.offset - newer.offset) <= explained
+  return Math.abs(older.offset - newer.offset) <= explained
 }
 
 /** Slews from one estimate to the next. */
@@ -48,10 +48,12 @@ export class ClockOffset {
   /** Take another exchange into account. */
   add(found: Exchange): void {
     const current = this.offset(found.at)
-    this.window = this.window.filter((each) => agree(each, found))
-    this.window.push(found)
+    const recent = this.window.filter((each) => each.at >= found.at - WINDOW_S)
+    const agreeing = recent.filter((each) => agree(each, found))
+    this.window = [...agreeing, found]
     this.target = this.best()?.offset ?? Number.NaN
-    const jumps = Number.isNaN(current) || Math.abs(this.target - current) > JUMP_S
+    const wasSet = agreeing.length < recent.length
+    const jumps = wasSet || Number.isNaN(current) || Math.abs(this.target - current) > JUMP_S
     this.held = jumps ? this.target : current
     this.heldAt = found.at
   }
