@@ -119,9 +119,13 @@ class Database:
             return self._connection.execute(query, values).fetchall()
 
     @contextmanager
-    def writing(self) -> Iterator[sqlite3.Connection]:
-        """Change several rows at once, or none of them."""
+    def writing(self, wait: float = BUSY_TIMEOUT_S) -> Iterator[sqlite3.Connection]:
+        """Change several rows at once, or none of them.
+
+        wait: for another process that writes, s; sqlite3.OperationalError where it takes longer.
+        """
         with self._lock:
+            self._connection.execute(f"PRAGMA busy_timeout = {round(wait * 1000)}")
             self._connection.execute("BEGIN IMMEDIATE")
             try:
                 yield self._connection
@@ -208,8 +212,8 @@ class SignIns:
             return None
         found = _sign_in(rows[0])
         if now - found.seen > SEEN_PERIOD_S:
-            # Another process may be writing; the next request tries again.
-            with suppress(sqlite3.OperationalError), self._database.writing() as connection:
+            # Another process may be writing; the next request tries again. Requests do not wait.
+            with suppress(sqlite3.OperationalError), self._database.writing(wait=0) as connection:
                 connection.execute("UPDATE sign_ins SET seen = ? WHERE id = ?", (now, found.id))
         person = rows[0]["person"] or found.name
         return Person(found.name, found.role, found.id, bool(found.device), person)

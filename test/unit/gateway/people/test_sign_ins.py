@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import sqlite3
 from typing import Any
 
 import httpx
@@ -12,7 +13,7 @@ from gateway_side import PASSWORD, Gateway, code_of
 
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.gateway.people.accounts import INVITATION_LIFETIME_S, OPENING_LIFETIME_S
-from mrlab_ros.gateway.people.sign_ins import LIFETIME_S
+from mrlab_ros.gateway.people.sign_ins import LIFETIME_S, SEEN_PERIOD_S
 
 
 def test_nobody_is_signed_in_at_first_and_no_names_are_told(class_lab: Gateway) -> None:
@@ -57,6 +58,20 @@ def test_two_labs_of_one_machine_have_cookies_of_their_own(tmp_path) -> None:
     with Gateway(tmp_path / "a") as one, Gateway(tmp_path / "b") as other:
         assert one.people.cookie != other.people.cookie
         assert re.fullmatch(r"mrlab-[0-9a-f]{8}", one.people.cookie)
+
+
+def test_nobody_waits_for_another_process_that_writes(class_lab: Gateway) -> None:
+    anna = class_lab.browser("anna")
+    seen = class_lab.people.sign_ins.all(class_lab.clock(), "anna")[0].seen
+    class_lab.clock.now += 2 * SEEN_PERIOD_S
+    with sqlite3.connect(class_lab.people.database.path, isolation_level=None) as other:
+        other.execute("BEGIN IMMEDIATE")
+        # Two minutes, where each waits.
+        assert {anna.get("/api/session").json()["user"]["name"] for _ in range(24)} == {"anna"}
+        assert class_lab.people.sign_ins.all(class_lab.clock(), "anna")[0].seen == seen
+        other.execute("ROLLBACK")
+    anna.get("/api/session")
+    assert class_lab.people.sign_ins.all(class_lab.clock(), "anna")[0].seen > seen
 
 
 def test_a_sign_in_ends_after_its_time(class_lab: Gateway) -> None:
