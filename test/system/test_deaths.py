@@ -318,7 +318,7 @@ def test_faults_in_random_states_leave_every_clock_on_one_line(watched):
         returned = (time.monotonic_ns() - struck_ns) / 1e9
         time.sleep(0.3)
         inside = watched.system.label == "PAUSED"
-        apart = watched.apart() if inside else 0.0
+        apart, clocks = watched.apart() if inside else 0.0, watched.clocks()
         place = watched.system.clock.position
         try:
             watched.play()
@@ -335,5 +335,5 @@ def test_faults_in_random_states_leave_every_clock_on_one_line(watched):
             f"apart {apart:.1e} s, play from {jump:.1e} s away"
         )
         if apart > NANOSECOND or jump > NANOSECOND:
-            wrong.append((number, victim, fault, was, apart, jump))
+            wrong.append((number, victim, fault, was, apart, jump, clocks))
     assert not wrong
