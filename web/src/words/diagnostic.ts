@@ -82,7 +82,9 @@ function innerRemedies(phrase: Phrase, values: Values): readonly string[] {
 /** Return the same as one text. */
 export function spoken(told: Told): string {
   const { message, remedy } = say(told)
-  return [message, remedy].filter(Boolean).join(' ')
+  if (remedy === '' || message === '') return message + remedy
+  // The line of a list has no full stop.
+  return `${message}${/[.:!?]$/.test(message) ? '' : '.'} ${remedy}`
 }
 
 /** Return the sentence for anything that was thrown. */
