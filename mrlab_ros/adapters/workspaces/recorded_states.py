@@ -7,10 +7,13 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mrlab_ros.adapters.workspaces.sinks import Found, Sink
+from mrlab_ros.core.conversion.evidence.glossary import Class
 from mrlab_ros.core.conversion.evidence.headings import prefixes
-from mrlab_ros.core.conversion.workspace import JOINT_STATE, JOINT_TRAJECTORY
+from mrlab_ros.core.conversion.evidence.names import described
+from mrlab_ros.core.conversion.workspace import EARLIER, JOINT_STATE, JOINT_TRAJECTORY
 
 SECOND = 1_000_000_000  # ns
 
@@ -58,8 +61,31 @@ class RecordedStates:
             named = tuple(joints)
             sink.add(Found(path, JOINT_TRAJECTORY, values.shape, data, "<f8", columns=named))
             elapsed = np.array([self.times[i] - self.times[kept[0]] for i in kept]) / SECOND
-            path, shape = f"{path}.time_from_start", (len(kept), 1)
-            sink.add(Found(path, "double", shape, elapsed.tobytes(), "<f8"))
+            beside = {
+                "time_from_start": elapsed,
+                EARLIER: np.array([self._earlier(wanted)], "<f8"),
+            }
+            beside |= self._grippers(prefix if len(found) > 1 else "", wanted, kept)
+            for name, held in beside.items():
+                shape = (len(held), 1)
+                sink.add(Found(f"{path}.{name}", "double", shape, held.tobytes(), "<f8"))
+
+    def _grippers(
+        self, prefix: str, wanted: Sequence[str], kept: list[int]
+    ) -> dict[str, NDArray[np.float64]]:
+        """Return the positions of the other joints that are called as those of a gripper."""
+        found = {}
+        for column, name in enumerate(self.known):
+            of_gripper = any(w.can_be(Class.GRIPPER) for w in described(name))
+            known = kept and column < len(self.rows[kept[0]])
+            if of_gripper and known and name not in wanted and name.startswith(prefix):
+                found[name] = np.array([self.rows[i][column] for i in kept], "<f8")
+        return found
+
+    def _earlier(self, names: Sequence[str]) -> float:
+        """Return how many messages of these joints have an earlier stamp than the one before."""
+        times = [t for t, m in zip(self.times, self.moved, strict=True) if m & set(names)]
+        return float(np.count_nonzero(np.diff(times) < 0))
 
     def _rows_of(self, names: frozenset[str], last: int) -> Iterator[int]:
         """Yield the rows with a new position of one of these joints, once all are known.

@@ -400,7 +400,7 @@ def _find(
         return None, found, offered
     stored = workspace.find(best.path)
     assert stored is not None
-    if stored.is_message or stored.values is None:
+    if stored.values is None or (stored.is_message and not options.gripper):
         return Chosen(stored, best.variable, list(range(best.columns))), found, []
     picked = pick(stored, options, workspace, robot)
     # the variable that was assessed, so that it is not assessed again

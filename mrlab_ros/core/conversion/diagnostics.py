@@ -691,6 +691,23 @@ TIME_BACKWARD = Code(
     severity=WARNING,
     meaning="The time goes back.",
 )
+STAMPS_BACK = Code(
+    "stamps_back",
+    "{count:count message carries|messages carry} in '{variable}' an earlier stamp than the one "
+    "before; what came before the latest stamp was left out.",
+    "Check whether two recordings are in the bag or a clock was set back, and cut the bag there.",
+    severity=WARNING,
+    meaning="The stamps of a recording go back.",
+    fixes=(("", "", "plot({name:matlab})"),),
+)
+RECORDING_PAUSES = Code(
+    "recording_pauses",
+    "'{variable}' has no point for {value:number} s before point {first_row:integer}; the robot "
+    "takes that long from one to the next.",
+    "If the recording was interrupted there, convert its parts alone.",
+    severity=WARNING,
+    meaning="A recorded motion has a long pause between two points.",
+)
 # messages and tables that name their joints
 JOINT_NAMES = Code(
     "joint_names",

@@ -16,16 +16,18 @@ from mrlab_ros.core.conversion.diagnostics import (
     LATE_POINT,
     NO_TIMES,
     RATE_DEFAULT,
+    RECORDING_PAUSES,
     RESAMPLED,
+    STAMPS_BACK,
     TOO_LONG,
     WAYPOINTS,
 )
-from mrlab_ros.core.conversion.evidence.joining import first_path, picked_rows
+from mrlab_ros.core.conversion.evidence.joining import first_path, picked_rows, rows_of
 from mrlab_ros.core.conversion.evidence.survey import Survey, is_coarse
 from mrlab_ros.core.conversion.layout import Layout
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.conversion.picking import Chosen
-from mrlab_ros.core.conversion.workspace import Variable, Workspace
+from mrlab_ros.core.conversion.workspace import EARLIER, Variable, Workspace
 from mrlab_ros.core.trajectory import gripper_states
 from mrlab_ros.core.trajectory.trajectory import Array
 
@@ -37,6 +39,8 @@ TIMES_IN_MATLAB = "t = 2 * (0:size(q, 1) - 1)'; save('traj.mat', 'q', 't')"
 
 Nanoseconds = NDArray[np.int64]
 # ns; how far a point may lie from a frame and be that frame: both are rounded to whole ns
+# a pause: s, and how many usual steps; of a motion of so many steps
+PAUSE, MANY_STEPS, FEWEST_STEPS = 1.0, 20, 20
 SAME_TIME_NS = 1
 
 
@@ -239,6 +243,7 @@ def _resampled(
         point = int(late[0]) + 2
         why = LATE_POINT(point=point, time=float(times_ns[point - 1]) * 1e-9)
         raise BadInput(BAD_MESSAGE(variable=variable.path, why=why))
+    notes += _interrupted(workspace, variable, times_ns)
     velocities = _part(workspace, variable, "velocities")
     if velocities is not None:
         velocities = velocities[:, layout.source_columns].astype(np.float64)
@@ -262,6 +267,25 @@ def _resampled(
     if gripper is not None:
         gripper = hold(times_ns, gripper, rate)
     return replace(layout, arm=arm, gripper=gripper), rate
+
+
+def _interrupted(
+    workspace: Workspace, variable: Variable, times_ns: NDArray[np.int64]
+) -> list[Diagnostic]:
+    """Return the warnings of stamps that go back and of a long pause between two points."""
+    notes = []
+    earlier = workspace.find(f"{first_path(variable.path)}.{EARLIER}")
+    count = 0.0 if earlier is None else workspace.scalar(earlier)
+    if count:
+        notes.append(STAMPS_BACK(variable=variable.path, count=int(count)))
+    steps = np.diff(times_ns) * 1e-9
+    if len(steps) >= FEWEST_STEPS and steps.max() >= max(PAUSE, MANY_STEPS * np.median(steps)):
+        row = int(steps.argmax()) + 2
+        words: dict[str, Any] = {"first_row": row, "last_row": row, "value": float(steps.max())}
+        before = rows_of(variable.path, 1, row - 1)
+        fixes = (Fix("variable", before, f"q = {before};"),)
+        notes.append(RECORDING_PAUSES(variable=variable.path, unit="s", fixes=fixes, **words))
+    return notes
 
 
 def _part(workspace: Workspace, message: Variable, name: str) -> NDArray[Any] | None:

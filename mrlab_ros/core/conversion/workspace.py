@@ -17,6 +17,8 @@ JOINT_TRAJECTORY = "trajectory_msgs/msg/JointTrajectory"
 MOST_SMALL = 64
 # kinds of what a file says of its variables: lines above a table, attributes
 COMMENT, ATTRIBUTE = "comment", "attribute"
+# beside a recorded motion: how many stamps are earlier than the one before
+EARLIER = "earlier_stamps"
 JOINT_STATE = "sensor_msgs/msg/JointState"
 
 

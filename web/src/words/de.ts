@@ -2338,6 +2338,10 @@ export const diagnostics: Templates = {
     'Fertiges bleibt erhalten: Starte denselben Befehl noch einmal mit weniger Prozessen.',
   ],
   ready_for_robot: ['Die Prüfung hat keinen Befund, der die Bewegung sperrt.'],
+  recording_pauses: [
+    "'{variable}' hat vor Punkt {first_row:integer} für {value:number} s keinen Punkt; so lange braucht der Roboter vom einen zum nächsten.",
+    'Wurde die Aufnahme dort unterbrochen, wandle ihre Teile einzeln um.',
+  ],
   reference_apart: [
     '{rubric}: Die Referenz {file} nennt die Bewegung {motion}, die nicht neben ihr liegt.',
     'Lege die Bewegungen der Zelle neben sie.',
@@ -2358,6 +2362,10 @@ export const diagnostics: Templates = {
     "'{file}' sagt nicht, für welchen Roboter sie ist, und die Rubrik auch nicht; ergänze robot: ur5e in der Rubrik, oder bewerte eine Zelle (.yaml).",
   ],
   sandbox_has: ['Sandbox für fremde Dateien: {layers:list}'],
+  stamps_back: [
+    "{count:count Nachricht trägt|Nachrichten tragen} in '{variable}' einen früheren Zeitstempel als die davor; was vor dem spätesten lag, wurde weggelassen.",
+    'Prüfe, ob zwei Aufnahmen in der Datei sind oder eine Uhr zurückgestellt wurde, und trenne sie dort.',
+  ],
   stands_still: ['{robot} bewegt sich nicht.'],
   stopped_class: [
     'Abgebrochen: {done:integer} von {all:integer} sind geprüft und bleiben erhalten.',

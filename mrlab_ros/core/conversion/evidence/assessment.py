@@ -24,7 +24,7 @@ from mrlab_ros.core.conversion.diagnostics import (
     TOOL_PATH,
 )
 from mrlab_ros.core.conversion.evidence.headings import said_by_units
-from mrlab_ros.core.conversion.evidence.names import Hint, Name
+from mrlab_ros.core.conversion.evidence.names import Hint, Name, describe
 from mrlab_ros.core.conversion.evidence.other_columns import ClockColumn, has_states
 from mrlab_ros.core.conversion.evidence.relations import PoseEvidence, PoseMatch
 from mrlab_ros.core.conversion.evidence.unit_range import UnitEvidence
@@ -151,12 +151,17 @@ NAME_SCORES = {
     Hint.DOUBTFUL: -0.3,
     Hint.AGAINST: -0.55,
 }
+ASKED = 0.4  # points of a topic that is called as another quantity
+SHORT = 3  # letters of a topic, with its slash, that say nothing
 FEW_ROWS = 10  # fewer than this say little of how a matrix moves
 
 
 def judged(a: Assessment, robot: RobotModel) -> Assessment:
     """Return the assessment with its score, its objections and its doubts."""
     if a.variable.is_message:
+        topic = describe(a.path.rpartition("/")[2])
+        if a.path.startswith("/") and topic.hint is Hint.AGAINST and len(a.path) > SHORT:
+            return replace(a, name=topic, points=ASKED, reasons=(topic.why,))
         return replace(a, points=1.5, reasons=(SEEN(what="message"),))
     points = 0.5
     reasons: list[Diagnostic] = []

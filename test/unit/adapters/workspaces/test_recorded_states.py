@@ -31,15 +31,19 @@ def state(names, positions, ns):
     return TYPES.serialize_cdr(message, STATE)
 
 
-def recorded(folder, topics, storage="mcap"):
-    """Return a bag; topics: name -> what yields the names and positions of a row's messages."""
+def recorded(folder, topics, storage="mcap", late=lambda row: 0.0):
+    """Return a bag; topics: name -> what yields the names and positions of a row's messages.
+
+    late: s by which the stamp of a row is later than the time of its recording.
+    """
     with Writer(folder, version=9, storage_plugin=StoragePlugin[storage.upper()]) as writer:
         for topic, messages in topics.items():
             connection = writer.add_connection(topic, STATE, typestore=TYPES)
             for row, q in enumerate(Q):
                 ns = START_NS + round(row * 1e9 / RATE)
                 for names, positions in messages(q):
-                    writer.write(connection, ns + 100, state(names, positions, ns))
+                    stamped = ns + round(late(row) * 1e9)
+                    writer.write(connection, ns + 100, state(names, positions, stamped))
     (path,) = (p for p in folder.iterdir() if p.suffix in (".mcap", ".db3"))
     return path
 
@@ -89,3 +93,43 @@ def test_joints_of_another_robot_are_named(tmp_path):
     (finding,) = convert_file(path, ROBOT, Options(), None).diagnostics
     assert finding.code == "recorded_states"
     assert list(finding.values["found"]) == ["a", "b"]
+
+
+def codes(path, **options):
+    result = convert_file(path, ROBOT, Options(**options), None)
+    return result, {d.code for d in result.diagnostics}
+
+
+def test_a_gripper_beside_the_joints_is_named_and_can_be_taken(tmp_path):
+    def gripping(q):
+        yield [*JOINTS, "finger_joint"], [*q, float(q[0] > 0)]
+
+    path = recorded(tmp_path / "bag", {"/joint_states": gripping})
+    _, found = codes(path)
+    assert "gripper_beside" in found
+    taken, found = codes(path, gripper="/joint_states.finger_joint")
+    assert taken.trajectory.gripper.any()
+    assert "gripper_beside" not in found
+
+
+@pytest.mark.parametrize(
+    ("late", "code"),
+    [
+        (lambda row: 60.0 * (row > 200), "recording_pauses"),
+        (lambda row: -0.05 * (row > 200), "stamps_back"),
+    ],
+)
+def test_recordings_that_pause_or_go_back_are_warned_of(tmp_path, late, code):
+    path = recorded(tmp_path / "bag", {"/joint_states": shuffled}, late=late)
+    result, found = codes(path)
+    assert result.outcome is Outcome.ACCEPTED
+    assert code in found
+
+
+def test_a_topic_called_as_another_quantity_is_asked_about(tmp_path):
+    path = recorded(tmp_path / "bag", {"/joint_errors": shuffled})
+    result, found = codes(path)
+    assert result.outcome is Outcome.AMBIGUOUS
+    assert found == {"ambiguous"}
+    named, _ = codes(path, variable="/joint_errors")
+    assert named.outcome is Outcome.ACCEPTED

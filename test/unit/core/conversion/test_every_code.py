@@ -121,6 +121,8 @@ EXAMPLES = {
     "doubtful_values": Example([var("q", np.tile(Q[:1], (ROWS, 1)))]),
     "tool_path_differs": Example([var("q", Q), var("tcp", POSES[::-1] * 1.5)]),
     "unit_unread": Example([var("q", Q), text("unit", "ells")]),
+    "stamps_back": Example([*message("m", T, Q), var("m.earlier_stamps", [2.0])]),
+    "recording_pauses": Example([*message("m", T + 60 * (T > 1), Q)]),
     "units_differ": Example([var("q", Q, units=("rad",) * 5 + ("deg",))]),
     "order_stated": Example([var("q", Q), var("joint_order", [2, 1, 3, 4, 5, 6])]),
     "motor_side": Example([var("q", Q), var("gear_ratio", [100.0])]),
