@@ -347,3 +347,6 @@ _PENDING = """
     invertito invertita espelho inverso
     """
 PENDING = frozenset(_PENDING.split())
+# words of flags of a program that change no numbers
+_QUIET = "debug verbose plot plots plotting show display print animate figure gui on save"
+QUIET = frozenset(_QUIET.split())

@@ -202,7 +202,8 @@ def name_of(variable: Variable, file_format: str, robot: RobotModel) -> Name:
     The path of a table without headings was given by the reader and says nothing.
     """
     if names_joints(variable, robot):
-        return Name(Hint.POSITIONS)
+        unit = describe(variable.path.rpartition("/")[2]).unit if variable.is_message else None
+        return Name(Hint.POSITIONS, unit=unit)
     of_units = said_by_units(variable.units)
     if of_units.hint is Hint.AGAINST:
         return of_units

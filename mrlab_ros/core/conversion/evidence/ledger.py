@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrlab_ros.core.conversion.evidence import rate_scalars, statements, units
-from mrlab_ros.core.conversion.evidence.glossary import PENDING, PROSE, Class
+from mrlab_ros.core.conversion.evidence.glossary import PENDING, PROSE, QUIET, Class
 from mrlab_ros.core.conversion.evidence.joining import first_path
 from mrlab_ros.core.conversion.evidence.names import Hint, Word, described, hint, leaf, parts
 from mrlab_ros.core.conversion.evidence.statements import ELEMENT, Statement
@@ -266,7 +266,7 @@ def _may_be_done(words: Sequence[Word], number: float) -> tuple[str, ...]:
     if pending or number != 1.0:
         return pending if len(pending) == len(words) or number == 1.0 else ()
     if all(w.unread and len(w.text) > 1 for w in words):
-        return _texts(words)
+        return () if QUIET & {w.text for w in words} else _texts(words)
     given = {w.unit for w in words if w.unit is not None}
     flags = all(w.can_be(*FLAGS) or w.unit is not None for w in words) and len(given) == 1
     return () if flags or len(words) < 2 or not any(u.is_angle for u in given) else _texts(words)

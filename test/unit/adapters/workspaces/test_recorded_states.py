@@ -133,3 +133,13 @@ def test_a_topic_called_as_another_quantity_is_asked_about(tmp_path):
     assert found == {"ambiguous"}
     named, _ = codes(path, variable="/joint_errors")
     assert named.outcome is Outcome.ACCEPTED
+
+
+def test_degrees_that_a_topic_says_are_obeyed(tmp_path):
+    def in_degrees(q):
+        yield JOINTS, np.degrees(q)
+
+    path = recorded(tmp_path / "bag", {"/joint_states_deg": in_degrees})
+    result, found = codes(path)
+    assert "converted_unit" in found
+    np.testing.assert_allclose(result.trajectory.positions, Q, rtol=0, atol=1e-9)

@@ -61,6 +61,8 @@ def test_what_may_be_a_time_is_unread_where_nothing_states_the_rate(path, values
         ("interp", 10.0, End.TEXT),
         ("zzyx", 1.0, End.TEXT),
         ("version", 1.0, End.HARMLESS),
+        ("verbose", 1.0, End.HARMLESS),
+        ("plot_on", 1.0, End.HARMLESS),
         ("trial", 1.0, End.HARMLESS),
         ("q_offset", [0, 1.5, 0, 0, 0, 0], End.PER_JOINT),
         ("ticks_per_turn", 4096.0, End.FACTOR),
