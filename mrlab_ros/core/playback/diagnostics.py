@@ -257,6 +257,13 @@ GOAL_OVER = Code(
     "Set header.stamp to a later time, or to 0 to start at once.",
     meaning="All points of a goal lie in the past.",
 )
+STARTS_ELSEWHERE = Code(
+    "starts_elsewhere",
+    "{joint} is {value:angle} away from the first point, which is due at once; expected "
+    "{limit:angle} at most.",
+    "Begin at the arm's joint positions, or give the first point a later time.",
+    meaning="A goal's first point has the time 0 and is not where the arm is.",
+)
 GOAL_TOO_LONG = Code(
     "goal_too_long",
     "The goal ends in {duration:time}; expected {longest:time} at most.",

@@ -32,6 +32,9 @@ AT_LIMIT = 1e-6
 VELOCITY_SLACK = 0.01
 # How fast an arm that moves takes on the velocity of a goal without velocities, rad/s^2 (m/s^2).
 BLEND_ACCELERATION = 6.0
+# How far a first point that is due at once may be from the arm, rad (m); of an arm that moves also
+# the way that it went since its client measured it, s.
+AT_START, MEASURED_S = 0.1, 0.5
 # A last velocity below this is standstill, rad/s.
 STANDSTILL = 1e-4
 # No trajectory of the catalogue has version 0: this one cannot be fetched there.
@@ -84,8 +87,9 @@ def trajectory(
     """Return what leads from `arm`, (J,) rad, at `now_ns` along the goal's points.
 
     velocities: (J,) rad/s, of the arm at `now_ns`; None: it stands. The way to the first point
-    takes the time until then, also where the goal's start lies ahead. Of a goal whose start has
-    passed, what lies ahead is left. Raises WrongGoal.
+    takes the time until then, also where the goal's start lies ahead. A first of several points
+    that is due at once must be where the arm is. Of a goal whose start has passed, what lies ahead
+    is left. Raises WrongGoal.
     """
     moving = np.zeros_like(arm) if velocities is None else velocities
     places = order(goal.joint_names, model)
@@ -113,6 +117,8 @@ def trajectory(
     if passed > times[-1]:
         over = say.GOAL_OVER(ago=float(passed - times[-1]))
         raise WrongGoal(over, Code.OLD_HEADER_TIMESTAMP)
+    if len(times) > 1 and times[0] == passed == 0:
+        _check_start(positions[0] - arm, moving, model)
     times = times - passed
     if times[-1] > LONGEST:
         raise WrongGoal(say.GOAL_TOO_LONG(duration=float(times[-1]), longest=LONGEST))
@@ -133,6 +139,24 @@ def trajectory(
         _blend(frames, along, moving, knots[1], positions[ahead][0])
     _check_motion(frames, along, model)
     return unpublished(FOLLOWED, model, frames, along)
+
+
+def _check_start(away: Array, moving: Array, model: RobotModel) -> None:
+    """Raise WrongGoal where the first point is further from the arm than it can have moved.
+
+    away, moving: (J,) rad and rad/s.
+    """
+    allowed = AT_START + MEASURED_S * np.abs(moving)
+    joint = int((np.abs(away) - allowed).argmax())
+    if abs(away[joint]) > allowed[joint]:
+        raise WrongGoal(
+            say.STARTS_ELSEWHERE(
+                joint=model.joint_names[joint],
+                value=float(abs(away[joint])),
+                limit=float(allowed[joint]),
+            ),
+            Code.PATH_TOLERANCE_VIOLATED,
+        )
 
 
 def unpublished(name: str, model: RobotModel, positions: Array, velocities: Array) -> Trajectory:

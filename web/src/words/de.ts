@@ -2367,6 +2367,10 @@ export const diagnostics: Templates = {
     'Prüfe, ob zwei Aufnahmen in der Datei sind oder eine Uhr zurückgestellt wurde, und trenne sie dort.',
   ],
   stands_still: ['{robot} bewegt sich nicht.'],
+  starts_elsewhere: [
+    '{joint} ist {value:angle} vom ersten Punkt entfernt, der sofort gilt; erwartet ist höchstens {limit:angle}.',
+    'Beginne bei den Gelenkstellungen des Arms, oder gib dem ersten Punkt eine spätere Zeit.',
+  ],
   stopped_class: [
     'Abgebrochen: {done:integer} von {all:integer} sind geprüft und bleiben erhalten.',
     'Starte denselben Befehl noch einmal, um fortzufahren.',

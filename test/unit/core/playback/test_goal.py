@@ -14,6 +14,7 @@ from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.playback import diagnostics as say
 from mrlab_ros.core.playback.goal import (
     AT_LIMIT,
+    AT_START,
     FRAME_RATE,
     LONGEST,
     STANDSTILL,
@@ -49,6 +50,19 @@ def test_points_without_velocities_are_joined_by_straight_lines() -> None:
     assert found.positions[50] == pytest.approx(ARM + 0.25)
     assert found.positions[100] == pytest.approx(ARM + 0.5)
     assert (found.positions[-1] == ARM + 0.2).all(), "ends exactly at the last point"
+
+
+def test_a_first_point_that_is_due_at_once_is_where_the_arm_is() -> None:
+    with refused(say.STARTS_ELSEWHERE, WrongGoal, limit=AT_START) as found:
+        trajectory(goal((0.0, 0.5), (1.0, 0.2)), UR5E, ARM, NOW)
+    assert isinstance(found.value, WrongGoal)
+    assert found.value.code is Code.PATH_TOLERANCE_VIOLATED
+    measured = trajectory(goal((0.0, 0.01), (1.0, 0.2)), UR5E, ARM, NOW)
+    assert measured.positions[0] == pytest.approx(ARM)
+    moving = np.full(6, 0.5)
+    assert trajectory(goal((0.0, -0.2), (1.0, 0.2)), UR5E, ARM, NOW, moving).frame_count == 101
+    ahead = goal((0.0, 0.5), (1.0, 0.2), stamp_ns=NOW + SECOND)
+    assert trajectory(ahead, UR5E, ARM, NOW).positions[100] == pytest.approx(ARM + 0.5)
 
 
 def test_velocities_make_the_way_cubic_and_accelerations_quintic() -> None:
