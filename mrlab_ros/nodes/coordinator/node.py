@@ -376,6 +376,8 @@ class CoordinatorNode(
         with self._publishing:
             now_ns = self._lab_clock.instant_ns()
             shifted_ns = self._lab_clock.shifted_ns
+            # First: a coordinator that ends here comes back with it.
+            self._journal.save(registry.plain(self._systems, now_ns))
             # Only the newest is kept for late joiners; the others must have arrived before.
             self._topic.wait_for_all_acked(ARRIVAL)
             self._topic.publish(
@@ -383,7 +385,6 @@ class CoordinatorNode(
                     now_ns, self._systems, self._identity.lab, self._holder, shifted_ns
                 )
             )
-            self._journal.save(registry.plain(self._systems, now_ns))
 
 
 def _mode(number: int) -> Mode:
