@@ -1,12 +1,14 @@
 """Reads messages that were written as YAML: what `ros2 topic echo` prints, and goals of actions.
 
 A JointTrajectory is found wherever it stands in a document, as in the goal of an action. Joint
-states, one a document, become a motion as those of a bag do.
+states, one a document, become a motion as those of a bag do. The rest of such a document, and its
+comments, stand beside the motion, as in a file of JSON.
 """
 
 from __future__ import annotations
 
 import itertools
+import re
 from collections.abc import Iterator, Sequence
 from types import SimpleNamespace
 from typing import Any
@@ -15,11 +17,21 @@ from mrlab_ros.adapters.workspaces import joint_trajectories
 from mrlab_ros.adapters.workspaces.diagnostics import LIBRARY_FAILED, NO_MESSAGES
 from mrlab_ros.adapters.workspaces.matlab.elements import Damaged
 from mrlab_ros.adapters.workspaces.recorded_states import RecordedStates
-from mrlab_ros.adapters.workspaces.sinks import Sink
+from mrlab_ros.adapters.workspaces.sinks import Found, Sink
+from mrlab_ros.adapters.workspaces.tables.table import (
+    LONGEST_TEXT,
+    MOST_COMMENTS,
+    add_members,
+)
+from mrlab_ros.core.conversion.workspace import COMMENT as COMMENT_KIND
 
 SUFFIXES = (".yaml", ".yml")
 # Levels of a document in which a trajectory is looked for.
 DEEPEST = 6
+COMMENT = re.compile(r"(?:^|\s)#(.*)$", re.M)
+# Fields of messages and goals, which say nothing more of the motion.
+OWN_FIELDS = ("header", "joint_names", "points", "name", "position", "velocity", "effort")
+OF_GOALS = ("path_tolerance", "goal_tolerance", "goal_time_tolerance", "component_path_tolerance")
 
 
 def read_yaml(data: memoryview, sink: Sink, joints: Sequence[str]) -> None:
@@ -42,6 +54,9 @@ def read_yaml(data: memoryview, sink: Sink, joints: Sequence[str]) -> None:
             for each in states:
                 recorded.add(_state(each), 0)
             recorded.hand_over("joint_states", joints, sink)
+        _add_comments(data, sink)
+        for document in documents:
+            add_members(_beside(document), "", sink, DEEPEST)
     except (TypeError, ValueError, AttributeError) as error:
         raise Damaged(LIBRARY_FAILED(part="message", error=str(error))) from None
 
@@ -68,6 +83,21 @@ def _trajectories(document: Any, deepest: int) -> Iterator[dict[str, Any]]:
     elif isinstance(document, dict | list) and deepest:
         inside = document.values() if isinstance(document, dict) else document
         yield from itertools.chain.from_iterable(_trajectories(i, deepest - 1) for i in inside)
+
+
+def _beside(document: Any) -> dict[str, Any]:
+    """Return what a document holds beside the messages in it."""
+    if not isinstance(document, dict):
+        return {}
+    own = (*OWN_FIELDS, *OF_GOALS)
+    kept = {str(key): each for key, each in document.items() if key not in own}
+    return {key: _beside(each) if isinstance(each, dict) else each for key, each in kept.items()}
+
+
+def _add_comments(data: memoryview, sink: Sink) -> None:
+    lines = COMMENT.findall(bytes(data).decode(errors="replace"))
+    for number, line in enumerate(lines[:MOST_COMMENTS], 1):
+        sink.add(Found(f"comment{{{number}}}", COMMENT_KIND, text=line.strip()[:LONGEST_TEXT]))
 
 
 def _message(document: dict[str, Any]) -> SimpleNamespace:

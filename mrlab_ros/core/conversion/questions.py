@@ -53,7 +53,7 @@ def asked(
 
     A person who named the matrix has answered: then nothing of it is an error.
     """
-    if variable.is_message or variable.values is None or len(variable.shape) != 2:
+    if variable.values is None or len(variable.shape) != 2:
         return []
     said = statements.about(workspace, first_path(variable.path))
     joints = len(robot.joints)
@@ -72,11 +72,14 @@ def unread(
 
     rate: Hz, that was taken. notes: what is said already.
     """
-    if variable.is_message or variable.values is None or len(variable.shape) != 2:
+    if variable.values is None or len(variable.shape) != 2:
         return []
     claims = claimed(survey, variable, rate, options, notes)
     told = {text for note in notes for text in _texts(note)}
     told.update(joining.sources(variable.path, options.join))
+    if variable.is_message:
+        own = f"{variable.path}."
+        told.update(v.path for v in survey.workspace.variables if v.path.startswith(own))
     robot = survey.robot
     size = (variable.shape[0], len(robot.joints))
     names = f"{robot.id} {robot.product} {robot.manufacturer}"

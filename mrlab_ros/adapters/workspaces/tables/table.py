@@ -175,7 +175,7 @@ def read_json(data: memoryview, sink: Sink) -> None:
     if "schema_version" in document and isinstance(frames, dict):
         _add_frames(document, frames, sink)
         return
-    _add_members(document, "", sink, DEEPEST)
+    add_members(document, "", sink, DEEPEST)
 
 
 def _parsed(data: memoryview) -> Any:
@@ -190,12 +190,12 @@ def _parsed(data: memoryview) -> Any:
         raise Damaged(LIBRARY_FAILED(part="json", error=str(error))) from None
 
 
-def _add_members(document: dict[str, Any], path: str, sink: Sink, deepest: int) -> None:
+def add_members(document: dict[str, Any], path: str, sink: Sink, deepest: int) -> None:
     """Hand the members of an object to the sink, those of objects in it by their path."""
     for key, content in document.items():
         name = f"{path}{key}"
         if isinstance(content, dict) and deepest:
-            _add_members(content, f"{name}.", sink, deepest - 1)
+            add_members(content, f"{name}.", sink, deepest - 1)
         elif isinstance(content, str | bool):
             said = content if isinstance(content, str) else "true" if content else "false"
             kind = "string" if isinstance(content, str) else "logical"

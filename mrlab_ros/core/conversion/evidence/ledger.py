@@ -313,7 +313,13 @@ def _vector(s: Statement, matrix: _Matrix) -> Entry:
         away = any(w.quantity == "errors" for w in words)
         other = any(w.can_be(*SETTLED[:3]) or w.quantity not in ("", "parameters") for w in words)
         plain = all(w.can_be(*OF_MATRIX) for w in words) and not matrix.begins_or_ends_at(values)
-        open_to = away or plain or (any(w.unread for w in words) and not other)
+        turned = -1 in numbers and set(numbers) <= {
+            -1.0,
+            1.0,
+        }  # signs of axes, whatever it is called
+        pending = any(w.text in PENDING for w in words)
+        unread = any(w.unread for w in words) and not other
+        open_to = away or plain or turned or pending or unread
         return Entry(
             v, End.PER_JOINT if open_to and not permuted else End.EXPLAINED, _unread(words)
         )

@@ -60,6 +60,17 @@ def test_a_trajectory_is_read_wherever_it_stands(reader: WorkspaceReader, text: 
     np.testing.assert_array_equal(times.ravel(), [0.0, 0.5])
 
 
+def test_what_stands_beside_a_trajectory_is_read_too(reader: WorkspaceReader) -> None:
+    text = f"# positions in degrees\nunits: deg\nmeta: {{robot: ur10e, scale: 0.5}}\n{ECHOED}"
+    found = reader.read_bytes(text.encode(), "goal.yaml")
+    assert {v.path: v.text for v in found.variables if v.text} == {
+        "comment{1}": "positions in degrees",
+        "units": "deg",
+        "meta.robot": "ur10e",
+    }
+    assert found.find("meta.scale").values.tolist() == [[0.5]]
+
+
 def test_several_trajectories_are_numbered(reader: WorkspaceReader) -> None:
     found = reader.read_bytes((ECHOED * 2).encode(), "echoed.yml")
     assert found.find("trajectory(1)") is not None
