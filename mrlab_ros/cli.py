@@ -20,7 +20,7 @@ import mrlab_ros
 from mrlab_ros.adapters.sandbox.inert_output import guard
 from mrlab_ros.adapters.sandbox.python_process import keep_to_installed_modules
 from mrlab_ros.commands import completion
-from mrlab_ros.commands.output import Settings, say_problem
+from mrlab_ros.commands.output import BROKEN, WRONG_USAGE, Settings, say_problem
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.errors import LabError, WrongUsage
 from mrlab_ros.extensions import extensions, named
@@ -152,9 +152,6 @@ def options(
     Settings.debug = debug
 
 
-# BROKEN is neither a refusal (1) nor wrong usage (2), which are verdicts of `mrlab check` and
-# others.
-WRONG_USAGE, BROKEN = 2, 3
 # Causes of a disk's refusal by the error's number: no room, or no rights.
 OF_THE_DISK = {
     errno.ENOSPC: "room",

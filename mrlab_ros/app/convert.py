@@ -71,9 +71,14 @@ def bag_in(path: Path) -> Path:
     return inside[0] if len(inside) == 1 else path
 
 
+def is_trajectory_file(file: Path) -> bool:
+    """Return whether a file is one that the lab wrote, by its name."""
+    return file.suffix.lower() == ".json"
+
+
 def of_trajectory_file(file: Path) -> ConversionResult | None:
     """Return the trajectory in a file that the lab wrote as JSON, or None: it is another file."""
-    if file.suffix.lower() != ".json":
+    if not is_trajectory_file(file):
         return None
     with tempfile.TemporaryDirectory(prefix="mrlab-") as folder:
         stored = Path(folder, "trajectory.npz")
@@ -91,7 +96,7 @@ def store(file: str, stored: str) -> None:
 
 def of_trajectory_file_here(file: Path) -> ConversionResult | None:
     """Do what of_trajectory_file() does, in a process that is in the sandbox already."""
-    return _accepted(file, _parsed(file)) if file.suffix.lower() == ".json" else None
+    return _accepted(file, _parsed(file)) if is_trajectory_file(file) else None
 
 
 def _parsed(file: Path) -> Trajectory:

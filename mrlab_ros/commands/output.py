@@ -21,6 +21,11 @@ if TYPE_CHECKING:
     from rich.console import Console
 
 
+# Exit codes. BROKEN is neither a refusal (1) nor wrong usage, which are verdicts of `mrlab check`
+# and others.
+WRONG_USAGE, BROKEN = 2, 3
+
+
 class Settings:
     """Options that hold for every command."""
 

@@ -26,7 +26,7 @@ from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.trajectories import formats
 from mrlab_ros.app.convert import Wanted, convert_files
 from mrlab_ros.app.show.motion import motion_page
-from mrlab_ros.cli import BROKEN, make_app
+from mrlab_ros.cli import make_app
 from mrlab_ros.commands import output
 from mrlab_ros.commands.convert import report
 from mrlab_ros.core.base.errors import LabError
@@ -179,4 +179,4 @@ def test_a_file_that_no_report_can_be_made_of_does_not_end_its_batch(
     lines = [json.loads(line) for line in done.stdout.splitlines()]
     assert [line["outcome"] for line in lines] == ["accepted", "rejected", "accepted"]
     assert [d["code"] for d in lines[1]["diagnostics"]] == ["converter_failed"]
-    assert done.exit_code == BROKEN
+    assert done.exit_code == output.BROKEN

@@ -16,13 +16,10 @@ from typing import Any
 from mrlab_ros.adapters.workspaces import joint_trajectories
 from mrlab_ros.adapters.workspaces.diagnostics import LIBRARY_FAILED, NO_MESSAGES
 from mrlab_ros.adapters.workspaces.matlab.elements import Damaged
+from mrlab_ros.adapters.workspaces.matlab.mat5 import LONGEST_TEXT
 from mrlab_ros.adapters.workspaces.recorded_states import RecordedStates
 from mrlab_ros.adapters.workspaces.sinks import Found, Sink
-from mrlab_ros.adapters.workspaces.tables.table import (
-    LONGEST_TEXT,
-    MOST_COMMENTS,
-    add_members,
-)
+from mrlab_ros.adapters.workspaces.tables.table import MOST_COMMENTS, add_members
 from mrlab_ros.core.conversion.workspace import COMMENT as COMMENT_KIND
 
 SUFFIXES = (".yaml", ".yml")

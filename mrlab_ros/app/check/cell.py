@@ -27,6 +27,7 @@ from mrlab_ros.app.convert import (
     convert_files,
     converted,
     held_to_robot,
+    is_trajectory_file,
     of_trajectory_file,
 )
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, of_text, plain
@@ -165,7 +166,7 @@ def load(
     else:
         results = {key: convert(*key, options, stage.library) for key in wanted}
     results = {
-        key: held_to_robot(found, stage.library) if _is_trajectory_file(key) else found
+        key: held_to_robot(found, stage.library) if is_trajectory_file(key[0]) else found
         for key, found in results.items()
     }
     found = {name: results[key] for name, key in keys.items()}
@@ -182,10 +183,6 @@ def load(
             )
         trajectories[name] = _at_rate(result.trajectory, system.rate)
     return Cell(system.name or file.stem, system, scene, robots, found, trajectories)
-
-
-def _is_trajectory_file(motion: Motion) -> bool:
-    return motion[0].suffix.lower() == ".json"
 
 
 def _converted(

@@ -11,7 +11,7 @@ from mrlab_ros.adapters.scenes.files import SceneFiles
 from mrlab_ros.app.check import cell
 from mrlab_ros.app.check.diagnostics import MODEL_NOT_IN_SCENE, MOTION_OF_ANOTHER_ROBOT
 from mrlab_ros.app.check.stage import Played, Stage, first_link
-from mrlab_ros.app.convert import bag_in, converted, held_to_robot
+from mrlab_ros.app.convert import bag_in, converted, held_to_robot, is_trajectory_file
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix
 from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.base.foreign_text import file_name
@@ -139,9 +139,9 @@ def _converted(file: Path, entry: RobotEntry, setting: Setting) -> ConversionRes
     library = setting.stage.library
     try:
         found = setting.convert(file, entry.model, entry.end_effector, setting.options, library)
-        return held_to_robot(found, library) if file.suffix.lower() == ".json" else found
+        return held_to_robot(found, library) if is_trajectory_file(file) else found
     except BadInput as error:
-        if file.suffix.lower() != ".json" or not file.is_file():
+        if not is_trajectory_file(file) or not file.is_file():
             raise
         return _refused(file_name(file.name), error.diagnostic)
 
