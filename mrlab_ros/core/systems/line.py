@@ -25,12 +25,12 @@ class Line:
     def __init__(self, timeline: Timeline) -> None:
         self._timeline = timeline
         self._members: list[Member] = []
-        # Who of them was playing is found by where they are.
-        self._found = False
+        # Where they were put, s, if they were: who of them was playing is found by where they are.
+        self._put_at: float | None = None
 
     def leave(self) -> None:
         """Forget the members: the timeline goes on, or begins at its start."""
-        self._members, self._found = [], False
+        self._members, self._put_at = [], None
 
     def stand(self, position: float, rate: float) -> None:
         """Note that the members stand that were playing when the timeline was at `position` (s).
@@ -38,7 +38,7 @@ class Line:
         Each is at its last joint state before that, until it says where it is. rate: at which it
         went.
         """
-        ordered, self._found = self._timeline.ordered, False
+        ordered, self._put_at = self._timeline.ordered, None
         self._members = [
             m for m in ordered if (m.end >= position if m.backwards else m.start <= position)
         ]
@@ -47,21 +47,23 @@ class Line:
             furthest = min if member.backwards else max
             member.position = furthest(member.position, reached)
 
-    def put(self) -> None:
+    def put(self, position: float) -> None:
         """Note that the members were put somewhere, or stand where their coordinator had ended.
 
-        Those that are found inside their shares play on from there, unless they wait.
+        Those that are found inside their shares play on from there, unless they wait. position:
+        where the timeline is, s, while there are none.
         """
-        self._members, self._found = [m for m in self._timeline if not m.done], True
+        self._members, self._put_at = [m for m in self._timeline if not m.done], position
 
     def position(self, otherwise: float) -> float:
         """Return where the timeline is, s: at the member furthest behind; `otherwise`: at none.
 
         Members that have ended further ahead play on from there, too.
         """
-        played = [m for m in self._members if not self._found or _is_inside(m)]
+        put_at = self._put_at
+        played = [m for m in self._members if put_at is None or _is_inside(m)]
         if not played:
-            return otherwise
+            return otherwise if put_at is None else put_at
         furthest_behind = max if self._timeline.backwards else min
         position = furthest_behind(m.start + m.position for m in played)
         for member in self._timeline:

@@ -48,8 +48,9 @@ class RobotSystem(SystemExecution):
         self.rate = rate
         self._timeline.turn(backwards=rate < 0)
         self._timeline.place(position)
-        self._line.put()
-        self.clock = PlaybackClock(now_ns, min(position, self.duration), 0.0)
+        position = min(position, self.duration)
+        self._line.put(position)
+        self.clock = PlaybackClock(now_ns, position, 0.0)
         self.message = say.COORDINATOR_RESTARTED()
 
     def play(self, now_ns: int) -> float:
@@ -274,9 +275,9 @@ class RobotSystem(SystemExecution):
         except Unreached:
             if self.state is not SystemState.READY:
                 self._timeline.seek(self.clock.position)
-                self._line.put()
+                self._line.put(self.clock.position)
             raise
-        self._line.put()
+        self._line.put(position)
         self.clock = PlaybackClock(now_ns, position, 0.0)
         self._machine.fire(event)
         self.message = playback.AT_POSITION(position=position)

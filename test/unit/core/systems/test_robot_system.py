@@ -461,6 +461,21 @@ def test_a_restarted_system_stands_in_place_and_takes_its_members_back():
     assert world.frames("a")[-1] == 100
 
 
+def test_an_old_report_with_a_later_stamp_does_not_move_a_restarted_system_for_good():
+    """The clock was set back: what a member said before that has a stamp ahead of all later."""
+    world = make(TWO)
+    come_back(world, 0.0, 1.0)
+    for robot in TWO:
+        world.system.member_changed(
+            world.now, robot, State.PAUSED, 0.0, owner="cell", trajectory_id=robot
+        )
+    ahead = world.now + 600 * SECOND
+    world.system.member_changed(world.now, "a", State.PAUSED, 0.2, ahead, "cell", "a")
+    assert world.system.clock.position == 0.2
+    world.system.member_changed(world.now, "a", State.PAUSED, 0.0, world.now, "cell", "a")
+    assert world.system.clock.position == 0.0
+
+
 def test_a_member_that_comes_back_in_a_halt_halts_the_system():
     world = playing(make(TWO), 0.3)
     world.playbacks["a"].collide(world.now, TOUCHES)
