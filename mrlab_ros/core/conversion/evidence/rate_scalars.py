@@ -238,7 +238,10 @@ def _is_foreign(workspace: Workspace, path: str, near: str, rows: int) -> bool:
     sizes = [
         max(v.shape)
         for v in workspace.variables
-        if v.shape and v.path.startswith(f"{container}.") and max(v.shape) >= FOREIGN_ROWS
+        if v.shape
+        and not v.text
+        and v.path.startswith(f"{container}.")
+        and max(v.shape) >= FOREIGN_ROWS
     ]
     return bool(sizes) and rows not in sizes
 

@@ -397,6 +397,11 @@ def test_the_frame_rate_comes_from_the_file_or_the_default(company, rate, code):
     assert code in codes(result)
 
 
+def test_a_long_text_beside_a_rate_is_no_data_of_its_own():
+    said = var("meta.comment", kind="char", shape=(1, 40), text="pick and place, test 3")
+    assert accepted(var("q", motion()), var("meta.fs", 20.0), said).frame_rate == 20.0
+
+
 def test_the_time_of_the_structure_itself_comes_first():
     t = np.arange(300)[:, None] / 40
     result = convert(var("out.q.time", t), var("out.q.signals.values", motion()), var("dt", 0.001))
