@@ -12,6 +12,7 @@ from concurrent.futures import Future
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, replace
 from functools import partial
+from mmap import ACCESS_READ, mmap
 from pathlib import Path
 
 from mrlab_ros.adapters import share
@@ -72,8 +73,14 @@ def bag_in(path: Path) -> Path:
 
 
 def is_trajectory_file(file: Path) -> bool:
-    """Return whether a file is one that the lab wrote, by its name."""
-    return file.suffix.lower() == ".json"
+    """Return whether a file is JSON that names a version of the lab's schema; True: unreadable."""
+    if file.suffix.lower() != ".json":
+        return False
+    try:
+        with file.open("rb") as opened, mmap(opened.fileno(), 0, access=ACCESS_READ) as content:
+            return content.find(b'"schema_version"') >= 0
+    except (OSError, ValueError):
+        return True
 
 
 def of_trajectory_file(file: Path) -> ConversionResult | None:
