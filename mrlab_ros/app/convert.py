@@ -135,7 +135,10 @@ def held_to_robot(result: ConversionResult, library: RobotLibrary) -> Conversion
     said = motion_checks.against_robot(
         found.positions, found.frame_rate, robot.joints, "positions", robot.id
     )
-    diagnostics = (*result.diagnostics, *said)
+    # The file repeats what its conversion said; a file is not believed where it says less.
+    again = {(one.code, one.joint) for one in said}
+    kept = (one for one in result.diagnostics if (one.code, one.joint) not in again)
+    diagnostics = (*kept, *said)
     if any(one.refuses for one in said):
         return replace(result, trajectory=None, outcome=Outcome.REJECTED, diagnostics=diagnostics)
     return replace(result, diagnostics=diagnostics)

@@ -92,12 +92,14 @@ def check_file(file: Path, setting: Setting) -> CheckedFile:
         return _cell(file, setting)
     stage, scene = setting.stage, setting.scene
     entry = entry_of(setting)
-    result = _converted(file, entry, setting)
+    result, held = _converted(file, entry, setting)
     t = result.trajectory
-    if t is not None:
-        entry = entry_of(setting, t.robot_model, t.end_effector or "")
-        if t.robot_model != entry.model:
-            result, t = _of_another_robot(t, file_name(file.name), entry.model), None
+    if held is None and not entry.model:
+        raise BadInput(result.diagnostics[0])
+    if held is not None:
+        entry = entry_of(setting, held.robot_model, held.end_effector or "")
+        if held.robot_model != entry.model:
+            result, t = _of_another_robot(held, file_name(file.name), entry.model), None
     robots = tuple(
         stage.robot(e.name, e.model, e.end_effector, e.pose)
         for e in (entry, *(r for r in scene.robots if r.name != entry.name))
@@ -134,16 +136,22 @@ def check_file(file: Path, setting: Setting) -> CheckedFile:
     return CheckedFile(checked, robots, played, result)
 
 
-def _converted(file: Path, entry: RobotEntry, setting: Setting) -> ConversionResult:
-    """Return what became of a file; a trajectory file that is damaged is refused as others are."""
+def _converted(
+    file: Path, entry: RobotEntry, setting: Setting
+) -> tuple[ConversionResult, Trajectory | None]:
+    """Return what became of a file, and the trajectory in it, also where its robot cannot play it.
+
+    A trajectory file that is damaged is refused as others are.
+    """
     library = setting.stage.library
     try:
         found = setting.convert(file, entry.model, entry.end_effector, setting.options, library)
-        return held_to_robot(found, library) if is_trajectory_file(file) else found
+        fit = held_to_robot(found, library) if is_trajectory_file(file) else found
+        return fit, found.trajectory
     except BadInput as error:
         if not is_trajectory_file(file) or not file.is_file():
             raise
-        return _refused(file_name(file.name), error.diagnostic)
+        return _refused(file_name(file.name), error.diagnostic), None
 
 
 def _of_another_robot(t: Trajectory, file: str, model: str) -> ConversionResult:

@@ -155,3 +155,10 @@ def test_a_cell_does_not_pass_over_an_option(tmp_path, option, value, code):
     cell.write_text(CELL)
     with command_refuses(command, code):
         assert check(cell, option, value).exit_code == 2
+
+
+def test_a_damaged_trajectory_file_is_told_as_such_without_a_robot(tmp_path):
+    file = tmp_path / "mine.json"
+    file.write_text('{"schema_version": "1.0"}')
+    with command_refuses(command, "not_as_schema"):
+        check(file, "--out", tmp_path / "page.html")

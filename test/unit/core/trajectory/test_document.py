@@ -32,6 +32,12 @@ def make(positions, rate=100.0, gripper=None, name="pick"):
             "value": 0.5,
             "limit": 1.0,
             "unit": "rad",
+            "link": "l1",
+            "time": 0.5,
+            "end": None,
+            "kind": "floor",
+            "other": "box_1",
+            "robot": "ur5e_1",
         },
         (Fix("gripper", "7", "q(:, 7) = 1 - q(:, 7)"),),
     )
