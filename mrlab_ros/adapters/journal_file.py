@@ -37,6 +37,17 @@ def set_aside(path: Path, *, copy: bool = False) -> Diagnostic:
 
 
 SUFFIX = ".journal"
+
+
+def peek(state_dir: str, name: str) -> dict[str, Any] | None:
+    """Return what the journal of another node holds; None: none is there that can be read."""
+    try:
+        found = journal_format.newest(Path(state_dir, f"{name}{SUFFIX}").read_bytes())
+    except OSError:
+        return None
+    return None if found is None else found[1]
+
+
 OPENED = os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_CLOEXEC | os.O_NOFOLLOW
 
 

@@ -112,6 +112,22 @@ def test_a_system_that_was_dissolved_does_not_come_back_with_the_lab(graph, fold
     wait_for(lambda: "cell" not in file.read_text(), "the file without the system")
 
 
+def test_a_scene_file_from_before_brings_no_dissolved_system_back(graph, folder):
+    """A kill just after the answer leaves the scene's file as it was."""
+    lab = small_lab.start(graph, state_dir=folder)
+    robot = spawn(graph)
+    load(graph, robot, "wave")
+    file = Path(folder) / SCENE_FILE
+    assert make_system(graph, {robot: "wave"}).success
+    wait_for(lambda: "cell" in file.read_text(), "the system in the file")
+    before = file.read_bytes()
+    assert graph.call(srv.Remove, "/coordinator/dissolve_system", name="cell").success
+    for node in (lab.lab, lab.coordinator):
+        graph.drop(node)
+    file.write_bytes(before)
+    assert graph.add(LabNode, state_dir=folder)._return.pending.systems == ()
+
+
 def test_a_robot_that_had_not_begun_is_ready_again(graph, lab, folder):
     robot = spawn(graph)
     states = listen_state(graph, robot)

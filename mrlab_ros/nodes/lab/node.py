@@ -11,7 +11,7 @@ from mrlab_msgs import msg, srv
 from rclpy.publisher import Publisher
 from std_msgs.msg import String
 
-from mrlab_ros.adapters import share
+from mrlab_ros.adapters import journal_file, share
 from mrlab_ros.adapters.robots.exporting import published
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.scenes.files import SCENE_FILE, SceneFiles, StateFile
@@ -22,6 +22,7 @@ from mrlab_ros.core.runtime.identity import Identity
 from mrlab_ros.core.scene.document import RobotEntry, SceneDocument
 from mrlab_ros.core.scene.restore import self_contained, with_pending
 from mrlab_ros.core.scene.robots import PlacedRobot, Scene
+from mrlab_ros.core.systems import registry
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.poses import pose_from_message
 from mrlab_ros.messages.scenes import (
@@ -97,6 +98,7 @@ class LabNode(ParameterNode[LabParameters], name="lab", kind=LabParameters, othe
             for model in self.parameters.robots:
                 self._spawn(model, None, "", None)
             last = SceneDocument()
+        last = self._without_dissolved(last)
         self._return = Return(
             self._restore_robots(last),
             self._restore,
@@ -216,6 +218,14 @@ class LabNode(ParameterNode[LabParameters], name="lab", kind=LabParameters, othe
         """Keep a copy of the state file, and say what could not be brought back."""
         self.lost.append(why)
         self._file.keep_copy(str(why))
+
+    def _without_dissolved(self, last: SceneDocument) -> SceneDocument:
+        """Leave out systems that the coordinator dissolved: its journal is written at once."""
+        kept = journal_file.peek(self.parameters.state_dir, "coordinator")
+        if kept is None:
+            return last
+        names = {name for name, _, _ in registry.read(kept)}
+        return replace(last, systems=tuple(s for s in last.systems if s.name in names))
 
     def _restore_robots(self, last: SceneDocument) -> SceneDocument:
         """Spawn the robots of the last run; return the document without those that cannot be."""
