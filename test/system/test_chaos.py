@@ -12,17 +12,14 @@ from __future__ import annotations
 import json
 import os
 import random
-import shutil
 import signal
-import struct
-import subprocess
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
+from blows import Clock, Disk, small_disk
 from chaos_model import Client, Model
 from launched_lab import done, launched_lab, mrlab
 from own_port import free_endpoint
@@ -30,7 +27,6 @@ from own_port import free_endpoint
 from mrlab_ros.processes.run_file import RunFile
 
 MOTION = Path(__file__).parents[2] / "examples" / "quintic_ur5e.mat"
-SHIM = Path(__file__).parents[1] / "clock_shim.c"
 SECONDS = float(os.environ.get("MRLAB_CHAOS_SECONDS", "15"))
 SEED = int(os.environ.get("MRLAB_CHAOS_SEED", str(random.SystemRandom().randrange(2**32))))
 # What a freeze lasts, s.
@@ -38,67 +34,6 @@ FREEZE_S = 3.0
 VICTIMS = ("lab", "playback", "recorder", "physics", "bridge")
 # The wall clock is set by one of these, s.
 STEPS = (-3600.0, -5.0, -0.3, 0.3, 5.0, 3600.0)
-# Of the disk that fills up.
-DISK = "48m"
-
-
-class Clock:
-    """The wall clock of the lab's processes, which nobody else's follows."""
-
-    def __init__(self, folder: Path) -> None:
-        self._file = folder / "clock_offset"
-        self._file.write_bytes(bytes(8))
-        self._library = folder / "clock_shim.so"
-        subprocess.run(
-            ("cc", "-shared", "-fPIC", "-O1", "-o", self._library, SHIM, "-ldl"), check=True
-        )
-
-    @property
-    def environment(self) -> dict[str, str]:
-        return {"LD_PRELOAD": str(self._library), "CLOCK_SHIM": str(self._file)}
-
-    def set_by(self, seconds: float) -> None:
-        with self._file.open("r+b") as file:
-            (offset,) = struct.unpack("<q", file.read())
-            file.seek(0)
-            file.write(struct.pack("<q", offset + round(seconds * 1e9)))
-
-
-class Disk:
-    """A small disk for the state of a lab, where one may be mounted here; see `small`."""
-
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
-        folder.mkdir()
-        mount = ("mount", "-t", "tmpfs", "-o", f"size={DISK}", "mrlab_chaos", folder)
-        self.small = (
-            shutil.which("mount") is not None
-            and subprocess.run(mount, capture_output=True, check=False).returncode == 0
-        )
-
-    def fill(self) -> None:
-        with (self.folder / "filler").open("wb", buffering=0) as file:
-            try:
-                while True:
-                    file.write(bytes(1 << 16))
-            except OSError:
-                return
-
-    def free(self) -> None:
-        (self.folder / "filler").unlink()
-
-    def close(self) -> None:
-        if self.small:
-            subprocess.run(("umount", "-l", self.folder), check=True)
-
-
-@contextmanager
-def small_disk(folder: Path) -> Iterator[Disk]:
-    disk = Disk(folder)
-    try:
-        yield disk
-    finally:
-        disk.close()
 
 
 @dataclass

@@ -3,9 +3,8 @@
 The end is published before anything follows from it, the system stands where its members stood,
 and plays on from that one place. Random faults in random states follow: MRLAB_DEATHS of them, two
 unless it says otherwise, by MRLAB_DEATHS_SEED. Each prints how long its steps took.
-MRLAB_DEATHS_FREEZE: how long a freeze lasts, s. MRLAB_DEATHS_STATE: a folder on a small file
-system for the lab's state, which is then filled before some faults. The lab's wall clock is set
-before some, too.
+MRLAB_DEATHS_FREEZE: how long a freeze lasts, s. Before some faults the lab's wall clock is set, or
+the disk of its state fills up where a small one may be mounted.
 """
 
 from __future__ import annotations
@@ -13,14 +12,14 @@ from __future__ import annotations
 import os
 import random
 import signal
-import subprocess
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import nullcontext, suppress
 from pathlib import Path
 from typing import Any
 
 import pytest
+from blows import Clock, Disk, small_disk
 from graph import wait_for
 from launched_lab import done, launched_lab
 from mrlab_msgs import msg, srv
@@ -36,7 +35,6 @@ from mrlab_ros.ros.graph_node import Graph
 
 MOTION = Path(__file__).parents[2] / "examples" / "quintic_ur5e.mat"
 FREEZE_S = float(os.environ.get("MRLAB_DEATHS_FREEZE", "3"))
-STATE_DIR = os.environ.get("MRLAB_DEATHS_STATE", "")
 FAULTS = ("SIGKILL", "SIGTERM", "SIGSTOP")
 # Two clocks agree to the nanosecond where the rounding of their stamps is allowed for, s.
 NANOSECOND = 2e-9
@@ -47,8 +45,8 @@ SETTLED_S = 2.0
 class Watched:
     """A lab with the system `cell` of two robots, followed by a node of the test's own."""
 
-    def __init__(self, graph: Graph) -> None:
-        self.graph = graph
+    def __init__(self, graph: Graph, clock: Clock, disk: Disk) -> None:
+        self.graph, self.clock, self.disk = graph, clock, disk
         # What arrived, in its order: the instant, and the message.
         self.events: list[tuple[int, Any]] = []
         self.systems = graph.watch(msg.RobotSystems, "/systems", qos.LATCHED_EVENTS)
@@ -123,33 +121,19 @@ class Watched:
         )
 
 
-def built_clock(folder: Path) -> Path:
-    """Compile the library that shifts a process's wall clock."""
-    source = Path(__file__).parents[1] / "support" / "labs" / "wall_clock.c"
-    library = folder / "wall_clock.so"
-    subprocess.run(("gcc", "-shared", "-fPIC", "-O2", "-o", library, source, "-ldl"), check=True)
-    return library
-
-
-def set_clock(seconds: int) -> None:
-    """Set the wall clock of the lab's processes, by so much from the true one."""
-    Path(os.environ["WALL_CLOCK"]).write_text(str(seconds))
-
-
 @pytest.fixture(scope="module")
 def watched(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Watched]:
     folder = tmp_path_factory.mktemp("deaths")
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("WALL_CLOCK", str(folder / "wall_clock"))
-        patch.setenv("LD_PRELOAD", str(built_clock(folder)))
-        set_clock(0)
-        state = Path(STATE_DIR or folder) / "state"
-        options = ("--robots", "ur5e,ur5e", "--no-physics", "--state-dir", state)
+    clock = Clock(folder)
+    with pytest.MonkeyPatch.context() as patch, small_disk(folder / "state") as disk:
+        for name, value in clock.environment.items():
+            patch.setenv(name, value)
+        options = ("--robots", "ur5e,ur5e", "--no-physics", "--state-dir", disk.folder)
         with launched_lab(folder, patch, *options):
             done("play", "ur5e_1", MOTION)
             done("stop", "ur5e_1")
             with Graph() as graph:
-                watched = Watched(graph)
+                watched = Watched(graph, clock, disk)
                 wait_for(lambda: watched.systems.value is not None, "the coordinator")
                 loaded = watched.states["ur5e_1"].wait(lambda s: s.trajectory_id, 10.0)
                 members = [
@@ -265,22 +249,6 @@ def enter(watched: Watched, state: str) -> None:
         watched.until("PAUSED")
 
 
-@contextmanager
-def full_disk(full: bool) -> Iterator[None]:
-    """Fill the file system of the lab's state for a while."""
-    if not full:
-        yield
-        return
-    filler = Path(STATE_DIR) / "filler"
-    try:
-        with suppress(OSError), filler.open("wb", buffering=0) as file:
-            while file.write(b"0" * 4096):
-                pass
-        yield
-    finally:
-        filler.unlink()
-
-
 COUNT = int(os.environ.get("MRLAB_DEATHS", "2"))
 SEED = int(os.environ.get("MRLAB_DEATHS_SEED", "1"))
 
@@ -297,11 +265,11 @@ def test_faults_in_random_states_leave_every_clock_on_one_line(watched):
         time.sleep(dice.uniform(0.0, 0.8))
         since, was = len(watched.events), watched.system.label
         frozen = fault == "SIGSTOP" and not pair
-        full = bool(STATE_DIR) and dice.random() < 0.2
-        set_clock(dice.choice((-600, 0, 600)))
+        full = watched.disk.small and dice.random() < 0.2
+        watched.clock.set_by(dice.choice((-600, 0, 600)))
         is_back = back(watched, pair or victim, since, frozen=frozen)
         struck_ns = time.monotonic_ns()
-        with full_disk(full):
+        with watched.disk.full() if full else nullcontext():
             if pair:
                 os.kill(pid_of(pair), signal.SIGKILL)
             strike(fault, victim)
