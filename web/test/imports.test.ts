@@ -42,7 +42,8 @@ const PARTS: Readonly<Record<string, Layers>> = {
   },
   room: {
     page: 'board ports room session',
-    room: 'board follow handles input latency panels people place ports robots scene session systems tour',
+    room: 'board follow handles input latency panels people place robots scene session systems tour wiring',
+    wiring: 'board handles latency panels people place ports robots scene session systems tour',
     follow: 'board handles ports robots session systems',
     tour: 'board input latency panels ports robots scene session',
     board: 'latency panels people place ports scene session systems',

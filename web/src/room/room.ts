@@ -1,29 +1,19 @@
 import { signal } from '@preact/signals'
 import { Matrix4, Quaternion, Vector3 } from 'three'
-import type { CourseOf } from '../lab/followed_robot'
 import type { LabFollower } from '../lab/follower'
-import type { Link } from '../link/link'
 import { type TrajectoryInfo, trajectoryCatalogueReader } from '../protocol/mrlab_msgs'
 import { LabScene } from '../scene/lab/lab_scene'
 import type { ShownSurface } from '../scene/lab/surfaces'
 import { MeshLibrary } from '../scene/robot/meshes'
-import type { Words } from '../words/en'
 import { named } from '../words/words'
-import { Board, type MakeTab, type Tab, type TabPorts } from './board/board'
+import { Board } from './board/board'
 import { BoardPlace } from './board/board_place'
-import { objectsTab, robotsTab } from './board/catalogue_tabs'
-import { labTab } from './board/lab_tab'
-import { type Person, peopleTab } from './board/people_tab'
-import { roomSwitches } from './board/room_switches'
-import { roomTab, settingsTab } from './board/settings_tab'
-import { systemsTab } from './board/systems_tab'
 import { followedScene, listen, roomFollower } from './follow'
 import { ObjectHandles } from './handles/object_handles'
 import { Mouse } from './input/mouse'
 import { Targets } from './input/targets'
 import { Stats } from './latency'
 import { soundFeedback } from './panels/feedback'
-import type { Feedback, Surroundings } from './panels/panel'
 import { pauseNews } from './people/pausing'
 import { People } from './people/people'
 import { Alignment, SEATED } from './place/alignment'
@@ -31,10 +21,8 @@ import { anchorNews, SceneAnchor } from './place/anchor'
 import { CommonPlace } from './place/common_place'
 import { RoomScan } from './place/scan'
 import { Spawning } from './place/spawning'
-import { type Ground, type Support, supportsOf } from './place/supports'
+import { type Support, supportsOf } from './place/supports'
 import { TouchAlignment } from './place/touch_alignment'
-import type { Catalogue, Entry, Frames, Lab, Preferences, Speech } from './ports'
-import type { Checks } from './robots/check'
 import { ControlPanel } from './robots/control'
 import { RobotPanels } from './robots/robot_panels'
 import { RoomRobots } from './robots/robots'
@@ -47,11 +35,8 @@ import { Visit } from './session/visit'
 import { Creation } from './systems/creation'
 import { SystemPanels } from './systems/system_panels'
 import { Guide } from './tour/guide'
+import { portsOf, type RoomParts, tabsOf } from './wiring'
 
-/** m: distance at which text is read. */
-const READ_AT = 0.9
-/** m: distance before the eyes at which new objects are put. */
-const OBJECT_AWAY = 0.8
 /** s from the start of a frame to its display, unless the device reports it; and the most. */
 const AHEAD_S = 0.015
 const MOST_AHEAD_S = 0.05
@@ -61,31 +46,6 @@ const LONGEST_STEP = 0.1
 const matrix = new Matrix4()
 const scale = new Vector3()
 const tip = new Vector3()
-
-/** Everything that a room is made from. */
-interface RoomParts extends Checks {
-  readonly container: HTMLElement
-  readonly link: Link
-  readonly words: Words
-  readonly robots: readonly Entry[]
-  readonly endEffectors: readonly Entry[]
-  /** The person who is signed in. */
-  readonly person: Person
-  readonly courseOf: CourseOf
-  /** Tabs that other parts of the pages add to the board. */
-  readonly tabs: readonly MakeTab[]
-}
-
-/** All ports; each part takes those that it uses. */
-type Ports = TabPorts &
-  Speech &
-  Lab &
-  Frames &
-  Catalogue &
-  Preferences &
-  Ground &
-  Checks &
-  Surroundings
 
 /** The lab in a person's room: makes the parts of the folders beside it, and calls them in each
  * frame. */
@@ -124,7 +84,7 @@ export class Room {
   readonly objects: ObjectHandles
   readonly drawings: Drawings
   readonly stats: Stats
-  private readonly spawning: Spawning
+  readonly spawning: Spawning
   readonly alignment: Alignment
   private readonly mouse: Mouse
   private readonly boardPlace: BoardPlace
@@ -148,7 +108,7 @@ export class Room {
     })
     this.mouse = new Mouse(this.stage, this.targets.all)
     this.visit = new Visit(this.stage, this.targets, this)
-    const ports = this.portsOf(parts, this.sound.feedback)
+    const ports = portsOf(parts, this, this.sound.feedback)
     const { targets } = this
     this.board = new Board(ports)
     const repaint = () => this.board.panel.repaint()
@@ -210,7 +170,7 @@ export class Room {
       }),
     )
     this.guide = new Guide(ports, this, targets)
-    this.board.tabs = this.tabs(ports, parts)
+    this.board.tabs = tabsOf(ports, parts, this)
     this.undo = [
       pauseNews(link, (who, names) =>
         ports.say(words.room.pausedBy(named(who), names.join(', '))),
@@ -316,71 +276,6 @@ export class Room {
     this.alignment.align(SEATED)
     this.showSurfaces()
     this.board.panel.repaint()
-  }
-
-  /** Return the ports of the room's parts. Values that change are read from the room. */
-  private portsOf(
-    { link, words, robots, endEffectors, checks, commands }: RoomParts,
-    feedback: Feedback,
-  ): Ports {
-    const room = this
-    return {
-      link,
-      words,
-      robots,
-      endEffectors,
-      checks,
-      commands,
-      feedback,
-      stir: () => room.stage.invalidate(),
-      world: room.stage.world,
-      head: room.head,
-      look: room.look,
-      readAt: READ_AT,
-      get trajectories() {
-        return room.trajectories
-      },
-      get supports() {
-        return room.supports
-      },
-      get bases() {
-        return room.robots.bases()
-      },
-      get leftHanded() {
-        return room.settings.leftHanded.value
-      },
-      get seated() {
-        return room.settings.seated.value
-      },
-      get still() {
-        return room.settings.still.value
-      },
-      get screen() {
-        return room.inside.value ? null : room.stage.camera
-      },
-      repaintBoard: () => room.board.panel.repaint(),
-      say: (text, warns) => room.board.say(text, warns),
-    }
-  }
-
-  private tabs(ports: Ports, { person, tabs }: RoomParts): Tab[] {
-    const { spawning, follower, stage, visit } = this
-    const switches = roomSwitches(ports, this, visit, stage, () => this.surfaces.length)
-    return [
-      robotsTab(ports, (entry) => spawning.spawn(entry)),
-      objectsTab(
-        ports,
-        () => spawning.types,
-        () => spawning.before(OBJECT_AWAY),
-        () => ({ here: this.objects.count, most: spawning.most }),
-      ),
-      systemsTab(ports, this.creation, follower),
-      peopleTab(ports, this.people, follower, person),
-      labTab(ports, follower, this.stats),
-      ...tabs.map((make) => make(ports, follower, this.drawings)),
-      roomTab(ports, switches),
-      settingsTab(ports, this.settings, () => this.guide.begin()),
-    ]
   }
 
   /** Return the object nearest to a robot's fingers; empty: none is near. */

@@ -1,0 +1,152 @@
+import type { CourseOf } from '../lab/followed_robot'
+import type { LabFollower } from '../lab/follower'
+import type { Link } from '../link/link'
+import type { TrajectoryInfo } from '../protocol/mrlab_msgs'
+import type { ShownSurface } from '../scene/lab/surfaces'
+import type { Words } from '../words/en'
+import type { Board, MakeTab, Tab, TabPorts } from './board/board'
+import { objectsTab, robotsTab } from './board/catalogue_tabs'
+import { labTab } from './board/lab_tab'
+import { type Person, peopleTab } from './board/people_tab'
+import { type Places, roomSwitches } from './board/room_switches'
+import { roomTab, settingsTab } from './board/settings_tab'
+import { systemsTab } from './board/systems_tab'
+import type { ObjectHandles } from './handles/object_handles'
+import type { Stats } from './latency'
+import type { Feedback, Surroundings } from './panels/panel'
+import type { People } from './people/people'
+import type { Spawning } from './place/spawning'
+import type { Ground, Support } from './place/supports'
+import type { Catalogue, Entry, Frames, Lab, Preferences, Speech, Viewer } from './ports'
+import type { Checks } from './robots/check'
+import type { RoomRobots } from './robots/robots'
+import type { Drawings } from './scene/drawings'
+import type { RoomStage } from './scene/stage'
+import type { Settings } from './session/settings'
+import type { Visit } from './session/visit'
+import type { Creation } from './systems/creation'
+import type { Guide } from './tour/guide'
+
+/** m: distance at which text is read. */
+const READ_AT = 0.9
+/** m: distance before the eyes at which new objects are put. */
+const OBJECT_AWAY = 0.8
+
+/** Everything that a room is made from. */
+export interface RoomParts extends Checks {
+  readonly container: HTMLElement
+  readonly link: Link
+  readonly words: Words
+  readonly robots: readonly Entry[]
+  readonly endEffectors: readonly Entry[]
+  /** The person who is signed in. */
+  readonly person: Person
+  readonly courseOf: CourseOf
+  /** Tabs that other parts of the pages add to the board. */
+  readonly tabs: readonly MakeTab[]
+}
+
+/** All ports; each part takes those that it uses. */
+export type Ports = TabPorts &
+  Speech &
+  Lab &
+  Frames &
+  Catalogue &
+  Preferences &
+  Ground &
+  Checks &
+  Surroundings
+
+/** The parts of a room whose present values the ports return. */
+interface Wired extends Viewer {
+  readonly stage: RoomStage
+  readonly board: Board
+  readonly robots: RoomRobots
+  readonly settings: Settings
+  readonly visit: Pick<Visit, 'inside'>
+  readonly trajectories: readonly TrajectoryInfo[]
+  readonly supports: readonly Support[]
+}
+
+/** Return the ports of the room's parts. Values that change are read from the room, and nothing
+ * is read before a part asks for it. */
+export function portsOf(
+  { link, words, robots, endEffectors, checks, commands }: RoomParts,
+  room: Wired,
+  feedback: Feedback,
+): Ports {
+  return {
+    link,
+    words,
+    robots,
+    endEffectors,
+    checks,
+    commands,
+    feedback,
+    stir: () => room.stage.invalidate(),
+    world: room.stage.world,
+    head: room.head,
+    look: room.look,
+    readAt: READ_AT,
+    get trajectories() {
+      return room.trajectories
+    },
+    get supports() {
+      return room.supports
+    },
+    get bases() {
+      return room.robots.bases()
+    },
+    get leftHanded() {
+      return room.settings.leftHanded.value
+    },
+    get seated() {
+      return room.settings.seated.value
+    },
+    get still() {
+      return room.settings.still.value
+    },
+    get screen() {
+      return room.visit.inside.value ? null : room.stage.camera
+    },
+    repaintBoard: () => room.board.panel.repaint(),
+    say: (text, warns) => room.board.say(text, warns),
+  }
+}
+
+/** The parts of a room that the tabs of its board show and change. */
+interface Tabbed extends Places {
+  readonly spawning: Spawning
+  readonly objects: ObjectHandles
+  readonly creation: Creation
+  readonly follower: LabFollower
+  readonly people: People
+  readonly stats: Stats
+  readonly drawings: Drawings
+  readonly settings: Settings
+  readonly guide: Guide
+  readonly visit: Visit
+  readonly stage: RoomStage
+  readonly surfaces: readonly ShownSurface[]
+}
+
+/** Return the tabs of the board, in their order. */
+export function tabsOf(ports: Ports, { person, tabs }: RoomParts, room: Tabbed): Tab[] {
+  const { spawning, objects, follower, settings, visit, stage, drawings } = room
+  const switches = roomSwitches(ports, room, visit, stage, () => room.surfaces.length)
+  return [
+    robotsTab(ports, (entry) => spawning.spawn(entry)),
+    objectsTab(
+      ports,
+      () => spawning.types,
+      () => spawning.before(OBJECT_AWAY),
+      () => ({ here: objects.count, most: spawning.most }),
+    ),
+    systemsTab(ports, room.creation, follower),
+    peopleTab(ports, room.people, follower, person),
+    labTab(ports, follower, room.stats),
+    ...tabs.map((make) => make(ports, follower, drawings)),
+    roomTab(ports, switches),
+    settingsTab(ports, settings, () => room.guide.begin()),
+  ]
+}
