@@ -202,6 +202,35 @@ def beside_mujoco(size: Size) -> list[dict[str, Any]]:
     return rows
 
 
+def loads(size: Size) -> list[dict[str, Any]]:
+    """Accelerate 7 kg between two pads; return the friction needed beside that of statics."""
+    sys.path.append(str(ROOT / "test" / "support" / "physics"))
+    from physics_cell import PADS, Cell, gantry
+
+    rows = []
+    for acceleration in size.some((1.0, 2.0, 4.0, 8.0, 12.0, 20.0)):
+        with tempfile.TemporaryDirectory() as name:
+            cell = Cell(gantry(Path(name)), Settings(hold="infinite"))
+            cell.put("lead", (0.0, 0.0, 0.03))
+            cell.add("a", at=(0.0, 0.0, 0.03 + PADS))
+            cell.close("a")
+            cell.go("a", (0.0, 0.0, 0.5 + PADS), 1.0)
+            cell.accelerate("a", 0, acceleration, 0.4)
+            load = cell.world.robot("a").holding.load
+            cell.engine.close()
+        statics = 7 * float(np.hypot(9.80665, acceleration)) / 125
+        rows.append(
+            {
+                "m/s2": acceleration,
+                "m/s": 0.4 * acceleration,
+                "friction, statics": statics,
+                "friction, lab": load.friction_needed,
+                "off %": 100 * (load.friction_needed / statics - 1),
+            }
+        )
+    return rows
+
+
 def pose_at(x: float, y: float, z: float) -> PoseMessage:
     return PoseMessage(position=Point(x=x, y=y, z=z))
 
@@ -380,6 +409,7 @@ def drift(rows: list[dict[str, Any]]) -> dict[str, Any]:
 TABLES = {
     "Physics steps": steps,
     "Physics beside MuJoCo": beside_mujoco,
+    "Physics load of a grasp beside statics": loads,
     "Physics node": node_load,
     "Physics halt: contact to last moving joint state, 100 Hz": halts,
 }

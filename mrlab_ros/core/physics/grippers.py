@@ -28,7 +28,7 @@ from mrlab_ros.core.physics.diagnostics import (
 )
 from mrlab_ros.core.physics.engine import BodyState, Kind, Touch
 from mrlab_ros.core.physics.grasp import kinds
-from mrlab_ros.core.physics.grasp.load import Grip, fingers_grip
+from mrlab_ros.core.physics.grasp.load import Grip, fingers_grip, middle
 from mrlab_ros.core.physics.grasp.states import INWARDS, Grasp, GraspEvent
 from mrlab_ros.core.physics.holding import Holding
 from mrlab_ros.core.physics.seal import OUT, leak, lip
@@ -126,7 +126,7 @@ class Grippers:
             hand = self._world_state.hand(robot).pose
             pose = compose(hand, robot.holding.in_hand)
             self._engine.set_object(robot.held, BodyState(pose))
-            robot.holding.velocity = None
+            robot.holding.poses.clear()
 
     def put_in_hand(self, robot: Robot, thing: SceneObject, kept: HeldSnapshot) -> None:
         """Let a robot hold an object as it held it once, for as long."""
@@ -238,8 +238,11 @@ class Grippers:
             return None, TOO_WIDE(object=thing.name)
         hand = self._world_state.hand(robot).pose
         contacts = [
-            (relative(hand, Pose(touch.point)).position, self._in_hand(hand, touch.normal))
-            for touch in pinched[1]
+            (
+                relative(hand, Pose(middle([touch.point for touch in touches]))).position,
+                self._in_hand(hand, touches[0].normal),
+            )
+            for touches in pinched[1]
         ]
         return (thing, fingers_grip(contacts)), None
 

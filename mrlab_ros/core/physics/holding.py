@@ -9,8 +9,10 @@ from mrlab_ros.core.base.geometry import (
     Pose,
     Vector,
     add,
+    compose,
     conjugate,
     cross,
+    inverse,
     relative,
     rotate,
     scale,
@@ -24,6 +26,7 @@ from mrlab_ros.core.physics.world_state import GraspChanged, LoadChanged, SceneO
 
 # An object that slid so far between the fingers, m, falls: a pad is 25 mm high.
 SLID = 0.012
+STILL: Vector = (0.0, 0.0, 0.0)
 # The normal of a contact that supports an object points up by more than this cosine.
 SUPPORTS = 0.5
 
@@ -54,7 +57,9 @@ class Holding:
         robot.told = robot.reason = None
         felt = robot.arm.moving_mass / 2 + thing.type.mass if robot.arm.moving_mass else 0.0
         self._engine.hold(robot.name, robot.arm.hand, thing.name, felt)
-        robot.holding.load = robot.told = self._load(robot, thing, (0.0, 0.0, 0.0))
+        robot.holding.load = robot.told = self._load(
+            robot, thing, self._engine.object(thing.name).pose, STILL
+        )
         if robot.told is not None:
             robot.reason = remark(robot.told, robot.name)
 
@@ -98,17 +103,23 @@ class Holding:
     # what it bears --------------------------------------------------------------------------
 
     def weigh(self, robot: Robot, now_ns: int, duration: float) -> None:
-        """Look at what a grasp bears; the last look was `duration` s ago."""
+        """Look at what a grasp bears; the last look was `duration` s ago.
+
+        The load is that of the instant of the last look: its acceleration is the second
+        difference of the object's places around it.
+        """
         held = robot.holding
         if held is None:
             return
         thing = self._world_state.objects[robot.held]
-        hand = self._world_state.hand(robot)
-        arm = rotate(hand.pose.orientation, held.in_hand.position)
-        velocity = add(hand.linear, cross(hand.angular, arm))
-        change = subtract(velocity, held.velocity) if held.velocity else (0.0, 0.0, 0.0)
-        held.velocity = velocity
-        held.load = self._load(robot, thing, scale(change, 1.0 / duration))
+        held.poses.append(self._engine.object(thing.name).pose)
+        if len(held.poses) < 3:
+            at, acceleration = held.poses[-1], STILL
+        else:
+            before, at, after = held.poses
+            ways = subtract(after.position, at.position), subtract(at.position, before.position)
+            acceleration = scale(subtract(*ways), 1.0 / duration**2)
+        held.load = self._load(robot, thing, at, acceleration)
         if held.load is None:
             return
         said = remark(held.load, robot.name)
@@ -120,21 +131,28 @@ class Holding:
             robot.told, robot.reason, held.lifted = held.load, said, lifted
             self._world_state.events.append(LoadChanged(self._state(robot)))
 
-    def _load(self, robot: Robot, thing: SceneObject, acceleration: Vector) -> Load | None:
+    def _load(
+        self, robot: Robot, thing: SceneObject, at: Pose, acceleration: Vector
+    ) -> Load | None:
+        """Return the load while the object is at `at` and accelerates by `acceleration`, m/s^2."""
         held = robot.holding
         if held is None:
             return None
-        tool0 = self._engine.link(robot.name, robot.tool_link).pose.position
-        motion = self._engine.object(thing.name)
+        # All that bears it at the same instant: the engine's links have moved on with their step.
+        hand = compose(at, inverse(held.in_hand))
+        link = self._world_state.hand(robot).pose
+        tool = self._engine.link(robot.name, robot.tool_link).pose
+        tool0 = compose(hand, relative(link, tool)).position
+        mass = thing.type.mass
         if held.grip is None:
-            return attached(tool0, motion, thing.type.mass, robot.payload)
+            return attached(tool0, at.position, mass, robot.payload)
         return bears(
             held.grip,
-            self._world_state.hand(robot),
+            hand,
             tool0,
-            motion,
+            at.position,
             acceleration,
-            thing.type.mass,
+            mass,
             robot.payload,
             thing.type.body.friction,
             robot.tool.force if held.grip.kind.pulls else robot.arm.grip_force,

@@ -10,7 +10,7 @@ from operator import mul, sub
 
 from mrlab_ros.core.base.clock import SECOND, PlaybackClock
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.base.geometry import Pose, Vector
+from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.base.state_machine import Machine
 from mrlab_ros.core.physics.clearance import Clearance
 from mrlab_ros.core.physics.engine import Arm, Kind, Touch
@@ -101,15 +101,15 @@ class Held:
     """How a robot holds its object.
 
     in_hand: T_hand_object. grip: None where it was attached by service, and never slips. reach:
-    m, from the hand to its furthest point. velocity: m/s of its centre when its load was last
-    looked at, None after a jump. slip_speed: m/s; slid: m in the hand. lifted: it has left what it
+    m, from the hand to its furthest point. poses: of the object, at the last looks at its load
+    since a jump. slip_speed: m/s; slid: m in the hand. lifted: it has left what it
     stood on.
     """
 
     in_hand: Pose
     grip: Grip | None
     reach: float
-    velocity: Vector | None = None
+    poses: deque[Pose] = field(default_factory=lambda: deque(maxlen=3))
     load: Load | None = None
     slip_speed: float = 0.0
     slid: float = 0.0

@@ -166,6 +166,14 @@ class Cell:
                 self.events += self.world.take_events()
         self.at[name] = goal
 
+    def accelerate(self, name: str, axis: int, acceleration: float, seconds: float) -> None:
+        """Drive one axis of a gantry from rest at a constant acceleration, m/s^2, to its speed."""
+        start = self.at[name]
+        for k in range(1, round(seconds * 100) + 1):
+            to = list(start)
+            to[axis] += acceleration * (k / 100) ** 2 / 2
+            self.go(name, to, 0.01, even=True)
+
     def _stalled(self) -> bool:
         return self._stalls is not None and self._stalls.random() < STALLED
 

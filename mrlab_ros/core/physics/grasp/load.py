@@ -13,9 +13,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.base.geometry import Vector, add, cross, dot, rotate, scale, subtract
+from mrlab_ros.core.base.geometry import (
+    Pose,
+    Vector,
+    compose,
+    cross,
+    dot,
+    rotate,
+    scale,
+    subtract,
+)
 from mrlab_ros.core.physics.diagnostics import OVER_PAYLOAD, SLIPS
-from mrlab_ros.core.physics.engine import BodyState
 from mrlab_ros.core.physics.grasp.kinds import FINGERS, Gripper
 
 GRAVITY: Vector = (0.0, 0.0, -9.80665)  # m/s^2, the standard value
@@ -90,21 +98,21 @@ class Load:
 
 def fingers_grip(contacts: Sequence[tuple[Vector, Vector]]) -> Grip:
     """Return the grip of fingers at `contacts`: (point, normal) each, in the frame of the hand."""
-    middle = scale(_sum([point for point, _ in contacts]), 1.0 / len(contacts))
-    spread = sum(math.dist(point, middle) for point, _ in contacts) / len(contacts)
-    return Grip(middle, tuple(normal for _, normal in contacts), spread)
+    between = middle([point for point, _ in contacts])
+    spread = sum(math.dist(point, between) for point, _ in contacts) / len(contacts)
+    return Grip(between, tuple(normal for _, normal in contacts), spread)
 
 
-def attached(tool0: Vector, thing: BodyState, mass: float, payload: float) -> Load:
+def attached(tool0: Vector, centre: Vector, mass: float, payload: float) -> Load:
     """Return what a robot bears with an object that was attached by service; see bears()."""
-    return Load(mass, payload, 0.0, 0.0, _wrist_moment(tool0, thing, mass))
+    return Load(mass, payload, 0.0, 0.0, _wrist_moment(tool0, centre, mass))
 
 
 def bears(
     grip: Grip,
-    hand: BodyState,
+    hand: Pose,
     tool0: Vector,
-    thing: BodyState,
+    centre: Vector,
     acceleration: Vector,
     mass: float,
     payload: float,
@@ -113,15 +121,16 @@ def bears(
 ) -> Load:
     """Return what a grasp bears.
 
-    tool0: its origin in world; thing: the held object; acceleration: m/s^2 of its centre; mass:
-    kg; friction: of the object's surface; force: N of all fingers together, or of the cup. What
-    pulls and peels at a cup takes from its friction, so it counts as friction needed: the margin
-    is by how much the load may grow before the cup slips or comes off.
+    hand: its pose in world; tool0: its origin in world; centre: of mass of the held object, in
+    world, at the same instant; acceleration: m/s^2 of that centre; mass: kg; friction: of the
+    object's surface; force: N of all fingers together, or of the cup. What pulls and peels at a
+    cup takes from its friction, so it counts as friction needed: the margin is by how much the
+    load may grow before the cup slips or comes off.
     """
     load = scale(subtract(GRAVITY, acceleration), mass)
-    turn = hand.pose.orientation
-    point = add(hand.pose.position, rotate(turn, grip.point))
-    moment = cross(subtract(thing.pose.position, point), load)
+    turn = hand.orientation
+    point = compose(hand, Pose(grip.point)).position
+    moment = cross(subtract(centre, point), load)
     axes = [rotate(turn, axis) for axis in grip.axes]
     mu = friction * grip.kind.friction
     if grip.kind.pulls:
@@ -143,15 +152,15 @@ def bears(
     gone = pressing <= wanted / NO_GRIP
     needed = NO_GRIP if gone else max((wanted + mu * pull) / (pressing + pull), LEAST)
     excess = _length(load) / mass if gone else (wanted - mu * pressing) / mass
-    wrist = _wrist_moment(tool0, thing, mass)
+    wrist = _wrist_moment(tool0, centre, mass)
     size = _length(across)
     way = scale(across, 1.0 / size) if size > 0 else (0.0, 0.0, 0.0)
     return Load(mass, payload, mu, needed, wrist, way, excess)
 
 
-def _wrist_moment(tool0: Vector, thing: BodyState, mass: float) -> float:
+def _wrist_moment(tool0: Vector, centre: Vector, mass: float) -> float:
     """Return the moment of an object's weight about the origin of tool0, N*m."""
-    return _length(cross(subtract(thing.pose.position, tool0), scale(GRAVITY, mass)))
+    return _length(cross(subtract(centre, tool0), scale(GRAVITY, mass)))
 
 
 def remark(load: Load, holder: str) -> Diagnostic | None:
@@ -180,11 +189,10 @@ def _apart(v: Vector, axis: Vector) -> tuple[Vector, Vector]:
     return along, subtract(v, along)
 
 
-def _sum(vectors: Sequence[Vector]) -> Vector:
-    total: Vector = (0.0, 0.0, 0.0)
-    for v in vectors:
-        total = add(total, v)
-    return total
+def middle(points: Sequence[Vector]) -> Vector:
+    """Return the mean of points; raise ValueError where there are none."""
+    x, y, z = (sum(axis) / len(points) for axis in zip(*points, strict=True))
+    return (x, y, z)
 
 
 def _length(v: Vector) -> float:

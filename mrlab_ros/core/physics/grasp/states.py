@@ -83,7 +83,7 @@ class StallWatch:
         self._from: list[tuple[int, float]] | None = None
         self._stalled: set[str] = set()
         self._all_since_ns: int | None = None
-        self._touched: dict[tuple[str, str], tuple[int, Touch]] = {}
+        self._touched: dict[tuple[str, str], tuple[int, list[Touch]]] = {}
 
     def update(
         self, now_ns: int, states: Sequence[FingerState], touches: Sequence[Touch]
@@ -92,7 +92,10 @@ class StallWatch:
         for touch in touches:
             inwards = touch.kind is Kind.OBJECT and touch.grip >= INWARDS
             if inwards and touch.link in self._links and not touch.held:
-                self._touched[touch.link, touch.other] = (now_ns, touch)
+                key = (touch.link, touch.other)
+                if self._touched.get(key, (0, []))[0] != now_ns:
+                    self._touched[key] = (now_ns, [])
+                self._touched[key][1].append(touch)
         if self._from is None:
             self._from = [(now_ns, state.position) for state in states]
         for i, (finger, state) in enumerate(zip(self._fingers, states, strict=True)):
@@ -120,15 +123,15 @@ class StallWatch:
             for finger, state, least in zip(self._fingers, states, self._least, strict=True)
         )
 
-    def pinched(self, now_ns: int) -> tuple[str, tuple[Touch, ...]] | None:
+    def pinched(self, now_ns: int) -> tuple[str, tuple[Sequence[Touch], ...]] | None:
         """Return the first object, by name, that two opposing stalled fingers touch inwards, and
-        the newest touch of each of its fingers."""
-        by_object: dict[str, list[Touch]] = {}
-        for (link, other), (seen_ns, touch) in self._touched.items():
+        the newest touches of each of its fingers."""
+        by_object: dict[str, list[Sequence[Touch]]] = {}
+        for (link, other), (seen_ns, touches) in self._touched.items():
             if link in self._stalled and now_ns - seen_ns <= self._span_ns:
-                by_object.setdefault(other, []).append(touch)
+                by_object.setdefault(other, []).append(touches)
         for name in sorted(by_object):
-            normals = [touch.normal for touch in by_object[name]]
+            normals = [touches[0].normal for touches in by_object[name]]
             if any(dot(a, b) < OPPOSED for i, a in enumerate(normals) for b in normals[i + 1 :]):
                 return name, tuple(by_object[name])
         return None

@@ -26,6 +26,7 @@ from mrlab_ros.core.physics.simulated_robot import GripperProgram
 from mrlab_ros.core.scene.surfaces import Surface
 
 OPEN, CLOSING, HOLDING, EMPTY = Grasp.OPEN, Grasp.CLOSING, Grasp.HOLDING, Grasp.EMPTY
+G = 9.80665
 HELD = [OPEN, CLOSING, HOLDING]
 RUNS = 5
 SCENES = {}
@@ -336,8 +337,28 @@ def what_is_above_the_payload_is_said_and_held(cell):
     assert (over["mass"], over["payload"]) == pytest.approx((7.0, 3.948), abs=0.01)
     assert cell.place(lead)[2] > 0.3
     load = cell.world.robot("a").holding.load
-    assert load.friction_needed == pytest.approx(7 * 9.80665 / 125, rel=0.1)
+    assert load.friction_needed == pytest.approx(7 * G / 125, rel=0.03)
     assert 0 < load.slip_margin < 1.0
+
+
+@scene
+def a_load_is_that_of_statics_however_fast_the_hand_is(cell):
+    pick(cell, "lead", lift=0.3)
+    for axis, acceleration, needs in (
+        (0, 8.0, math.hypot(G, 8.0)),
+        (2, 2.0, G + 2.0),
+        (1, 4.0, G),  # along the way the fingers close
+    ):
+        start, speed = cell.at["a"], acceleration * 0.4
+        cell.accelerate("a", axis, acceleration, 0.4)
+        load = cell.world.robot("a").holding.load
+        assert load.friction_needed == pytest.approx(7 * needs / 125, rel=0.03)
+        for k in range(1, 41):  # to rest again
+            to = list(start)
+            to[axis] += speed * (0.2 + k / 100 * (1 - k / 80))
+            cell.go("a", to, 0.01, even=True)
+        cell.go("a", start, 2.0)
+    assert cell.grasps("a") == HELD
 
 
 @scene
@@ -363,7 +384,7 @@ def a_bar_gripped_at_its_end_turns_more_than_pads_can_bear(cell):
     cell.go("a", (0.27, 0.0, 0.02 + PADS), 0.4)
     cell.close("a", 0.9)
     load = cell.world.robot("a").holding.load
-    assert load.wrist_moment == pytest.approx(0.5 * 9.80665 * 0.27, rel=0.02)
+    assert load.wrist_moment == pytest.approx(0.5 * G * 0.27, rel=0.02)
     assert load.slip_margin < 0
     cell.go("a", (0.27, 0.0, 0.3 + PADS), 0.5)
     assert cell.world.object(bar).held_by == ""

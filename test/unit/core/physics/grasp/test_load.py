@@ -13,7 +13,6 @@ from mrlab_ros.core.base.errors import Misuse
 from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics.diagnostics import NO_SEAL_AT_EDGE, OUT_OF_ATTACH_REACH
-from mrlab_ros.core.physics.engine import BodyState
 from mrlab_ros.core.physics.grasp import kinds
 from mrlab_ros.core.physics.grasp.kinds import Gripper
 from mrlab_ros.core.physics.grasp.load import Grip, Tool, bears
@@ -86,8 +85,8 @@ def pinched():
 
 def lifted_by_cup(mass: float, force: float = 45.0, beside: float = 0.0, up: float = 0.0):
     grip = Grip((0.0, 0.0, 0.1), ((0.0, 0.0, 1.0),), 0.02, kinds.CUP)
-    thing = BodyState(Pose((beside, 0.0, 0.4)))
-    return bears(grip, BodyState(DOWN), (0.0, 0.0, 0.5), thing, (0, 0, up), mass, 5.0, 0.6, force)
+    centre = (beside, 0.0, 0.4)
+    return bears(grip, DOWN, (0.0, 0.0, 0.5), centre, (0.0, 0.0, up), mass, 5.0, 0.6, force)
 
 
 def test_the_margin_of_a_cup_that_lifts_straight_up_is_that_of_its_pull():
