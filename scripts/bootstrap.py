@@ -87,7 +87,7 @@ def find_python():
     if complete[0]["machine"] != "x86_64":
         raise SetupError(
             "this machine is {}; the ROS 2 Jazzy wheels exist for x86_64 Linux only, so build on "
-            "a ROS machine instead (README, 'On a ROS machine')".format(complete[0]["machine"])
+            "a ROS machine instead (docs/install.md)".format(complete[0]["machine"])
         )
     return complete[0]
 

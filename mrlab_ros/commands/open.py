@@ -16,7 +16,7 @@ from mrlab_ros.ros.environment import domain_id
 
 
 def open_pages(
-    path: Annotated[str, typer.Argument(help="The page, such as /lab or /upload.")] = "/",
+    path: Annotated[str, typer.Argument(help="The page, such as /lab or /trajectories.")] = "/",
     print_only: Annotated[
         bool, typer.Option("--print", help="Print the address and open nothing.")
     ] = False,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import json
 import re
 import subprocess
 from pathlib import Path
@@ -13,8 +14,10 @@ import pytest
 from numpy.typing import NDArray
 from page_blocks import blocks
 from scipy.io import loadmat
+from typer.testing import CliRunner
 
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.cli import make_app
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = ROOT / "examples"
@@ -80,6 +83,20 @@ def test_the_lines_of_the_page_write_a_file_that_the_robot_can_play(tmp_path: Pa
     assert float(written["fs"].item()) == 100
     # It swings the base and comes back: what the page says beside the lines.
     assert np.ptp(written["q"], axis=0).round(9).tolist() == [1, 0, 0, 0, 0, 0]
+
+
+def test_the_wrong_file_of_the_tutorial_is_mended_as_it_says(tmp_path: Path) -> None:
+    page = ROOT / "docs" / "tutorials" / "first_motion.md"
+    (lines,) = (b for b in blocks(page) if b.language == "matlab")
+    (script := tmp_path / "wrong.m").write_text(lines.text)
+    assert octave(script, tmp_path).returncode == 0
+    words = ("convert", str(tmp_path / "my_motion.mat"), "--robot", "ur5e", "--json")
+    refused, mended = (
+        CliRunner().invoke(make_app(words), (*words, *unit)) for unit in ((), ("--units", "deg"))
+    )
+    errors = [each["code"] for each in json.loads(refused.stdout)["diagnostics"]]
+    assert (refused.exit_code, mended.exit_code) == (1, 0)
+    assert "degrees" in errors
 
 
 def test_every_shipped_file_has_its_script() -> None:

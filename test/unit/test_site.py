@@ -15,7 +15,7 @@ import yaml
 
 ROOT = Path(__file__).parents[2]
 SITE = ROOT / "scripts" / "site"
-PAGES = [ROOT / "README.md", ROOT / "CHANGELOG.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [ROOT / "README.md", ROOT / "CHANGELOG.md", *sorted((ROOT / "docs").rglob("*.md"))]
 FENCE = re.compile(r"^```.*?^```$|`[^`\n]+`", re.M | re.S)
 LINK = re.compile(r"\]\((?!https?:|mailto:)([^)#\s]*)(?:#([^)\s]+))?\)")
 
@@ -42,7 +42,7 @@ def test_every_page_has_one_place_on_the_site() -> None:
     navigation = (SITE / "mkdocs.yml").read_text().partition("\nnav:\n")[2]
     listed = list(places(yaml.safe_load(navigation)))
     assert sorted(listed) == sorted(set(listed))
-    inside = {page.name for page in (ROOT / "docs").glob("*.md")}
+    inside = {page.relative_to(ROOT / "docs").as_posix() for page in (ROOT / "docs").rglob("*.md")}
     assert inside <= set(listed), f"add to scripts/site/mkdocs.yml: {inside - set(listed)}"
 
 

@@ -24,7 +24,7 @@ SOURCES = [
     *sorted((ROOT / "mrlab_ros").rglob("*.py")),
     *sorted((ROOT / "web" / "src" / "words").glob("*.ts")),
 ]
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 # A command up to where its sentence, its code or its table cell ends.
 NAMED = re.compile(r"\bmrlab ((?:--?)?[a-z](?:(?!, (?:or|and|then) |mrlab )[^`\n;:|()])*)")
 OPTION = re.compile(r"(?<![\w-])--[a-z][a-z-]+")
@@ -208,6 +208,7 @@ ELSEWHERE = {
     "convert --plot": "test/system/test_convert_command.py",
     "convert --rate": "test/system/test_convert_command.py",
     "convert --topic": "test/system/test_convert_command.py",
+    "convert --units": "test/system/test_examples.py",
     "rubric example": "with its options in test/unit/classroom/test_rubric_run.py",
     "rubric lint": "with its options in test/unit/classroom/test_rubric_run.py",
     "rubric lint --json": "with its options in test/unit/classroom/test_rubric_run.py",

@@ -22,7 +22,7 @@ from itertools import takewhile
 from pathlib import Path
 
 ROOT = Path(__file__).parents[3]
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 # Languages of blocks that show data, and a page whose blocks are generated.
 DATA = ("yaml", "json", "mermaid", "text")
 GENERATED = ("protocol.md",)
