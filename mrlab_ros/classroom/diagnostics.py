@@ -107,12 +107,15 @@ NAME_LEADS_OUT = Code(
 ENCRYPTED_FILE = Code(
     "encrypted_file", "It is encrypted; ask the student for an open file.", severity=WARNING
 )
-UNUSUAL_COMPRESSION = Code(
-    "unusual_compression",
-    "It is compressed by method {method:integer} of the ZIP format; only stored and deflated "
-    "members are read.",
+UNPACKING_ENDED = Code(
+    "unpacking_ended",
+    "The process that unpacks ended at {file} ({why:problem}); the file is the reason and is not "
+    "read.",
     "Ask the student for an ordinary archive.",
     WARNING,
+)
+UNPACKING_NOT_STARTED = Code(
+    "unpacking_not_started", "The process that unpacks does not start: {why:problem}."
 )
 TWICE_IN_ARCHIVE = Code(
     "twice_in_archive", "It is in the archive twice; the last one is read.", severity=INFO

@@ -116,7 +116,7 @@ def run(request: Request) -> int:
             export.entries,
             (*SUFFIXES, *CELLS),
             pattern=rubric.files,
-            metadata=export.metadata(),
+            metadata=export.metadata,
             form=request.form,
         )
         left_out = (*roster.left_out, *export.problems)

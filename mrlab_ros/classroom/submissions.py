@@ -1,79 +1,65 @@
-"""Reads the export of a class, a folder or a zip archive, without writing or following anything.
+"""Reads the export of a class through the sandboxed process of `unpacking`.
 
-Whatever an archive says of itself, no more is read than the limits allow: bytes are counted as
-they are inflated, and names are only names. A file that is not read is an entry all the same, so
-that its student has a row that says why.
+This process takes from it a listing and bytes within limits, and parses no archive. An archive at
+which that process ends is skipped, and its student has a row that says so.
 """
 
 from __future__ import annotations
 
-import io
+import contextlib
+import json
 import os
-import re
-import stat
-import zipfile
-from collections.abc import Iterator, Mapping
-from pathlib import Path, PurePosixPath
+import signal
+import subprocess
+from collections.abc import Mapping
+from multiprocessing.connection import Connection, Pipe
+from pathlib import Path
 from typing import Any
 
-import yaml
-
-from mrlab_ros.classroom.diagnostics import (
-    ENCRYPTED_FILE,
-    INFLATES_TOO_FAR,
-    LARGER_THAN_NEEDED,
-    LINK_NOT_FOLLOWED,
-    NAME_LEADS_OUT,
-    NAMES_NOT_KNOWN,
-    NO_EXPORT,
-    NO_ORDINARY_FILE,
-    NO_ZIP,
-    NOT_READABLE,
-    NOT_UNPACKED,
-    TOO_MANY_FILES,
-    TWICE_IN_ARCHIVE,
-    UNUSUAL_COMPRESSION,
-)
-from mrlab_ros.classroom.marks.exports import ARCHIVE, METADATA, Entry
-from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.adapters.sandbox import python_process
+from mrlab_ros.adapters.workspaces.content import death
+from mrlab_ros.classroom.diagnostics import NO_EXPORT, UNPACKING_ENDED, UNPACKING_NOT_STARTED
+from mrlab_ros.classroom.marks.exports import Entry
+from mrlab_ros.classroom.unpacking import CONTENT, LISTED, MOST_BYTES, OPENS, PROBLEM
+from mrlab_ros.core.base.diagnostic import Diagnostic, from_plain, plain
 from mrlab_ros.core.base.errors import BadInput
-from mrlab_ros.core.base.foreign_text import file_name
 
-MiB = 1 << 20
-MOST_FILES = 200_000
-MOST_BYTES = 64 * MiB  # of one file
-MOST_INNER_FILES, MOST_INNER_BYTES = 500, 256 * MiB  # of an archive that a student sent
-ENCRYPTED = 0x1
-DRIVE = re.compile(r"[A-Za-z]:.*", re.DOTALL)
-NAMELESS = "no name"
-# Decompressors of other methods inflate a whole block at once, whatever is asked for.
-METHODS = {zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED}
+MOST_LISTED = 256 << 20  # bytes
+PATIENCE = 120.0  # s for one answer, on a busy machine
+MOST_SKIPPED = 100
 
 
 class Export:
-    """The files of an export. problems: path and why of what is not read."""
+    """The files of an export. problems: path and why of what is not read; metadata: Gradescope's
+    submission_metadata.yml, empty where there is none."""
 
     def __init__(self, path: Path) -> None:
         """List what is there; raise BadInput where it is neither a folder nor a zip archive."""
-        self.path = path
-        self.problems: list[tuple[str, Diagnostic]] = []
-        self._archive: zipfile.ZipFile | None = None
-        self._members: dict[str, zipfile.ZipInfo] = {}
-        self._inner: dict[str, tuple[str, zipfile.ZipInfo]] = {}
-        self._places: dict[str, Path] = {}
-        self._refused: dict[str, Diagnostic] = {}
-        if path.is_dir():
-            found = list(self._folder())
-        elif path.is_file():
-            self._archive = _opened(path, path.name)
-            self._members, found = self._listed(self._archive, path.name, MOST_FILES)
-        else:
+        if not path.exists():
             raise BadInput(NO_EXPORT(file=str(path)))
-        self.entries = [each for entry in found for each in self._with_inner(entry)]
+        self.path = path
+        self.metadata: Mapping[str, Any] = {}
+        self.entries: list[Entry] = []
+        self.problems: list[tuple[str, Diagnostic]] = []
+        self._skipped: dict[str, Diagnostic] = {}
+        self._process: subprocess.Popen[bytes] | None = None
+        self._connection: Connection | None = None
+        self._begin()
+
+    def read(self, path: str) -> bytes:
+        """Return the bytes of an entry; raise BadInput where they cannot be read."""
+        if self._process is None:
+            self._begin()
+        answer = self._asked(path.encode("utf-8", "surrogatepass"), MOST_BYTES)
+        if answer is None:
+            raise BadInput(UNPACKING_ENDED(file=path, why=self._ended()))
+        if answer[:1] == CONTENT:
+            return answer[1:]
+        raise BadInput(from_plain(json.loads(answer[1:])))
 
     def close(self) -> None:
-        if self._archive is not None:
-            self._archive.close()
+        if self._process is not None:
+            self._ended()
 
     def __enter__(self) -> Export:
         return self
@@ -81,176 +67,75 @@ class Export:
     def __exit__(self, *_: object) -> None:
         self.close()
 
-    def read(self, path: str) -> bytes:
-        """Return the bytes of an entry; raise BadInput where they cannot be read."""
-        if path in self._refused:
-            raise BadInput(self._refused[path])
-        if path in self._inner:
-            outer, member = self._inner[path]
-            with _opened(io.BytesIO(self._bytes(outer)), outer) as archive:
-                return _inflated(archive, member, path)
-        return self._bytes(path)
+    def _begin(self) -> None:
+        """Start the process and take its listing, without what it ends at."""
+        while True:
+            self._start()
+            at = self._listing()
+            if at is None:
+                return
+            how = self._ended()
+            if not at or len(self._skipped) == MOST_SKIPPED:
+                raise BadInput(UNPACKING_ENDED(file=self.path.name, why=how))
+            self._skipped[at] = UNPACKING_ENDED(file=at, why=how)
 
-    def metadata(self) -> Mapping[str, Any]:
-        """Return Gradescope's submission_metadata.yml; empty where there is none to be read."""
-        named = [p for p in self._paths if PurePosixPath(p).name == METADATA]
-        if not named:
-            return {}
+    def _start(self) -> None:
+        ours, theirs = Pipe()
+        environment = os.environ | python_process.ONE_THREAD
+        environment["PYTHONPATH"] = python_process.search_path()
+        number = str(theirs.fileno())
+        command = python_process.command(
+            "mrlab_ros.classroom.unpacking", number, str(self.path.absolute())
+        )
         try:
-            # Every value as it is written: a number such as 0412346 is no octal one, and the
-            # times are objects of Ruby.
-            content = yaml.load(self._bytes(named[0]), yaml.CBaseLoader)
-        except (yaml.YAMLError, BadInput, RecursionError, ValueError) as error:
-            why = getattr(error, "diagnostic", None) or str(error)
-            self.problems.append((named[0], NAMES_NOT_KNOWN(why=why)))
-            return {}
-        return content if isinstance(content, Mapping) else {}
-
-    @property
-    def _paths(self) -> list[str]:
-        return list(self._members) or [e.path for e in self.entries]
-
-    def _bytes(self, path: str) -> bytes:
-        if self._archive is not None:
-            return _inflated(self._archive, self._members[path], path)
-        try:
-            source = os.open(self._places[path], os.O_RDONLY | os.O_NONBLOCK | os.O_NOFOLLOW)
-            with os.fdopen(source, "rb") as file:
-                content = file.read(MOST_BYTES + 1)
+            self._process = subprocess.Popen(
+                command, pass_fds=[theirs.fileno()], stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=environment, cwd="/",
+                start_new_session=True,
+            )  # fmt: skip
         except OSError as error:
-            raise BadInput(NOT_READABLE(file=path, why=error.strerror)) from None
-        return _bounded(content, path)
+            raise BadInput(UNPACKING_NOT_STARTED(why=error.strerror)) from None
+        theirs.close()
+        self._connection = ours
 
-    def _folder(self) -> Iterator[Entry]:
-        count = 0
-        for folder, folders, files in os.walk(self.path):
-            folders.sort()
-            within = Path(folder).relative_to(self.path)
-            for name in [n for n in folders if (Path(folder) / n).is_symlink()]:
-                path = file_name((within / name).as_posix())
-                self.problems.append((path, LINK_NOT_FOLLOWED()))
-            for name in sorted(files):
-                path = file_name((within / name).as_posix())
-                while path in self._places:  # two names whose bytes are no UTF-8
-                    path = f"{path.removesuffix(Path(path).suffix)}+{Path(path).suffix}"
-                self._places[path] = Path(folder) / name
-                try:
-                    about = os.lstat(Path(folder) / name)
-                except OSError as error:
-                    yield self._refuse(path, NOT_READABLE(file=path, why=error.strerror))
-                    continue
-                if not stat.S_ISREG(about.st_mode):
-                    link = stat.S_ISLNK(about.st_mode)
-                    yield self._refuse(path, LINK_NOT_FOLLOWED() if link else NO_ORDINARY_FILE())
-                    continue
-                count += 1
-                if count > MOST_FILES:
-                    raise BadInput(TOO_MANY_FILES(file=str(self.path), most=MOST_FILES))
-                yield Entry(path, about.st_size, (int(about.st_mtime),))
+    def _listing(self) -> str | None:
+        """Take the listing; return the archive at which the process ended, empty: at none."""
+        at = ""
+        skipped = {name: plain(why) for name, why in self._skipped.items()}
+        answer = self._asked(json.dumps(skipped).encode(), MOST_LISTED)
+        while answer is not None and answer[:1] == OPENS:
+            at = json.loads(answer[1:])
+            answer = self._asked(b"", MOST_LISTED)
+        if answer is None:
+            return at
+        found = json.loads(answer[1:])
+        if answer[:1] == PROBLEM:
+            self._ended()
+            raise BadInput(from_plain(found))
+        assert answer[:1] == LISTED
+        self.metadata = found["metadata"]
+        self.entries = [Entry(path, size, tuple(when)) for path, size, when in found["entries"]]
+        self.problems = [(path, from_plain(why)) for path, why in found["problems"]]
+        return None
 
-    def _refuse(self, path: str, why: Diagnostic) -> Entry:
-        """Return the entry of a file that is not read."""
-        self._refused[path] = why
-        self.problems.append((path, why))
-        return Entry(path)
+    def _asked(self, request: bytes, most: int) -> bytes | None:
+        """Return the next answer, after a request that is not empty; None: there is none."""
+        assert self._connection is not None
+        with contextlib.suppress(EOFError, OSError):
+            if request:
+                self._connection.send_bytes(request)
+            if self._connection.poll(PATIENCE):
+                return self._connection.recv_bytes(most + 1)
+        return None
 
-    def _listed(
-        self, archive: zipfile.ZipFile, name: str, most: int, folder: str = ""
-    ) -> tuple[dict[str, zipfile.ZipInfo], list[Entry]]:
-        """Return the members that are read, and all entries. folder: put before the paths."""
-        members: dict[str, zipfile.ZipInfo] = {}
-        entries: dict[str, Entry] = {}
-        if len(archive.infolist()) > most:
-            raise BadInput(TOO_MANY_FILES(file=name, most=most))
-        for info in archive.infolist():
-            path = _name(info)
-            if path.endswith("/"):
-                continue
-            inside = folder + _inside(path)
-            why = _not_read(info, path)
-            if why is not None:
-                if inside not in members:
-                    entries[inside] = self._refuse(inside, why)
-                continue
-            if inside in members:
-                self.problems.append((inside, TWICE_IN_ARCHIVE()))
-            self._refused.pop(inside, None)
-            members[inside] = info
-            entries[inside] = Entry(inside, info.file_size, tuple(info.date_time))
-        return members, list(entries.values())
-
-    def _with_inner(self, entry: Entry) -> Iterator[Entry]:
-        """Yield an entry; of an archive that a student sent, what is in it, one level deep."""
-        if not entry.path.lower().endswith(ARCHIVE) or entry.path in self._refused:
-            yield entry
-            return
-        try:
-            with _opened(io.BytesIO(self._bytes(entry.path)), entry.path) as archive:
-                folder = f"{entry.path}/"
-                members, found = self._listed(archive, entry.path, MOST_INNER_FILES, folder)
-                if sum(each.size for each in found) > MOST_INNER_BYTES:
-                    raise BadInput(INFLATES_TOO_FAR(file=entry.path, most=MOST_INNER_BYTES))
-                for path, info in members.items():
-                    self._inner[path] = (entry.path, info)
-                yield from found
-        except BadInput as error:
-            self._refuse(entry.path, error.diagnostic)
-            yield entry
-
-
-def _opened(file: Path | io.BytesIO, name: str) -> zipfile.ZipFile:
-    try:
-        return zipfile.ZipFile(file)
-    except Exception as error:  # a damaged directory ends in whatever reads it first
-        raise BadInput(NO_ZIP(file=name, why=_why(error))) from None
-
-
-def _name(info: zipfile.ZipInfo) -> str:
-    """Return a member's name: many programs write UTF-8 without saying so."""
-    name = info.filename
-    if not info.flag_bits & 0x800:
-        try:
-            name = name.encode("cp437").decode("utf-8")
-        except UnicodeError:
-            name = info.filename
-    return file_name(name.replace("\\", "/"))
-
-
-def _inside(path: str) -> str:
-    """Return a member's name as a path within its archive, never empty."""
-    parts = [p for p in path.split("/") if p not in ("", ".", "..") and not DRIVE.fullmatch(p)]
-    return "/".join(parts) or NAMELESS
-
-
-def _not_read(info: zipfile.ZipInfo, path: str) -> Diagnostic | None:
-    """Return why a member is not read, None where it is."""
-    parts = PurePosixPath(path).parts
-    if path.startswith("/") or ".." in parts or not parts or DRIVE.fullmatch(parts[0]):
-        return NAME_LEADS_OUT()
-    if stat.S_ISLNK(info.external_attr >> 16):
-        return LINK_NOT_FOLLOWED()
-    if info.flag_bits & ENCRYPTED:
-        return ENCRYPTED_FILE()
-    if info.compress_type not in METHODS:
-        return UNUSUAL_COMPRESSION(method=info.compress_type)
-    return None
-
-
-def _inflated(archive: zipfile.ZipFile, info: zipfile.ZipInfo, path: str) -> bytes:
-    try:
-        with archive.open(info) as file:
-            return _bounded(file.read(MOST_BYTES + 1), path)
-    except BadInput:
-        raise
-    except Exception as error:  # as above
-        raise BadInput(NOT_UNPACKED(file=path, why=_why(error))) from None
-
-
-def _why(error: Exception) -> str:
-    return str(error) or type(error).__name__
-
-
-def _bounded(content: bytes, path: str) -> bytes:
-    if len(content) > MOST_BYTES:
-        raise BadInput(LARGER_THAN_NEEDED(file=path, most=MOST_BYTES))
-    return content
+    def _ended(self) -> dict[str, Any]:
+        """End the process; return how it ended, as `death` does."""
+        process, self._process = self._process, None
+        assert process is not None
+        if self._connection is not None:
+            self._connection.close()
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            process.wait(1.0)
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGKILL)
+        return death(process.wait() or 1)

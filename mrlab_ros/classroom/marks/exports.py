@@ -240,10 +240,13 @@ def _plain(parts: Sequence[str], suffixes: Sequence[str]) -> tuple[_Found, str] 
 
 
 def _wrapper(entries: Sequence[Entry], suffixes: Sequence[str]) -> int:
-    """Return how many folders are around all motions and are no student's."""
+    """Return how many folders are around all motions and are no student's; a folder with one
+    motion, or with numbered attempts at one, is a student's."""
     depth = 0
     every = [PurePosixPath(e.path).parts for e in entries]
     paths = [parts for parts in every if _ending(parts[-1], suffixes)] or every
+    if len({(*parts[:-1], _attempt(parts[-1], suffixes)[0]) for parts in paths}) == 1:
+        return 0
     while paths and min(map(len, paths)) > depth + 1:
         if len({parts[depth] for parts in paths}) != 1 or paths[0][depth].endswith(ARCHIVE):
             break

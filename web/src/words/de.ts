@@ -2380,11 +2380,12 @@ export const diagnostics: Templates = {
     'Starte denselben Befehl mit weniger Prozessen: Er prüft, was zu wiederholen ist.',
   ],
   unknown_form: ["Die Form des Exports ist '{form}'; erwartet wird {known:either}."],
-  unreadable_submission: ['Keine Datei dieser Abgabe lässt sich lesen.'],
-  unusual_compression: [
-    'Die Datei ist mit dem Verfahren {method:integer} des ZIP-Formats gepackt; gelesen werden nur ungepackte und mit Deflate gepackte.',
+  unpacking_ended: [
+    'Der Prozess, der entpackt, endete an {file} ({why:problem}); der Grund ist diese Datei, und sie wird nicht gelesen.',
     'Bitte um ein gewöhnliches Archiv.',
   ],
+  unpacking_not_started: ['Der Prozess, der entpackt, startet nicht: {why:problem}.'],
+  unreadable_submission: ['Keine Datei dieser Abgabe lässt sich lesen.'],
   worksheet_failed: [
     '{file} ist nicht lesbar, oder {out} kann nicht geschrieben werden: {why:problem}.',
   ],

@@ -118,6 +118,7 @@ def test_the_last_attempt_comes_first_however_late_it_was_unpacked():
          ["Jane", "Max", "my_robot_lab_2"]),
         (["Jane/a.mat", "Max/a.mat", "Zoe/zoe_1_2_a.mat"], "folder", ["Jane", "Max", "Zoe"]),
         (["hw/read.me", "hw/Jane/a.mat", "hw/Max/a.mat"], "folder", ["Jane", "Max"]),
+        (["Jane/a.mat", "Jane/a (2).mat", "Jane/readme.txt"], "folder", ["Jane"]),
         (["Doe_Jane_jd_1/a.mat", "Roe_Max_mr_2/a.mat"], "ILIAS", ["Jane Doe", "Max Roe"]),
     ],
 )  # fmt: skip
