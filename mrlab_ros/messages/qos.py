@@ -21,6 +21,8 @@ EVENTS = QoSProfile(depth=100, reliability=ReliabilityPolicy.RELIABLE)
 # Motion: every frame arrives, also at a reader that stalls for seconds; one that wants the newest
 # only asks for best effort.
 STREAM = QoSProfile(depth=1000, reliability=ReliabilityPolicy.RELIABLE)
+# Moves by hand: of each only the newest counts, and a lost one is not sent again.
+NEWEST = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
 # Services, at both ends: rclpy's own depth of 10 loses requests, or answers, of a class that calls
 # at once.
 SERVICES = QoSProfile(depth=1000, reliability=ReliabilityPolicy.RELIABLE)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from types import SimpleNamespace
 
 import numpy as np
@@ -250,6 +251,18 @@ def test_objects_come_and_go_by_service_and_bad_requests_are_refused_in_words(gr
         answer = graph.call(kind, service, **fields)
         assert not answer.success
         assert answer.code == code.code
+    hand = graph.client.create_publisher(msg.Move, "/moves", qos.NEWEST)
+    take = {"name": "cube_1", "pose": pose((2, 2, 0.5)), "held": True, "hand": "left"}
+    assert graph.call(srv.MoveObject, "/physics/move_object", **take).success
+    wait_for(lambda: hand.get_subscription_count() > 1, "the readers of moves")
+    sequence = itertools.count(1)
+
+    def carried() -> bool:
+        to = {"object": "cube_1", "hand": "left", "pose": pose((1, 2, 0.5))}
+        hand.publish(msg.Move(sequence=next(sequence), **to))
+        return where(objects, "cube_1")[0] == 1.0
+
+    wait_for(carried, "the cube where the hand is")
     move(graph, "cube_1", (2, 2, 0.5), held=False, velocity=(0.0, 0.0, 1.0))
     wait_for(lambda: where(objects, "cube_1")[0] > 1.9, "the throw")
     assert graph.call(Trigger, "/physics/clear_objects").success

@@ -187,6 +187,14 @@ class LatencyHop:
     max: float
     def __init__(self, *, hop: int = ..., topic: str = ..., count: int = ..., p50: float = ..., p95: float = ..., max: float = ...) -> None: ...
 
+class Move:
+    hand: str
+    sequence: int
+    object: str
+    robot: str
+    pose: geometry_msgs.msg.Pose
+    def __init__(self, *, hand: str = ..., sequence: int = ..., object: str = ..., robot: str = ..., pose: geometry_msgs.msg.Pose = ...) -> None: ...
+
 class ObjectPlacement:
     name: str
     type: str

@@ -184,7 +184,8 @@ class MoveObject(Service[MoveObject.Request, MoveObject.Response]):
         pose: geometry_msgs.msg.Pose
         twist: geometry_msgs.msg.Twist
         held: bool
-        def __init__(self, *, name: str = ..., pose: geometry_msgs.msg.Pose = ..., twist: geometry_msgs.msg.Twist = ..., held: bool = ...) -> None: ...
+        hand: str
+        def __init__(self, *, name: str = ..., pose: geometry_msgs.msg.Pose = ..., twist: geometry_msgs.msg.Twist = ..., held: bool = ..., hand: str = ...) -> None: ...
     class Response:
         success: bool
         message: str
@@ -196,7 +197,8 @@ class PlaceRobot(Service[PlaceRobot.Request, PlaceRobot.Response]):
     class Request:
         robot: str
         pose: geometry_msgs.msg.Pose
-        def __init__(self, *, robot: str = ..., pose: geometry_msgs.msg.Pose = ...) -> None: ...
+        hand: str
+        def __init__(self, *, robot: str = ..., pose: geometry_msgs.msg.Pose = ..., hand: str = ...) -> None: ...
     class Response:
         success: bool
         message: str

@@ -315,7 +315,7 @@ class Policy:
         if verb is Verb.PUBLISH:
             if any(rule.direction is not Direction.IN for rule in topics):
                 return None
-            return _strictest(rule.role for rule in topics)
+            return _strictest(rule.needed(own=own) for rule in topics)
         if topics or key.partition("/")[0] in OFFERED:
             return Role.DISPLAY
         return None

@@ -87,6 +87,11 @@ class Role(Enum):
         return roles.index(self) >= roles.index(needed)
 
 
+def least(role: Role, own_role: Role, *, own: bool) -> Role:
+    """Return the role that is needed; own: for what belongs to the one who asks."""
+    return own_role if own and role.may(own_role) else role
+
+
 @dataclass(frozen=True)
 class TopicRule:
     """One line of the allow-list for topics.
@@ -134,10 +139,20 @@ class TopicRule:
     role: Role = field(
         enum_values(Role), "Who may publish a topic that comes in.", Role.INSTRUCTOR
     )
+    own: Role = field(
+        enum_values(Role),
+        "Who may publish it in the browser, where the gateway fills in who that is.",
+        Role.INSTRUCTOR,
+    )
 
     def __post_init__(self) -> None:
-        if self.direction is Direction.OUT and self.role is not Role.INSTRUCTOR:
+        instructor = self.role is self.own is Role.INSTRUCTOR
+        if self.direction is Direction.OUT and not instructor:
             raise BadInput(RULE_GOES_OUT(topic=self.name))
+
+    def needed(self, *, own: bool) -> Role:
+        """Return who may publish the topic; own: in the name of the one who does."""
+        return least(self.role, self.own, own=own)
 
     @cached_property
     def pattern(self) -> re.Pattern[str]:
@@ -192,7 +207,7 @@ class ServiceRule:
 
     def needed(self, *, own: bool) -> Role:
         """Return who may call the service; own: for what belongs to the one who calls."""
-        return self.own if own and self.role.may(self.own) else self.role
+        return least(self.role, self.own, own=own)
 
     def names_a_path(self, request: object) -> str:
         """Return the path that a request names in the field `local`; empty: it names none."""

@@ -35,6 +35,7 @@ from mrlab_ros.core.physics.diagnostics import (
 from mrlab_ros.core.physics.engine import Body, BodyState, Part, Shape
 from mrlab_ros.core.physics.grippers import Grippers
 from mrlab_ros.core.physics.world_state import HAND, ObjectRemoved, SceneObject, WorldState
+from mrlab_ros.core.scene.carrier import carrier
 from mrlab_ros.core.scene.surfaces import Surface
 
 # A detected plane gets this thickness behind it, m: a headset sees no back side.
@@ -128,6 +129,7 @@ class Inventory:
         angular: Vector,
         *,
         held: bool,
+        hand: str = "",
         kept_for: str = "",
     ) -> None:
         """Move an object: kinematic while `held`, else released there with the velocity given."""
@@ -141,8 +143,22 @@ class Inventory:
         self._engine.set_object(name, BodyState(pose) if held or not thing.type.mass else motion)
         thing.held_by = HAND if held else ""
         thing.hand = BodyState(pose) if held else None
+        thing.carrier = carrier(hand)
         thing.kept_for = kept_for if held else ""
         self.in_hand |= held
+
+    def follow(self, name: str, hand: str, sequence: int, pose: Pose) -> bool:
+        """Move an object to where its hand has it; return whether this move counts."""
+        thing = self._objects.get(name)
+        if thing is None or thing.hand is None or thing.carrier is None:
+            return False
+        checked_vector(pose.position, "position", WORLD_SIZE)
+        if not thing.carrier.follows(hand, sequence):
+            return False
+        self.fast = (*self.fast, name)
+        thing.hand = BodyState(pose)
+        self._engine.set_object(name, thing.hand)
+        return True
 
     def keep_in_hand(self) -> None:
         """Reset the pose of what a person holds."""

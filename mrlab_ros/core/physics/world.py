@@ -224,13 +224,22 @@ class World:
         angular: Vector,
         *,
         held: bool,
+        hand: str = "",
         kept_for: str = "",
     ) -> None:
         """Move an object: kinematic while `held`, else released there with the velocity given.
 
+        hand: the id of the hand whose moves it follows from now on; empty: it follows none.
         kept_for: the robot that alone may take it while it is held; empty: any.
         """
-        self._inventory.move(name, pose, linear, angular, held=held, kept_for=kept_for)
+        self._inventory.move(name, pose, linear, angular, held=held, hand=hand, kept_for=kept_for)
+
+    def follow(self, name: str, hand: str, sequence: int, pose: Pose) -> bool:
+        """Move an object to where its hand has it; return whether this move counts.
+
+        It counts where that hand holds the object, and no newer one has come. Raises BadInput.
+        """
+        return self._inventory.follow(name, hand, sequence, pose)
 
     def remove(self, name: str) -> None:
         """Remove an object."""

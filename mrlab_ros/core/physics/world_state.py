@@ -18,6 +18,7 @@ from mrlab_ros.core.physics.grasp.load import Load
 from mrlab_ros.core.physics.grasp.states import Grasp
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.simulated_robot import Robot
+from mrlab_ros.core.scene.carrier import Carrier
 from mrlab_ros.core.scene.surfaces import Surface
 
 HAND = "hand"
@@ -27,7 +28,8 @@ HAND = "hand"
 class SceneObject:
     """An object of the scene; held_by: a robot's name, or "hand", or empty.
 
-    kept_for: the robot that alone may take it from the hand; empty: any.
+    kept_for: the robot that alone may take it from the hand; empty: any. carrier: whose moves on a
+    topic it follows while it is in the hand.
     """
 
     name: str
@@ -35,6 +37,7 @@ class SceneObject:
     held_by: str = ""
     hand: BodyState | None = None
     kept_for: str = ""
+    carrier: Carrier | None = None
 
     @property
     def graspable(self) -> bool:

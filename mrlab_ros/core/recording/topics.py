@@ -29,6 +29,7 @@ LAB_TOPICS = (
     "/latency",
     "/latency/clients",
     "/presence",
+    "/moves",
     "/diagnostics",
     "/tf",
     "/tf_static",
@@ -51,6 +52,7 @@ OF_THE_PRESENT = (
     "/latency",
     "/latency/clients",
     "/presence",
+    "/moves",
     "/diagnostics",
     "/recorder/**",
 )

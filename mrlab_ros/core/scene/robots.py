@@ -12,6 +12,7 @@ from mrlab_ros.core.base.diagnostics import NO_ROBOT_IN_SCENE
 from mrlab_ros.core.base.errors import Misuse
 from mrlab_ros.core.base.geometry import WORLD_SIZE, Pose, checked_vector
 from mrlab_ros.core.base.names import checked_name, close_to
+from mrlab_ros.core.scene.carrier import Carrier, carrier
 from mrlab_ros.core.scene.diagnostics import NO_PLACE_ON_FLOOR
 from mrlab_ros.core.scene.placement import (
     FLOOR,
@@ -55,6 +56,7 @@ class Scene:
 
     def __init__(self) -> None:
         self._robots: dict[str, PlacedRobot] = {}
+        self._carriers: dict[str, Carrier | None] = {}
 
     @property
     def robots(self) -> tuple[PlacedRobot, ...]:
@@ -119,11 +121,29 @@ class Scene:
         self._robots[robot.name] = robot
         return robot
 
-    def place(self, name: str, pose: Pose) -> PlacedRobot:
-        """Set the pose of a robot; raise BadInput where it is outside the room."""
+    def place(self, name: str, pose: Pose, hand: str = "") -> PlacedRobot:
+        """Set the pose of a robot; raise BadInput where it is outside the room.
+
+        hand: the id of a hand that carries on from here; empty: moves by hand count no more.
+        """
         checked_vector(pose.position, "position", WORLD_SIZE)
         self._robots[name] = replace(self.robot(name), pose=pose)
+        self._carriers[name] = carrier(hand)
         return self._robots[name]
+
+    def follow(self, name: str, hand: str, sequence: int, pose: Pose) -> bool:
+        """Set the pose of a robot to where its hand has it; return whether this move counts.
+
+        Raises BadInput where the pose is outside the room.
+        """
+        by = self._carriers.get(name)
+        if name not in self._robots or by is None:
+            return False
+        checked_vector(pose.position, "position", WORLD_SIZE)
+        if not by.follows(hand, sequence):
+            return False
+        self._robots[name] = replace(self._robots[name], pose=pose)
+        return True
 
     def set_end_effector(self, name: str, end_effector: str | None) -> PlacedRobot:
         self._robots[name] = replace(self.robot(name), end_effector=end_effector)
@@ -131,4 +151,5 @@ class Scene:
 
     def remove(self, name: str) -> PlacedRobot:
         self.robot(name)
+        self._carriers.pop(name, None)
         return self._robots.pop(name)

@@ -104,38 +104,56 @@ class Displays:
 
 def _numbers(message: Any) -> Iterator[float]:
     for pose in (message.head, message.left, message.right):
-        for part in (pose.position, pose.orientation):
-            yield from (part.x, part.y, part.z)
-        yield pose.orientation.w
+        yield from _of_pose(pose)
+
+
+def _of_pose(pose: Any) -> Iterator[float]:
+    for part in (pose.position, pose.orientation):
+        yield from (part.x, part.y, part.z)
+    yield pose.orientation.w
 
 
 SERVICE = "physics/move_object"
 REQUEST = "mrlab_msgs/srv/MoveObject_Request"
+MOVES, MOVE = "moves", "mrlab_msgs/msg/Move"
 
 
 class Hands:
-    """Holders of objects, by the calls that the lab has carried out."""
+    """Holders of objects, by the calls that the lab has carried out, and where they are."""
 
     def __init__(self, definitions: Definitions) -> None:
         self._definitions = definitions
-        # By an object: the token of the client that has it, and its last call.
-        self._held: dict[str, tuple[str, bytes]] = {}
+        # By an object: the token of the client that has it, and its last pose, as plain fields.
+        self._held: dict[str, tuple[str, Any]] = {}
 
     def note(self, token: str, payload: bytes) -> None:
         """Note a MoveObject of a client, as CDR, that the lab has carried out."""
         request = self._definitions.decode(REQUEST, payload)
         if request.held:
-            self._held[request.name] = token, payload
+            self._held[request.name] = token, plain(request)["pose"]
         else:
             self._held.pop(request.name, None)
+
+    def follow(self, token: str, payload: bytes) -> bool:
+        """Note a Move of a client, as CDR; return whether the lab may need it.
+
+        Raises BadInput where it is none.
+        """
+        move = self._definitions.decode(MOVE, payload)
+        if not move.object:
+            return True
+        finite = all(math.isfinite(value) for value in _of_pose(move.pose))
+        mine = finite and self._held.get(move.object, ("",))[0] == token
+        if mine:
+            self._held[move.object] = token, plain(move)["pose"]
+        return mine
 
     def held_by(self, token: str) -> dict[str, bytes]:
         """Return by object the call, as CDR, by which a client's hands let go where they were."""
         calls = {}
-        for name, (owner, payload) in self._held.items():
+        for name, (owner, pose) in self._held.items():
             if owner == token:
-                request = plain(self._definitions.decode(REQUEST, payload))
-                still = {"name": name, "pose": request["pose"], "held": False}
+                still = {"name": name, "pose": pose, "held": False}
                 calls[name] = self._definitions.encode(REQUEST, still)
         return calls
 

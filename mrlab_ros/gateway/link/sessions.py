@@ -113,6 +113,11 @@ class Sessions:
         if found is not None:
             self.lab.put(presence.KEY, found)
 
+    def move(self, session: LinkSession, payload: bytes) -> None:
+        """Give the lab a client's Move, where its hand has what it carries. Raises BadInput."""
+        if self.hands.follow(session.token, payload):
+            self.lab.put(presence.MOVES, payload)
+
     def tell_of(self, actor: LinkSession, service: str) -> None:
         """Tell all other clients who called a service."""
         deed = {"op": "did", "who": actor.person.name, "service": service}

@@ -111,7 +111,9 @@ def link_port(
     def may(person: Person, verb: Verb, key: str) -> bool:
         # A call of a pattern would leave the gateway, which has all rights, for every service.
         named = verb is Verb.RECEIVE or is_key(key)
-        return named and policy.may(person.role, verb, key)
+        # The gateway fills in of whom a presence is.
+        own = verb is Verb.PUBLISH and key == presence.KEY
+        return named and policy.may(person.role, verb, key, own=own)
 
     sessions = Sessions(lab, policy.rules, may, limits)
     return LinkPort(sessions, may, limits, policy.moves, policy.urgent, why_not_load)
@@ -293,6 +295,10 @@ class _Socket:
                 raise NotAllowed(MAY_NOT_PUBLISH(role=role, key=frame.key))
             if frame.key == presence.KEY:
                 sessions.say_where(session, frame.payload, now)
+            elif frame.key == presence.MOVES:
+                # What waited while the gateway was frozen is where a hand was, not where it is.
+                if self._port.freezes.why_doubtful(now) is None:
+                    sessions.move(session, frame.payload)
             else:
                 sessions.lab.put(frame.key, frame.payload)
         except NotAllowed as error:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -117,6 +118,7 @@ class LabNode(ParameterNode[LabParameters], name="lab", kind=LabParameters, othe
             (srv.ListScenes, "list_scenes", self._on_list_scenes),
         ):
             create_service(self, kind, f"~/{name}", callback)
+        subscribe(self, msg.Move, "/moves", self._on_move, qos.NEWEST)
         every(self, SAVE_PERIOD_S, self._save)
         every(self, SYSTEMS_PERIOD_S, self._save_systems)
         self._return.start()
@@ -277,9 +279,16 @@ class LabNode(ParameterNode[LabParameters], name="lab", kind=LabParameters, othe
         self, request: srv.PlaceRobot.Request, response: srv.PlaceRobot.Response
     ) -> Diagnostic:
         self._file.check_room()
-        self._scene.place(request.robot, pose_from_message(request.pose))
+        self._scene.place(request.robot, pose_from_message(request.pose), request.hand)
         self._announce()
         return ROBOT_PLACED(robot=request.robot)
+
+    def _on_move(self, move: msg.Move) -> None:
+        # The call that puts it down says what is wrong with a place; a move has no answer.
+        with suppress(LabError):
+            pose = pose_from_message(move.pose)
+            if self._scene.follow(move.robot, move.hand, move.sequence, pose):
+                self._announce()
 
     @answered
     def _on_end_effector(

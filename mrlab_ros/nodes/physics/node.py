@@ -5,11 +5,11 @@ from __future__ import annotations
 import sys
 import threading
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mrlab_msgs import srv
+from mrlab_msgs import msg, srv
 from mrlab_msgs.srv import Trigger
 
 from mrlab_ros.adapters import share
@@ -20,11 +20,12 @@ from mrlab_ros.adapters.scenes.object_meshes import ObjectMeshes
 from mrlab_ros.adapters.yaml_files import read_yaml
 from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput, LabError
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.world import World
 from mrlab_ros.messages import physics as messages
+from mrlab_ros.messages import qos
 from mrlab_ros.messages.poses import pose_from_message
 from mrlab_ros.messages.scenes import placement_to_message, placements_from_messages
 from mrlab_ros.nodes import parameters
@@ -45,6 +46,7 @@ from mrlab_ros.nodes.physics.listener import GraphListener
 from mrlab_ros.nodes.physics.publishers import WorldPublishers
 from mrlab_ros.ros.clock import LabClock, every
 from mrlab_ros.ros.deadlines import SWITCH_INTERVAL_S
+from mrlab_ros.ros.decoding import subscribe
 from mrlab_ros.ros.parameters import NodeArguments, ParameterNode
 from mrlab_ros.ros.services import answered, create_service
 
@@ -122,6 +124,7 @@ class PhysicsNode(
             (srv.SetObjects, "set_objects", self._on_set),
         ):
             create_service(self, kind, f"~/{name}", callback)
+        subscribe(self, msg.Move, "/moves", self._on_follow, qos.NEWEST)
         every(self, SAVE_PERIOD, self._contents.save)
         # With Python's default of 5 ms another thread could delay a halt.
         sys.setswitchinterval(SWITCH_INTERVAL_S)
@@ -194,8 +197,15 @@ class PhysicsNode(
                 messages.velocity_from_message(request.twist.linear),
                 messages.velocity_from_message(request.twist.angular),
                 held=request.held,
+                hand=request.hand,
             )
         return OBJECT_MOVED(object=request.name, state="held" if request.held else "released")
+
+    def _on_follow(self, move: msg.Move) -> None:
+        # The call that lets go says what is wrong with a place; a move has no answer.
+        with suppress(LabError), self._lock:
+            pose = pose_from_message(move.pose)
+            self._world.follow(move.object, move.hand, move.sequence, pose)
 
     @answered
     def _on_remove(self, request: srv.Remove.Request, response: srv.Remove.Response) -> Diagnostic:

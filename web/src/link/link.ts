@@ -21,7 +21,7 @@ export interface Link {
     timeoutS?: number,
   ): Promise<Response>
   /** Publish a message on a topic that the lab receives, such as `latency/clients`; dropped while
-   * lost. */
+   * lost, and while others wait to be sent. */
   publish<T>(key: string, type: MessageWriter<T>, message: T): void
   /** The present offer of the lab; empty while it is unreachable. */
   readonly offer: LabOffer

@@ -29,6 +29,8 @@ import { Topics } from './topics'
 /** Batches under way at once: with more, data on a slow link is older. */
 const BATCHES = 2
 const TIMEOUT_S = 10
+/** Bytes that may wait in the browser before messages are left out. */
+const LONGEST_QUEUE = 4096
 /** s: the gateway answers a ping at once; this long without a frame means that the way is
  * broken. */
 const SILENCE_S = 4
@@ -157,6 +159,8 @@ class SocketLink implements Link {
   }
 
   publish<T>(key: string, type: MessageWriter<T>, message: T): void {
+    // On a slow way the newest of the next moment is better than one that waits behind others.
+    if ((this.socket?.bufferedAmount ?? 0) > LONGEST_QUEUE) return
     this.send(putFrame(key, type.encode(message)))
   }
 

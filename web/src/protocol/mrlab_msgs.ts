@@ -868,6 +868,33 @@ export function writeLoadTrajectoryRequest(to: CdrWriter, message: LoadTrajector
   to.string(message.id)
 }
 
+/** mrlab_msgs/msg/Move: Where a hand has what it carries. MoveObject and PlaceRobot take it and put it down; between them only moves of the hand that took it count, and each only while no newer one has come. */
+export interface Move {
+  /** as in the call that took it */
+  hand: string
+  /** rises with each move, from 1 */
+  sequence: number
+  /** what is carried: an object, */
+  object: string
+  /** or a robot's base */
+  robot: string
+  /** in world, m */
+  pose: Pose
+}
+
+export function writeMove(to: CdrWriter, message: Move): void {
+  to.string(message.hand)
+  to.uint32(message.sequence)
+  to.string(message.object)
+  to.string(message.robot)
+  writePose(to, message.pose)
+}
+
+export const moveWriter: MessageWriter<Move> = /* @__PURE__ */ messageWriter(
+  'mrlab_msgs/msg/Move',
+  writeMove,
+)
+
 /** mrlab_msgs/srv/MoveObject_Request: Move an object by hand. */
 export interface MoveObjectRequest {
   name: string
@@ -877,6 +904,8 @@ export interface MoveObjectRequest {
   twist: Twist
   /** true: the hand keeps it; false: it is let go here */
   held: boolean
+  /** an id that whoever holds it chose: its moves on /moves count from now on; empty: none do */
+  hand: string
 }
 
 export function writeMoveObjectRequest(to: CdrWriter, message: MoveObjectRequest): void {
@@ -884,6 +913,7 @@ export function writeMoveObjectRequest(to: CdrWriter, message: MoveObjectRequest
   writePose(to, message.pose)
   writeTwist(to, message.twist)
   to.bool(message.held)
+  to.string(message.hand)
 }
 
 /** mrlab_msgs/msg/ObjectRemoved: An object that the lab itself took out of the scene. Removals by request are not announced. */
@@ -971,11 +1001,14 @@ export interface PlaceRobotRequest {
   robot: string
   /** base_link in world, m */
   pose: Pose
+  /** an id that whoever carries it chose: its moves on /moves count from now on; empty: none do */
+  hand: string
 }
 
 export function writePlaceRobotRequest(to: CdrWriter, message: PlaceRobotRequest): void {
   to.string(message.robot)
   writePose(to, message.pose)
+  to.string(message.hand)
 }
 
 /** mrlab_msgs/msg/PlaybackClock: The clock of a trajectory: position(t) = position + rate * (t - stamp). A client that holds the trajectory computes the pose at any instant from it. */

@@ -68,7 +68,8 @@ def test_every_role_may_receive_everything_and_send_only_what_comes_in(role):
         key = topic.name[1:].replace("*", "ur5e_1")
         assert permits(rules, "declare_subscriber", "ingress", key)
         assert permits(rules, "put", "egress", key)
-        assert permits(rules, "put", "ingress", key) == (topic.direction is Direction.IN)
+        sends = topic.direction is Direction.IN and role.may(topic.role)
+        assert permits(rules, "put", "ingress", key) == sends
         assert not permits(rules, "delete", "ingress", key)
         assert not permits(rules, "declare_queryable", "ingress", key)
     assert not permits(rules, "liveliness_token", "ingress", "@/ab/@ros2_lv/SS/x/y")

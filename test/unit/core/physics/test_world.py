@@ -744,10 +744,19 @@ def test_a_world_at_rest_is_stepped_less_often_and_goes_on_at_once():
     assert steps(100 * MS) > 2
     steps(SECOND)
     # What a person holds may move at any time.
-    world.move("ball", Pose((2.0, 0, 0.5)), (0, 0, 0), (0, 0, 0), held=True)
+    world.move("ball", Pose((2.0, 0, 0.5)), (0, 0, 0), (0, 0, 0), held=True, hand="left")
+    assert world.follow("ball", "left", 2, Pose((2.1, 0, 0.5)))
+    assert world.motion("ball").pose.position[0] == pytest.approx(2.1)
+    # An older move, one of another hand, and one of what is no object count for nothing.
+    for name, hand, sequence in (("ball", "left", 1), ("ball", "right", 3), ("cow", "left", 3)):
+        assert not world.follow(name, hand, sequence, Pose((9.0, 0, 0.5)))
+    with pytest.raises(BadInput):
+        world.follow("ball", "left", 3, Pose((1e9, 0, 0.5)))
     steps(100 * MS)
     assert steps(SECOND) == 240
     world.move("ball", Pose((0.15, 0, 0.5)), (0, 0, 0), (0, 0, 0), held=False)
+    # A move that was on its way when it was let go.
+    assert not world.follow("ball", "left", 4, Pose((2.0, 0, 0.5)))
     # An arm that moves has every step at once, and halts at what it meets.
     steps(SECOND)
     lab.play()

@@ -112,3 +112,21 @@ def test_a_robot_outside_the_room_is_refused(position):
     with refused(BAD_VECTOR, BadInput, what="position", limit=100.0):
         scene.spawn(robot(scene, name="leg", pose=Pose(position)))
     assert scene.robots == (arm,)
+
+
+def test_a_robot_follows_the_hand_that_carries_it_and_no_other():
+    scene = Scene()
+    name = scene.spawn(robot(scene)).name
+    here, there = Pose((1.0, 0.0, 0.0)), Pose((2.0, 0.0, 0.0))
+    assert not scene.follow(name, "", 1, there)
+    scene.place(name, here, "left")
+    assert scene.follow(name, "left", 2, there)
+    assert scene.robot(name).pose == there
+    assert not scene.follow(name, "left", 2, here)
+    assert not scene.follow(name, "right", 3, here)
+    with pytest.raises(BadInput):
+        scene.follow(name, "left", 3, Pose((1e9, 0.0, 0.0)))
+    scene.place(name, here)
+    assert not scene.follow(name, "left", 4, there)
+    scene.remove(name)
+    assert not scene.follow(name, "left", 5, there)

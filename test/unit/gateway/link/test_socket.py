@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import asyncio
+import math
 import time
 from collections.abc import Awaitable, Callable, Coroutine
 from pathlib import Path
@@ -735,6 +736,10 @@ async def test_who_goes_lets_go_what_was_in_the_hand_and_nothing_else(stage: Sta
         await first.until(lambda: len(first.records) == 4)
         first.call("physics/move_object", 5, carried(lab, "ball", held=False))
         await first.until(lambda: len(first.records) == 5)
+        for name, height in (("cube", 0.7), ("ball", 0.7), ("cube", math.nan)):
+            where = {"position": {"z": height}, "orientation": {"w": 1.0}}
+            fields = {"hand": "h", "sequence": 1, "object": name, "pose": where}
+            first.put("moves", lab.definitions.encode("mrlab_msgs/msg/Move", fields))
         second.call("physics/move_object", 1, carried(lab, "rod"))
         await second.until(lambda: second.records)
         asked = len(lab.calls)
@@ -742,7 +747,9 @@ async def test_who_goes_lets_go_what_was_in_the_hand_and_nothing_else(stage: Sta
         await became(lambda: len(lab.calls) > asked)
         assert [request.name for _, request in lab.calls[asked:]] == ["cube"]
         last = lab.calls[-1][1]
-        assert (last.name, last.held, last.pose.position.z) == ("cube", False, 0.5)
+        assert (last.name, last.held, last.pose.position.z) == ("cube", False, 0.7)
+        # The lab gets what is in a hand of this page, and no place that is none.
+        assert [key for key, _ in lab.sent if key == "moves"] == ["moves"]
     finally:
         sessions.LET_GO_S = before
 

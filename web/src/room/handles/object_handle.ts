@@ -13,7 +13,7 @@ import { newTrace, trace, velocityOf } from '../grab/throw'
 import type { Hit, Pointer, Signal, Target } from '../input/pointer'
 import type { Surroundings } from '../panels/panel'
 import type { Frames, Lab, Speech } from '../ports'
-import { Moves } from './moves'
+import { Carry } from './carry'
 
 /** m */
 const REACH = 0.06
@@ -22,20 +22,16 @@ const PERIOD = 1 / 30
 /** s for which a moved object counts as held by that hand: a hand is never quite still. */
 const IN_HAND = 0.5
 
-const STILL = { x: 0, y: 0, z: 0 } as const
+const STILL: Vec = { x: 0, y: 0, z: 0 }
 
 const centre = new Vector3()
 const at = new Vector3()
 const inverse = new Matrix4()
 
+type Vec = Pose['position']
+
 /** The ports of an object's handle. */
 export type ObjectPorts = Speech & Lab & Frames & Surroundings
-
-interface Move {
-  readonly pose: Pose
-  readonly held: boolean
-  readonly velocity: { readonly x: number; readonly y: number; readonly z: number }
-}
 
 /** An object that a hand or a ray picks up, carries, and throws on release. */
 export class ObjectHandle implements Target {
@@ -43,7 +39,7 @@ export class ObjectHandle implements Target {
   private grab: Grab | null = null
   private readonly position = new Vector3()
   private readonly trace = newTrace()
-  private readonly moves = new Moves<Move>(PERIOD, (move) => this.tell(move))
+  private readonly carry: Carry
   private object: SceneObject
   /** True while a gripper is releasing it. */
   private detaching = false
@@ -59,6 +55,9 @@ export class ObjectHandle implements Target {
     private readonly robotAt: (place: Vector3) => string,
   ) {
     this.object = object
+    this.carry = new Carry(ports, { object: object.name }, PERIOD, (pose, hand) =>
+      this.tell(pose, STILL, hand),
+    )
   }
 
   get free(): boolean {
@@ -80,6 +79,8 @@ export class ObjectHandle implements Target {
     if (moved && object.held_by === 'hand' && this.holder === null && !released) {
       this.movedAt = this.now
     }
+    // The gateway lets go for whom it has lost; a gripper that took it keeps it.
+    if (this.holder !== null && this.carry.held && object.held_by === '') this.carry.again()
     this.object = object
   }
 
@@ -128,8 +129,7 @@ export class ObjectHandle implements Target {
     this.position.copy(at).applyMatrix4(inverse)
     trace(this.trace, now, this.position)
     this.scene.moveObject(this.object.name, this.pose(), '')
-    if (this.detaching || !this.moves.due(now)) return
-    this.moves.send({ pose: this.pose(), held: true, velocity: STILL }, now)
+    if (!this.detaching) this.carry.move(this.pose(), now)
   }
 
   /** True while another client moves it; an object that a closed page still holds can be taken. */
@@ -150,7 +150,8 @@ export class ObjectHandle implements Target {
   /** Attach it to a gripper at its present pose; if that is refused, it falls. */
   private giveTo(robot: string): void {
     const request = { robot, object: this.object.name }
-    order(this.ports, 'physics/attach', attachType, request).then((answer) => {
+    this.carry.end(async () => {
+      const answer = await order(this.ports, 'physics/attach', attachType, request)
       if (answer === null) this.release(false)
     })
   }
@@ -175,15 +176,18 @@ export class ObjectHandle implements Target {
   private release(thrown: boolean): void {
     const velocity = thrown ? velocityOf(this.trace, at) : STILL
     const { x, y, z } = velocity
-    this.moves.send({ pose: this.pose(), held: false, velocity: { x, y, z } }, this.now)
+    const pose = this.pose()
+    this.carry.end(() => this.tell(pose, { x, y, z }, ''))
   }
 
-  private tell({ pose, held, velocity }: Move): Promise<unknown> {
+  /** hand: the one that holds it; empty: it is let go. */
+  private tell(pose: Pose, velocity: Vec, hand: string): Promise<unknown> {
     return order(this.ports, 'physics/move_object', moveObjectType, {
       name: this.object.name,
       pose,
       twist: { linear: velocity, angular: STILL },
-      held,
+      held: hand !== '',
+      hand,
     })
   }
 }

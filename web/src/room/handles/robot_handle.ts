@@ -10,7 +10,7 @@ import type { Ground, Place } from '../place/supports'
 import type { Choosing, Frames, Lab, Speech } from '../ports'
 import { upright } from '../scene/frames'
 import { ArmShape } from './arm_shape'
-import { Moves } from './moves'
+import { Carry } from './carry'
 
 /** m: the cylinder of a robot's base that can be grabbed. */
 const RADIUS = 0.18
@@ -50,7 +50,7 @@ export class RobotHandle implements Target {
   private now = 0
   /** Its pose as the lab reports it; null: unknown. */
   private standing: Pose | null = null
-  private readonly moves = new Moves<Pose>(PERIOD, (pose) => this.tell(pose))
+  private readonly moves: Carry
   /** True while it is shown at its holder instead of at the pose of the lab. */
   private ahead = false
 
@@ -65,6 +65,7 @@ export class RobotHandle implements Target {
   ) {
     const look = { color: CLEAR, transparent: true, opacity: 0.9, depthWrite: false }
     const links = scene.robot(name)?.root.links
+    this.moves = new Carry(ports, { robot: name }, PERIOD, (pose, hand) => this.tell(pose, hand))
     this.shape = links === undefined ? null : new ArmShape(links)
     this.ring = new Mesh(new RingGeometry(RING - 0.025, RING, 48), new MeshBasicMaterial(look))
     this.ring.position.z = 0.003
@@ -147,7 +148,7 @@ export class RobotHandle implements Target {
       this.ports.stir()
     }
     this.ahead = ahead
-    if (this.carried && this.moves.due(now)) this.moves.send(this.pose(), now)
+    if (this.carried) this.moves.move(this.pose(), now)
   }
 
   dispose(): void {
@@ -202,15 +203,19 @@ export class RobotHandle implements Target {
 
   private release(): void {
     this.releasedAt = this.now
-    this.moves.send(this.pose(), this.now)
+    const pose = this.pose()
+    this.moves.end(() => this.tell(pose, ''))
   }
 
-  private async tell(pose: Pose): Promise<void> {
+  /** hand: the one that carries it on; empty: it stays there. */
+  private async tell(pose: Pose, hand: string): Promise<unknown> {
     const answer = await order(this.ports, 'lab/place_robot', placeRobotType, {
       robot: this.name,
       pose,
+      hand,
     })
     this.releasedAt = answer === null ? Number.NEGATIVE_INFINITY : this.now
+    return answer
   }
 }
 

@@ -101,6 +101,7 @@ test('what is in the hand of somebody else is left there, until that hand moves 
   handle.update(6)
   handle.on({ kind: 'down', pointer, button: 'select' })
   handle.update(6.1)
+  await settled()
   expect(services()).toHaveLength(before + 1)
 })
 
@@ -115,5 +116,6 @@ test('what was just let go is taken again, though the lab still has it in the ha
   const before = services().length
   handle.on({ kind: 'down', pointer, button: 'select' })
   handle.update(1.1)
+  await settled()
   expect(services()).toHaveLength(before + 1)
 })
