@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
@@ -137,7 +138,7 @@ def convert(
     try:
         options.checked_rate()
         options.factor()
-        checked = _checked(
+        checked = _as_it_lies(
             found,
             file,
             read,
@@ -183,7 +184,7 @@ def _findings(
     """Return the findings of a conversion, worst first, without its trajectory."""
     found = _Found()
     try:
-        checked = _checked(
+        checked = _as_it_lies(
             found,
             file,
             lambda: workspace,
@@ -242,6 +243,39 @@ class _Checked:
     layout: Layout
     rate: float
     source: Source
+
+
+def _as_it_lies(
+    found: _Found,
+    file: str,
+    read: Callable[[], Workspace],
+    options: Options,
+    robot: RobotModel,
+    **sizes: Any,
+) -> _Checked | ConversionResult:
+    """Do what _checked() does; where only a layout can be meant, with that layout."""
+    checked, refused = None, None
+    try:
+        checked = _checked(found, file, read, options, robot, **sizes)
+        if isinstance(checked, _Checked):
+            return checked
+        said = checked.diagnostics
+    except BadInput as error:
+        refused = error
+        said = _worst_first([*found.notes, error.diagnostic])
+    workspace, changed = found.workspace, questions.layout(said, options)
+    if workspace is not None and changed is not None:
+        again = replace(found, notes=[], variable=None)
+        with contextlib.suppress(BadInput):
+            other = _as_it_lies(again, file, lambda: workspace, changed, robot, **sizes)
+            notes = questions.read_so(again.notes, said[0])
+            if isinstance(other, _Checked) and notes is not None:
+                found.notes = notes
+                return other
+    if refused is not None:
+        raise refused
+    assert checked is not None
+    return checked
 
 
 def _checked(

@@ -947,6 +947,12 @@ CONVERTED_UNIT = Code(
     severity=INFO,
     meaning="The file says which unit the numbers have; they were converted to radians.",
 )
+LAYOUT_READ = Code(
+    "layout_read",
+    "The joints were read as they lie in the file: {why:problem}.",
+    severity=INFO,
+    meaning="The samples were columns, a column was time or each joint a variable: read so.",
+)
 TRANSPOSE_APPLIED = Code(
     "transpose_applied", "'{variable}' was transposed, as asked.", severity=INFO
 )

@@ -136,7 +136,7 @@ def find(
     if by_duration is not None:
         notes.append(rate_findings.assumed(by_duration.path, by_duration.rate, default))
         return Rate(by_duration.rate, None, notes)
-    by_text = rate_scalars.in_texts(workspace, path)
+    by_text = next(iter(rate_scalars.in_texts(workspace, path)), None)
     if by_text is not None:
         notes.append(rate_findings.assumed(by_text.path, by_text.rate, default))
         return Rate(by_text.rate, None, notes)

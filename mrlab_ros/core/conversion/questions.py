@@ -14,6 +14,7 @@ from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, Severity
 from mrlab_ros.core.conversion import rate_findings
 from mrlab_ros.core.conversion.candidates import saving
 from mrlab_ros.core.conversion.diagnostics import (
+    LAYOUT_READ,
     MOTOR_SIDE,
     NAMES_OTHER,
     ORDER_STATED,
@@ -26,7 +27,7 @@ from mrlab_ros.core.conversion.diagnostics import (
 from mrlab_ros.core.conversion.evidence import headings, joining, joint_order, ledger, statements
 from mrlab_ros.core.conversion.evidence.joining import first_path
 from mrlab_ros.core.conversion.evidence.ledger import About, Claim, End, Ledger, Standing
-from mrlab_ros.core.conversion.evidence.names import Name
+from mrlab_ros.core.conversion.evidence.names import Hint, Name, hint
 from mrlab_ros.core.conversion.evidence.statements import Statement
 from mrlab_ros.core.conversion.evidence.survey import Survey
 from mrlab_ros.core.conversion.options import Options, columns_text
@@ -263,6 +264,52 @@ def _headings(variable: Variable, robot: RobotModel) -> list[Diagnostic]:
 
 def _numbers_alone(names: tuple[str, ...]) -> bool:
     return all(name.strip().isdigit() for name in names)
+
+
+# how numbers lie is seen by the numbers themselves: such a fix is taken where nothing speaks
+# against it
+LAYOUTS = frozenset(("transposed", "time_column", "inside_container", "wrong_shape"))
+APPLIED = frozenset(("transpose_applied", "columns_applied"))
+
+
+def layout(found: Sequence[Diagnostic], options: Options) -> Options | None:
+    """Return options with the only layout that a refusal leaves, None where a person has to say.
+
+    found: the findings of the refusal, worst first. Only a person says how to read what is named
+    as another quantity, or the pieces of what is not named as joints.
+    """
+    worst = found[0]
+    fixes = [f for f in worst.fixes if f.option]
+    if worst.code not in LAYOUTS or len(fixes) != 1 or getattr(options, fixes[0].option):
+        return None
+    beside = worst.values.get("beside")
+    if worst.code == "wrong_shape" and not (beside and beside <= worst.values["more"]):
+        return None
+    joined = fixes[0].value if fixes[0].option == "join" else ""
+    said = hint(joined or worst.variable)
+    of_joints = said is Hint.POSITIONS and worst.values.get("pieces") == "joints"
+    if said.against or (joined and not of_joints):
+        return None
+    return applied(options, fixes[0])
+
+
+def read_so(found: Sequence[Diagnostic], why: Diagnostic) -> list[Diagnostic] | None:
+    """Return the findings of a conversion with a layout that nobody asked for, or None.
+
+    None where they doubt it. why: the finding that it mends; a column that is not the first and
+    may be a joint as well is a warning.
+    """
+    if any(d.severity is Severity.ERROR or d.code in DOUBTS for d in found):
+        return None
+    rises = getattr(why.values.get("why"), "values", {}).get("rises")
+    unsure = rises in ("round", "irregular") and why.values["column"] != 1
+    said = LAYOUT_READ(
+        severity=Severity.WARNING if unsure else Severity.INFO,
+        variable=why.variable,
+        why=replace(why, remedy="", fixes=()),
+        fixes=why.fixes,
+    )
+    return [*(d for d in found if d.code not in APPLIED), said]
 
 
 # what corrects an option, and what a person answers: nothing is tried for these

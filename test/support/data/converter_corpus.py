@@ -265,13 +265,13 @@ def time_columns() -> Iterator[File]:
         "transposed": np.column_stack([t, q]).T,
     }
     for name, table in shapes.items():
-        yield File(f"time_{name}", "ur5e", mat(q=table), ".mat", REFUSE)
+        yield File(f"time_{name}", "ur5e", mat(q=table), ".mat", ACCEPT)
     for name in ("data", "log", "traj", "Messung"):
-        yield File(f"time_{name}", "ur5e", mat(**{name: shapes["first"]}), ".mat", REFUSE)
+        yield File(f"time_{name}", "ur5e", mat(**{name: shapes["first"]}), ".mat", WARN, 100.0, q)
     five = np.column_stack([t, q[:, :5]])
     yield File("time_and_five", "ur5e", mat(q=five), ".mat", NOT_SILENT)
     both = mat(q=shapes["first"], t=t)
-    yield File("time_and_vector", "ur5e", both, ".mat", REFUSE)
+    yield File("time_and_vector", "ur5e", both, ".mat", ACCEPT, 100.0, q)
 
 
 def wide() -> Iterator[File]:
@@ -377,7 +377,7 @@ def units() -> Iterator[File]:
         yield File(f"millidegrees_{robot}", robot, mat(q=np.round(degrees * 1000)), ".mat", REFUSE)
         counts = np.round(q / (2 * np.pi) * 65536)
         yield File(f"counts_{robot}", robot, mat(enc=counts, q=counts), ".mat", REFUSE)
-        yield File(f"transposed_{robot}", robot, mat(q=q.T), ".mat", REFUSE)
+        yield File(f"transposed_{robot}", robot, mat(q=q.T), ".mat", ACCEPT, None, q)
     small = 4 * np.sin(np.linspace(0, 6, 300))[:, None] * np.linspace(0.2, 1, 6)
     yield File(
         "degrees_small_named",
@@ -460,7 +460,8 @@ def simulink() -> Iterator[File]:
     yield File("tout_yout", "ur5e", mat(tout=t, yout=q), ".mat", WARN, 100.0, q)
     out = {"tout": t, "q": q}
     yield File("out", "ur5e", mat(out=out), ".mat", ACCEPT, 100.0, q)
-    yield File("array_with_time", "ur5e", mat(simout=np.column_stack([t, q])), ".mat", REFUSE)
+    table = mat(simout=np.column_stack([t, q]))
+    yield File("array_with_time", "ur5e", table, ".mat", WARN, 100.0, q)
     scope = np.zeros(6, dtype=[("values", object), ("label", object)])
     for i in range(6):
         scope[i] = (column(q[:, i]), f"q{i}")
@@ -480,7 +481,7 @@ def more_dimensions() -> Iterator[File]:
     held = np.column_stack([q, gripper(501)])
     yield File("seven_by_one", "ur5e", mat(q=held.T[:, None], t=t), ".mat", ACCEPT, 100.0, q)
     timed = np.column_stack([t, q]).T[:, None]
-    yield File("time_3d", "ur5e", mat(q=timed), ".mat", REFUSE)
+    yield File("time_3d", "ur5e", mat(q=timed), ".mat", ACCEPT, 100.0, q)
     for robot in ("ur5e", KUKA):
         own = wave(rows=300, robot=robot)
         pages = np.moveaxis(poses(own, robot), 0, 2)
@@ -577,7 +578,7 @@ def tables() -> Iterator[File]:
     yield File("csv_quaternion", "ur5e", csv("x,y,z,qx,qy,qz,qw", quaternions(q)), ".csv", REFUSE)
     yield File("csv_dq", "ur5e", csv("dq1,dq2,dq3,dq4,dq5,dq6", velocity(q)), ".csv", REFUSE)
     yield File("csv_bare", "ur5e", csv("", q), ".csv", WARN, None, q)
-    yield File("csv_bare_time", "ur5e", csv("", np.column_stack([t, q])), ".csv", REFUSE)
+    yield File("csv_bare_time", "ur5e", csv("", np.column_stack([t, q])), ".csv", WARN)
     yield File(
         "csv_tau", "ur5e", csv("tau1,tau2,tau3,tau4,tau5,tau6", velocity(q)), ".csv", REFUSE
     )
@@ -599,19 +600,12 @@ def tables() -> Iterator[File]:
 
 def pieces() -> Iterator[File]:
     q = move(seed=150)
-    yield File(
-        "split_q", "ur5e", mat(**{f"q{i + 1}": column(q[:, i]) for i in range(6)}), ".mat", REFUSE
-    )
-    yield File(
-        "split_theta", "ur5e", mat(**{f"theta{i + 1}": q[:, i] for i in range(6)}), ".mat", REFUSE
-    )
-    yield File(
-        "split_struct",
-        "ur5e",
-        mat(log={f"j{i + 1}": column(q[:, i]) for i in range(6)}),
-        ".mat",
-        REFUSE,
-    )
+    for name, apart in {
+        "q": {f"q{i + 1}": column(q[:, i]) for i in range(6)},
+        "theta": {f"theta{i + 1}": q[:, i] for i in range(6)},
+        "struct": {"log": {f"j{i + 1}": column(q[:, i]) for i in range(6)}},
+    }.items():
+        yield File(f"split_{name}", "ur5e", mat(**apart), ".mat", ACCEPT, None, q)
     cells = np.empty(3, dtype=object)
     for i in range(3):
         cells[i] = q[100 * i : 100 * (i + 1)]
@@ -702,6 +696,8 @@ def clocks_and_rates_of_many_kinds() -> Iterator[File]:
         "stamp_uint64": {
             "stamp": np.rint(t * 1e9).astype(np.uint64)[:, None] + 1700000000 * 10**9
         },
+        "fs_text": {"fs": "500 Hz"},
+        "fs_kHz": {"fs_kHz": 0.5},
     }
     for name, more in right.items():
         yield File(f"kind_{name}", "ur5e", mat(q=q, **more), ".mat", ACCEPT, 500.0, q)
@@ -715,12 +711,10 @@ def clocks_and_rates_of_many_kinds() -> Iterator[File]:
         "t_pairs": {"t": np.column_stack([t, t])},
         "dt_steps": {"dt": column(np.diff(t))},
         "tspan": {"tspan": np.array([[0, t[-1]]])},
-        "fs_text": {"fs": "500 Hz"},
         "fs_nan": {"fs": np.nan},
         "fs_zero": {"fs": 0.0},
         "fs_negative": {"fs": -500.0},
         "fs_complex": {"fs": 500 + 1j},
-        "fs_kHz": {"fs_kHz": 0.5},
         "fs_logical": {"fs": True},
         "emg": {"emg": {"fs": 2000.0, "data": np.zeros((6000, 2))}},
         "controller": {"controller": {"Ts": 1e-4, "Kp": 3.0}},
@@ -771,7 +765,7 @@ def held_names() -> Iterator[File]:
         ]
     ):
         q = move(seed=300 + i, rows=240, kind=("cosine", "cubic", "quintic")[i % 3])
-        known = name not in ("qm", "Achswerte")
+        known = name != "qm"
         yield File(
             f"h_good_{name}",
             "ur5e",
@@ -833,9 +827,10 @@ def held_times() -> Iterator[File]:
         "late": 3.02 + np.arange(451) * 0.02,
         "T7": np.linspace(0, 7, 451),
     }.items():
-        yield File(f"h_col_{name}", "ur5e", mat(run=np.column_stack([t, q])), ".mat", REFUSE)
-        yield File(f"h_col_last_{name}", "ur5e", mat(q=np.column_stack([q, t])), ".mat", REFUSE)
-        yield File(f"h_row_{name}", "ur5e", mat(q=np.vstack([t, q.T])), ".mat", REFUSE)
+        first, last = np.column_stack([t, q]), np.column_stack([q, t])
+        yield File(f"h_col_{name}", "ur5e", mat(run=first), ".mat", WARN, None, q)
+        yield File(f"h_col_last_{name}", "ur5e", mat(q=last), ".mat", ACCEPT, None, q)
+        yield File(f"h_row_{name}", "ur5e", mat(q=first.T), ".mat", ACCEPT, None, q)
     flat = q.copy()
     flat[:, 5] = 0.3
     yield File(
@@ -843,7 +838,7 @@ def held_times() -> Iterator[File]:
         "ur5e",
         mat(q=np.column_stack([np.arange(451) * 0.005, flat])),
         ".mat",
-        REFUSE,
+        ACCEPT,
     )
     t = np.arange(451) * 0.01
     for name in ["log", "Messdaten", "recorded"]:
@@ -1046,7 +1041,9 @@ def held_values() -> Iterator[File]:
         "ur5e",
         mat(**{f"joint{i}": column(q[:, i]) for i in range(6)}),
         ".mat",
-        REFUSE,
+        ACCEPT,
+        None,
+        q,
     )
     yield File(
         "h_gripper_width_mm",

@@ -1823,6 +1823,7 @@ export const diagnostics: Templates = {
   ],
   late_at_start: ['nicht rechtzeitig am Start: {robots:list}'],
   late_point: ['Punkt {point:integer} ({time:time}) liegt nicht nach dem Punkt davor'],
+  layout_read: ['Die Gelenke wurden gelesen, wie sie in der Datei liegen: {why:problem}.'],
   least_distance: [
     '{link}[ (hält {held})][ von {robot}] kommt {kind:choice self=dem eigenen Glied|robot=dem Roboter|object=dem Gegenstand|surface=der Fläche} {other}[ ({other_link})] bei {time:time} auf {value:length} nah; erwartet: mindestens {limit:length}.',
   ],

@@ -136,20 +136,25 @@ CLASSES = {
         dt ts te ta tm tc deltat tstep timestep dtime deltatime takt taktzeit takzeit zeitschritt
         period periode periodo periodes stap step schritt interval intervall intervalle intervalo
         intervallo cycle cycletime zyklus zykluszeit ciclo pas paso passo delta schrittweite
-        tsample tcycle tabtast tastzeit zhouqi shuki okres krok""",
+        tsample tcycle tabtast tastzeit zhouqi shuki 周期 okres krok""",
     Class.RATE: """
         fs fe fa fm fc freq freqs frequency frequenz frequence frequencia frecuencia frequenza
         frequentie rate rates hz khz fps framerate samplerate takte pinlv pinlu shuuhasuu
-        czestotliwosc frekans frekvence cadence taux tasa tasso taxa fsample fsampling f sps""",
+        czestotliwosc frekans frekvence 频率 周波数 cadence taux
+        tasa tasso taxa fsample fsampling f sps""",
     Class.SAMPLING: """
         sample samples sampling samp abtast abtastung abtastungen abtastzeit abtastrate
         abtastfrequenz abtastintervall abtastperiode echantillonnage echantillon echant
         bemonstering bemonsterings ctrl logging muestreo muestra
         campionamento campione amostragem amostra control controller controle controllo loop
         update publish record recording frame frames per second capture acquisition servo
-        regel regler ros probkowania ornekleme caiyang bild cycle sequence""",
+        regel regler ros probkowania ornekleme caiyang bild bilder bildern cycle sequence
+        echantillons muestras muestra campioni amostras images imagen imagenes immagini imagens
+        messwert messwerte messpunkt messpunkte werte mesure mesures medicion mediciones misura
+        misure medida medidas probe proben shuju 采样 点 个点 帧 次 数据点""",
     Class.DURATION: """
-        duration dauer duree duracion durata duracao tf tfinal tend ttotal ttot tmax totaltime
+        duration dauer duree totale totali gesamt zong shichang 时长 duracion durata
+        duracao tf tfinal tend ttotal ttot tmax totaltime
         movetime gesamtzeit endzeit simtime stoptime tstop tges motiontime total end final length
         sure czastrwania""",
     Class.ORDER: """
@@ -347,6 +352,13 @@ _PENDING = """
     invertito invertita espelho inverso
     """
 PENDING = frozenset(_PENDING.split())
+# of data beside a motion whose rates are not its own
+_FOREIGN = """
+    controller regler filter cutoff emg eeg cam camera kamera camara fotocamera force kraft ft imu
+    audio plot video mocap optitrack vicon lidar mic microphone mikrofon sound forces torque
+    webcam gopro realsense kinect
+    """
+FOREIGN = frozenset(_FOREIGN.split())
 # words of flags of a program that change no numbers
 _QUIET = "debug verbose plot plots plotting show display print animate figure gui on save"
 QUIET = frozenset(_QUIET.split())

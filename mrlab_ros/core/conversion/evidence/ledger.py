@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mrlab_ros.core.conversion.evidence import rate_scalars, statements, units
-from mrlab_ros.core.conversion.evidence.glossary import PENDING, PROSE, QUIET, Class
+from mrlab_ros.core.conversion.evidence import rate_scalars, rate_sentences, statements, units
+from mrlab_ros.core.conversion.evidence.glossary import FOREIGN, PENDING, PROSE, QUIET, Class
 from mrlab_ros.core.conversion.evidence.joining import first_path
 from mrlab_ros.core.conversion.evidence.names import Hint, Word, described, hint, leaf, parts
 from mrlab_ros.core.conversion.evidence.statements import ELEMENT, Statement
@@ -246,7 +246,7 @@ def _number(s: Statement, matrix: _Matrix) -> Entry:
         return Entry(v, End.EXPLAINED)
     if s.near > 2:
         return Entry(v, End.HARMLESS)
-    if timed and rate_scalars.FOREIGN & {w.text for w in words}:
+    if timed and FOREIGN & {w.text for w in words}:
         return Entry(v, End.HARMLESS)
     if timed and (words[-1].text in TIME_UNITS or not factor):
         likely = rate_scalars.LIKELY_RATES[0] <= rate <= rate_scalars.LIKELY_RATES[1]
@@ -356,7 +356,8 @@ def _text(s: Statement, matrix: _Matrix) -> Entry:
         if statements.TRUTHS.get(text.lower()) and not of_angles:
             of_angles = _may_be_done(s.words, 1.0)
         return Entry(v, End.TEXT if of_angles and s.near <= 2 else End.HARMLESS, of_angles)
-    rate = rate_scalars.rate_in(text)
+    stated = rate_sentences.rate_in(text)
+    rate = stated.rate if stated else 0.0
     if matrix.assumed:
         spoken = (*s.words, *statements.words_of_text(text))
         timed = any(w.can_be(*rate_scalars.OF_TIMES) for w in spoken)

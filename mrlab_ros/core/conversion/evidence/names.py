@@ -208,7 +208,7 @@ def leaf(path: str) -> str:
 
 def parts(name: str) -> list[str]:
     """Return the lower-case words of a name: joint_Angles2 is joint, angles, 2."""
-    spaced = re.sub(r"(?<=[a-zäöüß])(?=[A-ZÄÖÜ])", "_", name)
+    spaced = re.sub(r"(?<=[a-zäöüß])(?=[A-ZÄÖÜ])", "_", name.replace("kHz", "Khz"))
     spaced = re.sub(r"(?<=[A-Z])(?=[A-Z][a-z]{2})", "_", spaced)
     # names of models keep their digits: ur5e
     spaced = re.sub(r"(?<=[A-Za-z]{2})(?=\d)(?!\d+e(?![a-z0-9]))", "_", spaced)

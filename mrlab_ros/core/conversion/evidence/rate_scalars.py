@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mrlab_ros.core.conversion.evidence import statements
-from mrlab_ros.core.conversion.evidence.glossary import Class
+from mrlab_ros.core.conversion.evidence import rate_sentences, statements
+from mrlab_ros.core.conversion.evidence.glossary import FOREIGN, Class
 from mrlab_ros.core.conversion.evidence.joining import first_path
 from mrlab_ros.core.conversion.evidence.names import described, leaf, parts, words
 from mrlab_ros.core.conversion.evidence.time_vectors import (
@@ -42,24 +42,12 @@ DURATION_NAMES = words(
 )
 SPANS = words("tspan timespan tintervall zeitbereich")
 LIKELY_OF_DURATION = (5.0, 1000.0)  # Hz
-# structures whose steps and rates are not those of a trajectory
-FOREIGN = words(
-    "controller regler filter emg eeg cam camera kamera camara fotocamera force kraft ft imu "
-    "audio plot video mocap optitrack vicon lidar mic microphone mikrofon sound forces torque"
-)
 OF_RATES = (
     Class.CLOCK, Class.PERIOD, Class.RATE, Class.SAMPLING, Class.KEPT, Class.ROLE, Class.ARM,
     Class.SYMBOL, Class.JOINT,
 )  # fmt: skip
-PER_SECOND = re.compile(r"(?i)[_ ]?per[_ ]?s(ec(ond)?)?$")
 SETTLED = (Class.TABLE, Class.GEAR, Class.GRIPPER, Class.UNIT_FLAG)
 OF_TIMES = (Class.CLOCK, Class.PERIOD, Class.RATE, Class.SAMPLING, Class.DURATION)
-IN_HERTZ = re.compile(r"(?P<number>\d+(?:[.,]\d+)?)\s*(?P<unit>k?hz)\b", re.I)
-IN_STEPS = re.compile(
-    r"(?:dt|ts|step|schritt|period\w*|takt\w*|zyklus\w*|cycle\w*|sampl\w*|abtast\w*|every|alle)"
-    r"[^\d\n]{0,20}(?P<number>\d+(?:[.,]\d+)?)\s*(?P<unit>ms|us|s)\b",
-    re.I,
-)
 FOREIGN_ROWS = 20  # of data beside a rate that have their own number of rows
 # an entry of a containers.Map or of a dictionary
 KEY = re.compile(r"""\('([^']+)'\)$|\{"([^"]+)"\}$""")
@@ -122,6 +110,8 @@ def scalars(workspace: Workspace, path: str, rows: int, coarse: bool) -> list[Sc
         sure = sure and not foreign
         scalar = Scalar(v.path, snapped(rate) if rate else 0.0, sure, foreign)
         found.append((not sure, v.path.rpartition(".")[0] != near, scalar))
+    if path:
+        found += [(False, False, s) for s in in_texts(workspace, path) if s.sure]
     found.sort(key=lambda item: item[:2])
     return [scalar for _, _, scalar in found]
 
@@ -138,6 +128,8 @@ def _by_words(name: str, number: float, unit: str, rows: int) -> tuple[float | N
     None where the name says neither a rate nor a step. Words of sampling beside it make it sure,
     unread ones and those of something else do not.
     """
+    if spoken := rate_sentences.rate_in(f"{number!r} {' '.join(parts(name))}"):
+        return spoken.rate, spoken.sure
     said = described(name)
     times = words(" ".join(UNIT_WORDS["ms"] | UNIT_WORDS["us"] | UNIT_WORDS["ns"]))
     said = [w for w in said if w.text not in times or w is said[0]]
@@ -151,8 +143,6 @@ def _by_words(name: str, number: float, unit: str, rows: int) -> tuple[float | N
     beside = known and len(said) > 1 and (sampled or stepped)
     if any(w.text in ("hz", "khz") for w in said):
         return number * (1e3 if said[-1].text == "khz" else 1.0), known
-    if PER_SECOND.search(name):
-        return number, False
     if not known and any(w.quantity or w.can_be(*SETTLED) for w in said):
         return None, False
     if any(w.can_be(Class.RATE) and (known or len(w.text) > 1) for w in said):
@@ -167,24 +157,13 @@ def _by_words(name: str, number: float, unit: str, rows: int) -> tuple[float | N
     return (1 / step, False) if unit and likely and len(parts(name)) > 1 else (None, False)
 
 
-def in_texts(workspace: Workspace, path: str) -> Scalar | None:
-    """Return the rate that a text near the matrix says, such as 'recorded at 250 Hz'."""
-    for s in statements.about(workspace, first_path(path)):
-        rate = rate_in(s.text)
-        if rate:
-            return Scalar(s.path, rate, sure=False)
-    return None
-
-
-def rate_in(text: str) -> float:
-    """Return the rate, Hz, that a text says, 0 where it says none."""
-    match = IN_HERTZ.search(text) or IN_STEPS.search(text)
-    if match is None:
-        return 0.0
-    number, unit = float(match["number"].replace(",", ".")), match["unit"].lower()
-    scale = {"ms": 1e-3, "us": 1e-6, "s": 1.0, "khz": 1e3}.get(unit, 1.0)
-    rate = number * scale if unit.endswith("hz") else 1 / (number * scale or 1)
-    return snapped(rate) if LEAST_RATE <= rate <= MOST_RATE else 0.0
+def in_texts(workspace: Workspace, path: str) -> list[Scalar]:
+    """Return the rates that texts near the matrix say, such as 'recorded at 250 Hz'."""
+    return [
+        Scalar(s.path, snapped(stated.rate), stated.sure)
+        for s in statements.about(workspace, first_path(path))
+        if s.text and s.near <= 2 and (stated := rate_sentences.rate_in(s.text))
+    ]
 
 
 def of_duration(workspace: Workspace, path: str, rows: int) -> Scalar | None:
@@ -200,8 +179,9 @@ def of_duration(workspace: Workspace, path: str, rows: int) -> Scalar | None:
         if number is None or not np.isfinite(number) or number <= 0 or not name:
             continue
         said = "".join(parts(name))
-        by_words = any(w.can_be(Class.DURATION) for w in described(name)) and all(
-            w.can_be(Class.DURATION, Class.CLOCK, Class.ROLE, Class.KEPT) for w in described(name)
+        words_of = described(name)
+        by_words = any(w.can_be(Class.DURATION) and len(w.text) > 2 for w in words_of) and not any(
+            w.quantity for w in words_of
         )
         if not (by_words or said in DURATION_NAMES | SPANS) or not _is_near(v.path, near):
             continue

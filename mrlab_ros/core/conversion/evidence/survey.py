@@ -21,8 +21,17 @@ from mrlab_ros.core.conversion.evidence.assessment import (
     blocking_clocks,
     judged,
 )
+from mrlab_ros.core.conversion.evidence.glossary import Class
 from mrlab_ros.core.conversion.evidence.headings import misnamed, name_of, names_joints
-from mrlab_ros.core.conversion.evidence.names import Hint, Name, describe, leaf, parts, words
+from mrlab_ros.core.conversion.evidence.names import (
+    Hint,
+    Name,
+    describe,
+    leaf,
+    parts,
+    word_of,
+    words,
+)
 from mrlab_ros.core.conversion.evidence.other_columns import (
     clocks_among,
     has_states,
@@ -209,10 +218,6 @@ def _unfilled(arm: NDArray[Any], steps: Array) -> tuple[int, int] | None:
 
 # Two matrices are the same motion, measured and commanded, where they differ by less, rad.
 SAME_MOTION = 0.15
-MEASURED_OR_COMMANDED = words(
-    "actual act measured meas ist target desired des ref reference soll cmd command commanded "
-    "current present set setpoint demand goal feedback fb"
-)
 # What 4 x 4 x N transforms of the tool are called, beside the names of poses.
 TRANSFORM_NAMES = words("t ts tt te tee th tform tforms transform transforms htm fk fkine")
 # How many matrices are compared with one another.
@@ -309,7 +314,8 @@ def _are_equal(a: Assessment, b: Assessment) -> bool:
 def _are_twins(one: str, other: str) -> bool:
     """Say whether two names differ in words for measured and commanded alone."""
     a, b = ({*parts(path)} for path in (one, other))
-    return bool(a != b and (a ^ b) <= MEASURED_OR_COMMANDED)
+    differ = [word_of(part) for part in a ^ b]
+    return bool(differ) and all(word.can_be(Class.ROLE) for word in differ)
 
 
 def _claims_poses(variable: Variable) -> bool:

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mrlab_ros.core.conversion.evidence import units
 from mrlab_ros.core.conversion.evidence.glossary import Class
 from mrlab_ros.core.conversion.evidence.names import described, leaf, parts, without_numbers, words
 from mrlab_ros.core.trajectory.trajectory import Array
@@ -17,15 +18,7 @@ from mrlab_ros.core.trajectory.trajectory import Array
 SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "days": 86_400.0}
 # units that only a name says, which may mean a minimum or a height as well
 NAMED_SECONDS = {**SECONDS, "min": 60.0, "h": 3600.0}
-UNIT_WORDS = {
-    "s": words("s sec secs second seconds sek sekunden"),
-    "ms": words("ms msec msecs millis millisec milliseconds millisekunden"),
-    "us": words("us usec usecs micros microsec microseconds mikrosekunden"),
-    "ns": words("ns nsec nsecs nanos nanosec nanoseconds nanosekunden"),
-    "days": words("datenum days tage"),
-    "min": words("min mins minute minutes minuten"),
-    "h": words("h hr hrs hour hours std stunden"),
-}
+UNIT_WORDS = units.spellings(units.TIMES)
 TIME_NAMES = words(
     "t time tout timevec timevector times tvec timecont ts tq tt tsamples trajtimes timestamp "
     "timestamps tspan tspace zeit zeiten zeitvektor zeitstempel zeitpunkte tlog tsim ttraj "

@@ -110,22 +110,23 @@ TABLE: dict[str, tuple[tuple[str, float, str], ...]] = {
             "s",
             1.0,
             "s,sec,secs,second,seconds,sek,sekunde,sekunden,seconde,secondes,segundo,segundos,"
-            "secondo,secondi,seg,秒",
+            "secondo,secondi,seg,miao,byou,秒",
         ),
         (
             "ms",
             1e-3,
-            "ms,msec,msecs,millis,millisec,millisecond,milliseconds,millisekunden,"
-            "millisecondes,milisegundos,millisecondi,毫秒",
+            "ms,msec,msecs,millis,millisec,millisecond,milliseconds,millisekunde,millisekunden,"
+            "milliseconde,millisecondes,milisegundo,milisegundos,milissegundo,milissegundos,"
+            "millisecondo,millisecondi,haomiao,毫秒",
         ),
         ("us", 1e-6, "us,µs,usec,usecs,micros,microsec,microsecond,microseconds,mikrosekunden"),
         ("ns", 1e-9, "ns,nsec,nsecs,nanos,nanosec,nanosecond,nanoseconds,nanosekunden"),
-        ("min", 60.0, "min,mins,minute,minutes,minuten,minutos,minuti"),
+        ("min", 60.0, "min,mins,minute,minutes,minuten,minuto,minutos,minuti,fenzhong,分,分钟"),
         ("h", 3600.0, "h,hr,hrs,hour,hours,std,stunden,heures,horas,ore"),
         ("days", 86_400.0, "day,days,tage,datenum,jours,dias,giorni"),
     ),
     "rates": (
-        ("Hz", 1.0, "hz,hertz,fps,sps,samples/s,frames/s,1/sec"),
+        ("Hz", 1.0, "hz,hertz,赫兹,fps,sps,samples/s,frames/s,1/sec"),
         ("kHz", 1e3, "khz,kilohertz"),
     ),
     "shares": (
@@ -166,6 +167,11 @@ def _spellings() -> dict[str, Unit]:
         for name, factor, spellings in units
         for spelling in spellings.split(",")
     }
+
+
+def spellings(quantity: str) -> dict[str, frozenset[str]]:
+    """Return how the units of a quantity are spelled, by their names."""
+    return {name: frozenset(texts.split(",")) for name, _, texts in TABLE[quantity]}
 
 
 def plain(text: str) -> str:

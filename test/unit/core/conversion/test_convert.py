@@ -181,9 +181,6 @@ def test_objects_beside_a_clear_trajectory_are_mentioned():
 @pytest.mark.parametrize(
     ("variable", "code"),
     [
-        (var("q", motion().T), "transposed"),
-        (var("q", np.column_stack([np.arange(300) / 100, motion()])), "time_column"),
-        (var("q", np.vstack([np.arange(300) / 100, motion().T])), "transposed"),
         (var("q", np.degrees(motion(reach=2.0))), "degrees"),
         (var("q", np.column_stack([motion(joints=7)])), "seven_axes"),
         (var("q", motion()[:1]), "single_sample"),
