@@ -80,6 +80,13 @@ MISSED_HAND_OVER = Code(
     WARNING,
     meaning="A gripper closes where another robot let go of an object.",
 )
+DROPS_OBJECT = Code(
+    "drops_object",
+    "The gripper lets go of {other} in the air; it falls {value:length}.",
+    "Open it where the object stands on something.",
+    WARNING,
+    meaning="A gripper opens above nothing.",
+)
 PAYLOAD = Code(
     "payload",
     "The robot carries {value:mass} in {other}; it may carry {limit:mass} beside its end "
@@ -137,6 +144,20 @@ SPEED_STEP = Code(
     "stay below {usual:measure}.",
     "Blend the two parts of the motion, or stop between them.",
     meaning="The speed of a joint jumps.",
+)
+ZIGZAG = Code(
+    "zigzag",
+    "{joint} turns back at once {count:count time|times}, its speed changes by {value:measure} "
+    "from one way to the other.",
+    "Smooth the motion, or plan it anew with a smooth time law.",
+    meaning="A joint goes to and fro within 50 ms, as no arm can follow.",
+)
+SMALL_JUMPS = Code(
+    "small_jumps",
+    "{joint} jumps at {count:count row|rows}, where its speed is off by up to {value:measure} for "
+    "one row.",
+    "Take the rows out that do not belong there, or smooth the motion.",
+    meaning="Single rows move a joint as no row beside them does.",
 )
 NEAR_SINGULARITY = Code(
     "near_singularity",
@@ -205,12 +226,24 @@ NO_WAIT_HELPS = Code(
     WARNING,
 )
 # conditions of a real controller, and the figures that they are judged by
-POSITIONS_IN_RANGE = Code("positions_in_range", "positions inside their ranges", severity=INFO)
-SPEEDS_IN_LIMITS = Code("speeds_in_limits", "speeds below their limits", severity=INFO)
-ACCELERATIONS_IN_LIMITS = Code(
-    "accelerations_in_limits", "accelerations below their limits", severity=INFO
+POSITIONS_IN_RANGE = Code(
+    "positions_in_range",
+    "positions inside their ranges, to within {tolerance:exact} rad",
+    severity=INFO,
 )
-JERKS_IN_LIMITS = Code("jerks_in_limits", "jerks below their limits", severity=INFO)
+SPEEDS_IN_LIMITS = Code(
+    "speeds_in_limits",
+    "speeds below their limits, to within {tolerance:share}",
+    severity=INFO,
+)
+ACCELERATIONS_IN_LIMITS = Code(
+    "accelerations_in_limits",
+    "accelerations below their limits, to within {tolerance:share}",
+    severity=INFO,
+)
+JERKS_IN_LIMITS = Code(
+    "jerks_in_limits", "jerks below their limits, to within {tolerance:share}", severity=INFO
+)
 BEGINS_AT_REST = Code("begins_at_rest", "begins at rest", severity=INFO)
 ENDS_AT_REST = Code("ends_at_rest", "ends at rest", severity=INFO)
 CONTINUOUS = Code("continuous", "continuous", severity=INFO)

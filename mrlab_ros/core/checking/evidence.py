@@ -12,6 +12,7 @@ from mrlab_ros.core.checking.diagnostics import (
     BEGINS_INSIDE,
     COLLIDES_AT_START,
     COLLISION,
+    DROPS_OBJECT,
     GRASPS_NOTHING,
     LEFT_THE_ROOM,
     LOSES_OBJECT,
@@ -29,6 +30,8 @@ from mrlab_ros.core.physics.grasp.states import Grasp
 # A robot that comes nearer, m, without touching is a finding: what is measured in a real cell is
 # seldom better.
 CLOSE = 0.01
+# What falls less, m, was set down.
+SET_DOWN = 0.01
 # Between a robot's grasp and the other's loss in a hand-over, s.
 HAND_OVER = 0.1
 # How a conflict of two robots is resolved, by their names.
@@ -191,7 +194,18 @@ def of_grasps(recorded: Rehearsed, objects: Iterable[str]) -> list[Diagnostic]:
                 found.append(MISSED_HAND_OVER(**at, **thing, giver=giver.robot, ago=ago))
         elif change.state is Grasp.OPEN:
             held.pop(change.robot, None)
-    return found
+    return found + [
+        DROPS_OBJECT(
+            robot=drop.robot,
+            time=drop.time,
+            **met(Kind.OBJECT, drop.object),
+            value=drop.height,
+            limit=SET_DOWN,
+            unit="m",
+        )
+        for drop in recorded.drops
+        if drop.height > SET_DOWN
+    ]
 
 
 def _taken(recorded: Rehearsed, lost: GraspChange, thing: str) -> bool:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.geometry import Array
@@ -22,7 +23,9 @@ from mrlab_ros.core.checking.diagnostics import (
     NEAR_JOINT_LIMIT,
     OUTSIDE_RANGE,
     OVER_SPEED,
+    SMALL_JUMPS,
     SPEED_STEP,
+    ZIGZAG,
 )
 from mrlab_ros.core.conversion.motion_checks import LIMIT_TOLERANCE
 from mrlab_ros.core.robots.model import Joint
@@ -34,6 +37,12 @@ NARROW = np.radians(2.0)
 # A step of the speed is one where it is so many times the usual one (95th percentile), and so
 # large a share of the joint's limit.
 STEP_USUAL, STEP_SHARE = 10.0, 0.1
+# A joint jumps where one row moves it so much faster or slower than both rows beside it, as a
+# share of its limit, and so many times more than it usually does (median).
+SPIKE_SHARE, SPIKE_USUAL = 0.1, 10.0
+# It zigzags where it turns back within so short a time, s, faster than this share of its limit,
+# and over more than this way, rad or m: less is the noise of an encoder.
+TURNS_BACK, BACK_SHARE, BACK_WAY = 0.05, 0.05, 1e-3
 # Of a limit that is computed from rounded numbers.
 ROUNDING = 1.01
 
@@ -52,7 +61,8 @@ class JointFigures:
 
     room: to the nearer end of its range, at `room_time`. first_speed, last_speed: of its ends.
     speed_step: the largest change of its speed from one frame to the next, at `step_time`, and
-    `usual_step` the 95th percentile of these.
+    `usual_step` the 95th percentile of these. jumps, backs: the times at which it jumps, and turns
+    back at once; jump, back: the largest of their changes of speed.
     """
 
     joint: Joint
@@ -72,6 +82,10 @@ class JointFigures:
     speed_step: float
     step_time: float
     usual_step: float
+    jumps: tuple[float, ...]
+    jump: float
+    backs: tuple[float, ...]
+    back: float
 
     @property
     def speed_share(self) -> float:
@@ -117,6 +131,8 @@ def _figures(q: Array, rate: float, joint: Joint, stated: StatedLimits) -> Joint
     step, step_time = most(changes, 1)
     jerk, jerk_time = most(jerks, 1)
     nearest = int(room.argmin())
+    jumps, jump = _jumps(speeds, rate, joint.max_velocity)
+    backs, back = _backs(speeds, rate, joint.max_velocity)
     return JointFigures(
         joint=joint,
         stated=stated,
@@ -135,7 +151,46 @@ def _figures(q: Array, rate: float, joint: Joint, stated: StatedLimits) -> Joint
         speed_step=step,
         step_time=step_time,
         usual_step=float(np.quantile(np.abs(changes), 0.95)) if len(changes) else 0.0,
+        jumps=jumps,
+        jump=jump,
+        backs=backs,
+        back=back,
     )
+
+
+def _jumps(speeds: Array, rate: float, most: float) -> tuple[tuple[float, ...], float]:
+    """Return when single rows move a joint as neither row beside them does, and by how much."""
+    if len(speeds) < 3:
+        return (), 0.0
+    beside = (speeds[:-2] + speeds[2:]) / 2
+    spikes = np.abs(speeds[1:-1] - beside)
+    # A corner, such as the end of a ramp, is no jump: the rows beside it differ as much.
+    spikes -= np.abs(speeds[:-2] - speeds[2:]) / 2
+    least = max(SPIKE_SHARE * most, SPIKE_USUAL * float(np.median(spikes)))
+    rows = np.flatnonzero(spikes > least)
+    return _times(rows + 1, rate), float(spikes[rows].max(initial=0.0))
+
+
+def _backs(speeds: Array, rate: float, most: float) -> tuple[tuple[float, ...], float]:
+    """Return when a joint turns back at once, and the largest change of its speed there."""
+    moving = np.flatnonzero(speeds)
+    way = np.sign(speeds[moving])
+    starts = moving[np.flatnonzero(np.diff(way, prepend=0.0))]
+    if len(starts) < 3:
+        return (), 0.0
+    peaks = np.maximum.reduceat(np.abs(speeds), starts)
+    ways = np.abs(np.add.reduceat(speeds, starts)) / rate
+    long = np.diff(starts, append=len(speeds)) / rate
+    quick = (peaks > BACK_SHARE * most) & (ways > BACK_WAY)
+    short = quick & (long <= max(TURNS_BACK, 1.0 / rate) * ROUNDING)
+    # Between two others that are as quick.
+    inner = np.flatnonzero(quick[:-2] & short[1:-1] & quick[2:]) + 1
+    change = (peaks[inner] + peaks[inner - 1]).max(initial=0.0)
+    return _times(starts[inner], rate), float(change)
+
+
+def _times(rows: NDArray[np.integer[Any]], rate: float) -> tuple[float, ...]:
+    return tuple((rows / rate).tolist())
 
 
 def _end_speed(q: Array, rate: float) -> float:
@@ -195,6 +250,10 @@ def _of_joint(one: JointFigures, robot: str, end: float) -> Iterator[Diagnostic]
     ):
         if speed > REST_SHARE * most:
             yield code(**at, time=time, value=speed, limit=REST_SHARE * most, unit="rad/s")
+    for code, times, value in ((ZIGZAG, one.backs, one.back), (SMALL_JUMPS, one.jumps, one.jump)):
+        if times:
+            yield code(**at, time=times[0], value=value, unit="rad/s", count=len(times))
+            return
     if one.jolts:
         yield SPEED_STEP(
             **at,

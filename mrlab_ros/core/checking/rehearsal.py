@@ -15,10 +15,12 @@ from mrlab_ros.core.checking.rehearsal_record import (
     Collision,
     Course,
     Distances,
+    Drop,
     GraspChange,
     Rehearsed,
 )
 from mrlab_ros.core.physics.engine import Engine, Kind, Touch
+from mrlab_ros.core.physics.grasp.states import Grasp
 from mrlab_ros.core.physics.simulated_robot import GripperProgram, Playing
 from mrlab_ros.core.physics.world import World
 from mrlab_ros.core.physics.world_state import (
@@ -42,6 +44,8 @@ DISTANCE_TICKS, FARTHEST = 2, 0.5
 DISTANCE_PERIOD = DISTANCE_TICKS * TICK_NS / SECOND
 # Pictures are recorded 25 times a second.
 DRAWN_TICKS = 4
+# How long what was let go is watched as it falls, ns.
+FALLS_NS = TAIL_NS
 # A member waits for ever where nothing else has moved for so long, ns.
 STUCK_NS = 2 * SECOND
 
@@ -95,6 +99,9 @@ class Rehearsal:
         self._by_name = {each.actor.name: each for each in self._playing}
         self._now_ns = 0
         self._recorded = Rehearsed()
+        # By robot: what it holds. By object: where it was let go, until when it is watched.
+        self._held: dict[str, str] = {}
+        self._falling: dict[str, tuple[Drop, float, int]] = {}
 
     def place(self) -> None:
         """Put every robot at its first frame, or where it stands."""
@@ -304,6 +311,7 @@ class Rehearsal:
                         event.object, event.reason, event.load,
                     )
                 )  # fmt: skip
+                self._let_go(event)
             elif isinstance(event, ObjectRemoved):
                 self._recorded.gone.append((max(self._seconds, 0.0), event.name))
             elif isinstance(event, CollisionChanged) and event.contact is not None:
@@ -315,9 +323,34 @@ class Rehearsal:
                 for one in self._recorded.of(event.robot):
                     if one.end is None:
                         one.end = self._time(event.robot, event.stamp_ns)
+        self._watch_falling()
         contacts = self._world.take_contacts()
         for each in self._playing:
             self._note_others(each, contacts)
+
+    def _let_go(self, event: GraspChanged) -> None:
+        """Begin to watch an object that a gripper opened on."""
+        thing = self._held.pop(event.robot, "")
+        if event.object:
+            self._held[event.robot] = event.object
+        elif thing and event.state is Grasp.OPEN and thing in self._names():
+            drop = Drop(self._time(event.robot, event.stamp_ns), event.robot, thing)
+            self._recorded.drops.append(drop)
+            height = self._world.motion(thing).pose.position[2]
+            self._falling[thing] = (drop, height, event.stamp_ns + FALLS_NS)
+
+    def _names(self) -> set[str]:
+        return {thing.name for thing in self._world.objects}
+
+    def _watch_falling(self) -> None:
+        """Record how far what was let go has fallen, until it is held again or time is over."""
+        for thing, (drop, height, until_ns) in list(self._falling.items()):
+            gone = thing not in self._names() or self._world.object(thing).held_by
+            if gone or self._now_ns > until_ns:
+                del self._falling[thing]
+            else:
+                fallen = height - self._world.motion(thing).pose.position[2]
+                drop.height = max(drop.height, fallen)
 
     def _note_others(self, each: _Playing, contacts: Sequence[Contact]) -> None:
         """Record what else a robot touches during a collision, which is announced once."""

@@ -45,6 +45,16 @@ class GraspChange:
 
 
 @dataclass
+class Drop:
+    """An object that a gripper let go, and how far it fell then, m. time: s."""
+
+    time: float
+    robot: str
+    object: str
+    height: float = 0.0
+
+
+@dataclass
 class Distances:
     """How far a robot is from something over time, m; one a sample, the farthest that is looked
     for where it is farther. links: of the robot, at each sample; empty: farther. arm: where the
@@ -118,6 +128,7 @@ class Rehearsed:
     distances: dict[tuple[str, Other], Distances] = field(default_factory=dict)
     collisions: list[Collision] = field(default_factory=list)
     grasps: list[GraspChange] = field(default_factory=list)
+    drops: list[Drop] = field(default_factory=list)
     begins_inside: dict[str, Sequence[str]] = field(default_factory=dict)
     starts: dict[str, float] = field(default_factory=dict)
     ends: dict[str, float] = field(default_factory=dict)

@@ -42,14 +42,17 @@ from mrlab_ros.core.checking.diagnostics import (
     OVER_SPEED,
     POSITIONS_IN_RANGE,
     REFUSED_BY_CONVERSION,
+    SMALL_JUMPS,
     SPEED_AT_END,
     SPEED_STEP,
     SPEEDS_IN_LIMITS,
+    ZIGZAG,
 )
 from mrlab_ros.core.checking.evidence import Clearance
-from mrlab_ros.core.checking.joint_limits import JointFigures
+from mrlab_ros.core.checking.joint_limits import ROUNDING, JointFigures
 from mrlab_ros.core.checking.rehearsal_record import GraspChange
 from mrlab_ros.core.checking.waypoints import Passed
+from mrlab_ros.core.conversion.motion_checks import LIMIT_TOLERANCE
 
 
 class State(Enum):
@@ -81,6 +84,13 @@ class Condition:
 JUMPS = frozenset({"discontinuity", "jump_2pi"})
 RANGES = frozenset({"joint_limit", OUTSIDE_RANGE.code})
 SPEEDS = frozenset({"velocity_limit", OVER_SPEED.code})
+# By how much a limit may be passed: rad, or a share of it.
+TOLERANCES: Mapping[Code, float] = {
+    POSITIONS_IN_RANGE: LIMIT_TOLERANCE,
+    SPEEDS_IN_LIMITS: ROUNDING - 1,
+    ACCELERATIONS_IN_LIMITS: ROUNDING - 1,
+    JERKS_IN_LIMITS: ROUNDING - 1,
+}
 CONTACTS = frozenset({COLLISION.code, COLLIDES_AT_START.code, BEGINS_INSIDE.code})
 
 
@@ -130,7 +140,7 @@ def conditions(
             SPEED_AT_END(value=last.last_speed, unit="rad/s", joint=last.joint.name),
         ),
         _condition(
-            CONTINUOUS, codes & {*JUMPS, SPEED_STEP.code},
+            CONTINUOUS, codes & {*JUMPS, SPEED_STEP.code, ZIGZAG.code, SMALL_JUMPS.code},
             LARGEST_STEP(
                 value=step.speed_step, unit="rad/s", joint=step.joint.name, time=step.step_time
             ),
@@ -154,15 +164,20 @@ def _without_motion(codes: set[str]) -> list[Condition]:
         NO_COLLISION: frozenset(),
     }
     return [
-        Condition(condition(), State.NOT, REFUSED_BY_CONVERSION())
+        Condition(_to_within(condition), State.NOT, REFUSED_BY_CONVERSION())
         if codes & refused
-        else Condition(condition(), State.UNKNOWN, NO_MOTION_IN_FILE())
+        else Condition(_to_within(condition), State.UNKNOWN, NO_MOTION_IN_FILE())
         for condition, refused in refusing.items()
     ]
 
 
 def _condition(condition: Code, refused: Collection[str], found: Diagnostic) -> Condition:
-    return Condition(condition(), State.NOT if refused else State.OK, found)
+    return Condition(_to_within(condition), State.NOT if refused else State.OK, found)
+
+
+def _to_within(condition: Code) -> Diagnostic:
+    """Return a condition with the tolerance that it is judged by."""
+    return condition(tolerance=TOLERANCES[condition]) if condition in TOLERANCES else condition()
 
 
 def _stated(
@@ -179,7 +194,9 @@ def _stated(
     missing = [joint for joint, limit in limits.items() if limit is None]
     if not refused and missing:
         some = missing if len(missing) < len(limits) else None
-        return Condition(condition(), State.UNKNOWN, LIMITS_NOT_STATED(**found, missing=some))
+        return Condition(
+            _to_within(condition), State.UNKNOWN, LIMITS_NOT_STATED(**found, missing=some)
+        )
     return _condition(condition, refused, LARGEST_OF_JOINT(**found))
 
 

@@ -586,11 +586,14 @@ export const words: Words = {
       moves_at_start: 'Beginnt nicht in Ruhe',
       moves_at_end: 'Endet nicht in Ruhe',
       speed_step: 'Sprung der Geschwindigkeit',
+      zigzag: 'Zickzack',
+      small_jumps: 'Kleine Sprünge',
       near_singularity: 'Nah an einer Singularität',
       uncertain_grasp: 'Unsicherer Griff',
       loses_object: 'Verliert ein Objekt',
       grasps_nothing: 'Greift ins Leere',
       missed_hand_over: 'Verpasste Übergabe',
+      drops_object: 'Lässt in der Luft los',
       payload: 'Zu schwer',
       misses_point: 'Verfehlt einen Punkt',
       point_out_of_order: 'Punkte in falscher Reihenfolge',
@@ -869,7 +872,7 @@ export const diagnostics: Templates = {
     '{joint} beschleunigt mit {value:measure}; der Hersteller nennt {limit:measure}.',
     'Plane mit einem glatten Zeitgesetz wie einem Polynom fünften Grades, oder gib der Bewegung mehr Zeit.',
   ],
-  accelerations_in_limits: ['Beschleunigungen unter ihren Grenzen'],
+  accelerations_in_limits: ['Beschleunigungen unter ihren Grenzen, bis auf {tolerance:share}'],
   all_held: [
     'Alle {count:integer} Gegenstände werden gehalten; für einen neuen ist kein Platz.',
     'Lass erst einen los oder entferne einen.',
@@ -1440,6 +1443,10 @@ export const diagnostics: Templates = {
     "Der Roboter wird vom System '{system}' gesteuert.",
     'Befiehl dem System, oder löse es auf, um den Roboter freizugeben.',
   ],
+  drops_object: [
+    'Der Greifer lässt {other} in der Luft los; es fällt {value:length}.',
+    'Öffne ihn dort, wo das Objekt auf etwas steht.',
+  ],
   earned_standing: [
     'Eine Bewegung, die stillsteht, bekommt hier {points:number} von {of:number} Punkten.',
     'Lass diesen Test einen verlangen, für den etwas zu tun ist.',
@@ -1721,7 +1728,7 @@ export const diagnostics: Templates = {
     '{joint} hat einen Ruck von {value:measure}; der Hersteller nennt {limit:measure}.',
     'Plane mit einem glatten Zeitgesetz wie einem Polynom fünften Grades, oder gib der Bewegung mehr Zeit.',
   ],
-  jerks_in_limits: ['Ruck unter seinen Grenzen'],
+  jerks_in_limits: ['Ruck unter seinen Grenzen, bis auf {tolerance:share}'],
   joint_axis: ["{place:problem}: Die Achse ist '{axis}'; erwartet wird eine Richtung wie 0 0 1."],
   joint_from: [
     '{joint} ist {instant:choice start=am Anfang|end=am Ende} {value:angle} {origin:choice home=von der Grundstellung|start=von seinem Anfang} entfernt; erwartet: höchstens {limit:angle}.',
@@ -2363,6 +2370,10 @@ export const diagnostics: Templates = {
     "'{file}' sagt nicht, für welchen Roboter sie ist, und die Rubrik auch nicht; ergänze robot: ur5e in der Rubrik, oder bewerte eine Zelle (.yaml).",
   ],
   sandbox_has: ['Sandbox für fremde Dateien: {layers:list}'],
+  small_jumps: [
+    '{joint} springt in {count:count Zeile|Zeilen}; seine Geschwindigkeit weicht dort für eine Zeile um bis zu {value:measure} ab.',
+    'Nimm die Zeilen heraus, die nicht dorthin gehören, oder glätte die Bewegung.',
+  ],
   stamps_back: [
     "{count:count Nachricht trägt|Nachrichten tragen} in '{variable}' einen früheren Zeitstempel als die davor; was vor dem spätesten lag, wurde weggelassen.",
     'Prüfe, ob zwei Aufnahmen in der Datei sind oder eine Uhr zurückgestellt wurde, und trenne sie dort.',
@@ -3040,7 +3051,7 @@ export const diagnostics: Templates = {
   position_count: [
     'Es gibt {count:count Position|Positionen}; erwartet: {joints:integer}, eine für jedes bewegliche Gelenk.',
   ],
-  positions_in_range: ['Positionen in ihren Bereichen'],
+  positions_in_range: ['Positionen in ihren Bereichen, bis auf {tolerance:exact} rad'],
   positions_not_finite: [
     "Die Positionen von '{id}' enthalten NaN oder Inf.",
     'Sichere endliche Werte in Radiant.',
@@ -3526,7 +3537,7 @@ export const diagnostics: Templates = {
     '{joint} ändert seine Geschwindigkeit von einer Zeile zur nächsten um {value:measure}; sonst bleiben seine Änderungen unter {usual:measure}.',
     'Verbinde die beiden Teile der Bewegung glatt, oder halte dazwischen an.',
   ],
-  speeds_in_limits: ['Geschwindigkeiten unter ihren Grenzen'],
+  speeds_in_limits: ['Geschwindigkeiten unter ihren Grenzen, bis auf {tolerance:share}'],
   squeezed: ["'{variable}' ist {size}; sie wurde als {taken} genommen, wie {line} es ergibt."],
   stages: ['fährt seine Mitglieder an ihre Plätze[, das dauert {duration:time}], dann läuft es'],
   stands_elsewhere: ['{name} steht anderswo'],
@@ -4028,5 +4039,9 @@ export const diagnostics: Templates = {
   zenoh_not_open: [
     'Die Bridge kann zenoh nicht an {endpoints:list} öffnen: {why:problem}.',
     'Prüfe die Parameter listen, connect und zenoh_config.',
+  ],
+  zigzag: [
+    '{joint} kehrt {count:count Mal|Mal} sofort um; seine Geschwindigkeit ändert sich von einer Richtung zur anderen um {value:measure}.',
+    'Glätte die Bewegung, oder plane sie neu mit einem glatten Zeitgesetz.',
   ],
 }

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from mrlab_ros.core.checking.evidence import of_grasps
-from mrlab_ros.core.checking.rehearsal_record import GraspChange, Rehearsed
+from mrlab_ros.core.checking.rehearsal_record import Drop, GraspChange, Rehearsed
 from mrlab_ros.core.physics.grasp.states import Grasp
 
 TAKES = GraspChange(2.0, "giver", Grasp.HOLDING, "rod")
@@ -36,3 +36,9 @@ def test_a_taker_that_comes_too_late_is_told_who_let_go_and_when() -> None:
 def test_a_taker_that_was_not_late_is_told_where_to_close(before: list[GraspChange]) -> None:
     found = of_grasps(Rehearsed(grasps=[*before, MISSES]), ["rod"])[-1]
     assert (found.code, found.robot) == ("grasps_nothing", "taker")
+
+
+def test_what_is_let_go_in_the_air_drops_and_what_is_set_down_does_not() -> None:
+    drops = [Drop(1.0, "r", "cube", 0.3), Drop(2.0, "r", "rod", 0.004)]
+    (found,) = of_grasps(Rehearsed(drops=drops), [])
+    assert (found.code, found.other, found.value) == ("drops_object", "cube", 0.3)

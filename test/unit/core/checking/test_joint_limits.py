@@ -53,6 +53,27 @@ def test_a_step_of_the_speed_in_the_middle_is_found_where_it_is():
     assert found.time == pytest.approx(1.0, abs=0.011)
 
 
+@pytest.mark.parametrize("rate", [50.0, 100.0, 500.0])
+def test_a_joint_that_turns_back_at_once_zigzags(rate):
+    s = np.linspace(0, 1, int(2 * rate) + 1)
+    smooth = 10 * s**3 - 15 * s**4 + 6 * s**5
+    shaken = smooth + 0.012 * np.sign(np.sin(np.pi * 0.999 * s * min(rate, 100) * 2))
+    assert codes(smooth, rate) == set()
+    assert "zigzag" in codes(shaken, rate)
+    # An encoder's noise is none.
+    noise = np.random.default_rng(0).normal(0, 5e-5, len(s))
+    assert not codes(smooth + noise, rate) & {"zigzag", "small_jumps"}
+
+
+def test_many_small_jumps_are_found():
+    jumps = np.zeros(len(QUINTIC))
+    jumps[3::5] = 0.02
+    figures = figures_of((QUINTIC - 1.9 + np.cumsum(jumps))[:, None], 100.0, [JOINT], {})
+    (found,) = (f for f in findings_of(figures, "r", 2.0) if f.code == "small_jumps")
+    assert found.values["count"] == pytest.approx(40, abs=4)
+    assert found.value == pytest.approx(2.0, rel=0.1)
+
+
 def test_acceleration_and_jerk_count_only_where_they_are_stated():
     assert codes(QUINTIC, stated=StatedLimits(1.0, 5.0)) == {"acceleration_limit", "jerk_limit"}
     assert codes(QUINTIC, stated=StatedLimits(2.0, 60.0)) == set()
