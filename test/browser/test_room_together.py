@@ -29,10 +29,10 @@ def test_two_people_make_a_system_by_touch_see_each_other_and_use_their_hands(
     robots = page.evaluate("[...room.handles.keys()]")
     if "robot ur5e" not in page.evaluate("room.board.panel.ids"):
         first.act(BOARD, "next")
-    while len(robots) < 2:
-        first.act(BOARD, "robot ur5e")
-        first.wait_for(f"room.handles.size > {len(robots)}")
-        robots = page.evaluate("[...room.handles.keys()]")
+    x, y, z = page.evaluate(f"room.scene.base('{robots[0]}').position.toArray()")
+    first.place("robot ur5e", x, y + 1.2, z)
+    first.wait_for("room.handles.size > 1")
+    robots = page.evaluate("[...room.handles.keys()]")
     pair = robots[:2]
     for robot in pair:
         lab.done("load", robot, str(MOTION))

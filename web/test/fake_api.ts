@@ -231,7 +231,10 @@ export class FakeApi implements Api {
         model,
         name: model === 'ur5e' ? 'UR5e' : model.slice(5).toUpperCase().replaceAll('_', ' '),
         maker: model === 'ur5e' ? 'Universal Robots' : 'KUKA',
-        joints: 6,
+        joints: ['a1', 'a2', 'a3', 'a4', 'a5', 'a6'],
+        home: [0, 0, 0, 0, 0, 0],
+        reach: 0.85,
+        urdf: `/assets/robots/${model}.urdf`,
         thumbnail: `${GALLERY}/${model}.png`,
       })),
       end_effectors: ['parallel_gripper', 'vacuum_cup', 'centric_gripper'].map((id) => ({

@@ -84,6 +84,18 @@ class Headset:
         self.trigger(True)
         self.trigger(False)
 
+    def place(self, card: str, x: float, y: float, height: float) -> None:
+        """Choose a card of the board, aim at a place of the lab, m, and pull the trigger."""
+        self.act(BOARD, card)
+        self.wait_for("room.placing.active")
+        to = f"room.stage.world.localToWorld(room.head.clone().set({x}, {y}, {height}))"
+        self.page.evaluate(AIM, self.page.evaluate(f"{to}.toArray()"))
+        self.wait_for("room.placing.pose !== null")
+        self.frames()
+        self.trigger(True)
+        self.trigger(False)
+        self.wait_for("!room.placing.active")
+
     def reach_for(self, place: Sequence[float], away: float = 0.5, side: str = "right") -> None:
         """Hold a controller so that a place lies straight ahead of it, m."""
         x, y, z = place

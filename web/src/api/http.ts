@@ -28,7 +28,10 @@ interface LibraryDocument {
     readonly name: string
     readonly maker: string
     readonly product: string
-    readonly joints: readonly unknown[]
+    readonly joints: readonly { readonly name: string }[]
+    readonly home: readonly number[]
+    readonly reach: number
+    readonly urdf: string
     readonly thumbnail: string | null
   }[]
   readonly end_effectors: readonly {
@@ -74,7 +77,10 @@ export class HttpApi implements Api {
         model: robot.id,
         name: robot.product || robot.name,
         maker: robot.maker,
-        joints: robot.joints.length,
+        joints: robot.joints.map(({ name }) => name),
+        home: robot.home,
+        reach: robot.reach,
+        urdf: `/${robot.urdf}`,
         thumbnail: address(robot.thumbnail),
       })),
       end_effectors: library.end_effectors.map((each) => ({

@@ -28,7 +28,14 @@ export interface Robot {
   readonly model: string
   readonly name: string
   readonly maker: string
-  readonly joints: number
+  /** In the order of its positions. */
+  readonly joints: readonly string[]
+  /** rad or m, of each joint */
+  readonly home: readonly number[]
+  /** m */
+  readonly reach: number
+  /** URL of its description. */
+  readonly urdf: string
   /** URL of a picture; null: none. */
   readonly thumbnail: string | null
 }

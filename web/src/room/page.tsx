@@ -36,6 +36,13 @@ function picture(url: string | null): HTMLImageElement | null {
   return image
 }
 
+/** Return the text of a file of the lab; rejects if it cannot be had. */
+async function textOf(url: string): Promise<string> {
+  const answer = await fetch(url)
+  if (!answer.ok) throw new Error(`${url}: ${answer.status}`)
+  return answer.text()
+}
+
 /** Return whether a hop is only a note, which covers nothing of the room. */
 function isAside({ id, severity }: Hop): boolean {
   return id === 'headset' && severity === 'info'
@@ -66,11 +73,12 @@ function RoomView({ link, extra }: { link: Link; extra: RoomExtra }) {
     const axes = words.value.room.axes
     const catalogue = api.robots().then(({ robots, end_effectors }) => ({
       robots: robots.map(
-        ({ model, name, maker, joints, thumbnail }): Entry => ({
+        ({ model, name, maker, joints, home, reach, urdf, thumbnail }): Entry => ({
           id: model,
           name,
-          note: axes(joints),
+          note: axes(joints.length),
           group: maker,
+          body: { joints, home, reach, urdf: () => textOf(urdf) },
           picture: picture(thumbnail),
         }),
       ),
@@ -80,6 +88,7 @@ function RoomView({ link, extra }: { link: Link; extra: RoomExtra }) {
           name: named(id, name),
           note: '',
           group: '',
+          body: null,
           picture: picture(thumbnail),
         }),
       ),

@@ -29,6 +29,15 @@ export interface Entry {
   /** The catalogue can be narrowed to a group. */
   readonly group: string
   picture: HTMLImageElement | null
+  /** Of a robot its shape; null: it has none of its own. */
+  readonly body: {
+    readonly joints: readonly string[]
+    /** rad or m, of each joint */
+    readonly home: readonly number[]
+    /** m */
+    readonly reach: number
+    urdf(): Promise<string>
+  } | null
 }
 
 /** The robots, end effectors and motions that the lab offers. */

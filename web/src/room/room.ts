@@ -10,7 +10,9 @@ import { Board } from './board/board'
 import { BoardPlace } from './board/board_place'
 import { followedScene, listen, roomFollower } from './follow'
 import { ObjectHandles } from './handles/object_handles'
+import { Placing } from './handles/placing'
 import { Mouse } from './input/mouse'
+import type { Pointer } from './input/pointer'
 import { Targets } from './input/targets'
 import { Stats } from './latency'
 import { soundFeedback } from './panels/feedback'
@@ -21,7 +23,7 @@ import { anchorNews, SceneAnchor } from './place/anchor'
 import { CommonPlace } from './place/common_place'
 import { RoomScan } from './place/scan'
 import { Spawning } from './place/spawning'
-import { type Support, supportsOf } from './place/supports'
+import { type Support, supportsOf, type Wall, wallsOf } from './place/supports'
 import { TouchAlignment } from './place/touch_alignment'
 import { ControlPanel } from './robots/control'
 import { RobotPanels } from './robots/robot_panels'
@@ -77,14 +79,16 @@ export class Room {
   /** The bounded surfaces of the room. */
   surfaces: readonly ShownSurface[] = []
   supports: readonly Support[] = supportsOf([])
+  walls: readonly Wall[] = []
   trajectories: readonly TrajectoryInfo[] = []
   private readonly targets: Targets
-  private readonly meshes = new MeshLibrary()
+  readonly meshes = new MeshLibrary()
   private readonly overlays: Overlays
   readonly objects: ObjectHandles
   readonly drawings: Drawings
   readonly stats: Stats
   readonly spawning: Spawning
+  readonly placing: Placing
   readonly alignment: Alignment
   private readonly mouse: Mouse
   private readonly boardPlace: BoardPlace
@@ -115,6 +119,9 @@ export class Room {
     this.creation = new Creation(repaint)
     this.stats = new Stats(ports, this.board.panel.group)
     this.boardPlace = new BoardPlace(this.board, ports)
+    const stick = (pointer: Pointer, axis: 'x' | 'y') =>
+      this.visit.inputs?.stick(pointer, axis) ?? 0
+    this.placing = new Placing(ports, targets, stick, repaint)
     this.stage.panels.add(this.board.panel.group)
     targets.add(this.board.panel)
     this.panels = new RobotPanels(
@@ -122,7 +129,7 @@ export class Room {
       this.stage.panels,
       this.scene,
       targets,
-      this.creation,
+      () => this.creation.on || this.placing.active,
       (robot) => new ControlPanel(ports, robot, this.drawings, (name) => this.objectAt(name)),
     )
     this.systems = new SystemPanels(ports, this.stage.panels, this.scene, targets)
@@ -147,7 +154,7 @@ export class Room {
       ports,
       targets,
       this.creation,
-      (pointer, axis) => this.visit.inputs?.stick(pointer, axis) ?? 0,
+      stick,
     )
     this.scan = new RoomScan(this.stage.world, (surfaces) => this.common.tell(surfaces))
     const device = deviceId()
@@ -226,6 +233,7 @@ export class Room {
     this.touching.dispose()
     this.guide.dispose()
     this.spawning.dispose()
+    this.placing.dispose()
     this.mouse.dispose()
     this.follower.dispose()
     this.overlays.dispose()
@@ -256,6 +264,7 @@ export class Room {
 
   private setSurfaces(surfaces: readonly ShownSurface[]): void {
     this.supports = supportsOf(surfaces)
+    this.walls = wallsOf(surfaces)
     this.surfaces = surfaces.filter(({ vertices }) => vertices.length > 0)
     this.showSurfaces()
     this.board.panel.repaint()
@@ -273,6 +282,7 @@ export class Room {
     this.people.leave()
     this.common.end()
     this.anchor.end()
+    this.placing.end()
     this.alignment.align(SEATED)
     this.showSurfaces()
     this.board.panel.repaint()
@@ -306,6 +316,7 @@ export class Room {
     }
     this.robots.update(now, step)
     this.objects.update(now)
+    this.placing.update(step)
     if (this.follower.pose(Math.min(ahead, MOST_AHEAD_S))) this.stage.invalidate()
     if (this.drawings.update()) this.stage.invalidate()
     this.stage.lightAbout(this.robots.handles.values())

@@ -3,6 +3,7 @@ import type { LabFollower } from '../lab/follower'
 import type { Link } from '../link/link'
 import type { TrajectoryInfo } from '../protocol/mrlab_msgs'
 import type { ShownSurface } from '../scene/lab/surfaces'
+import type { MeshSource } from '../scene/robot/meshes'
 import type { Words } from '../words/en'
 import type { Board, MakeTab, Tab, TabPorts } from './board/board'
 import { objectsTab, robotsTab } from './board/catalogue_tabs'
@@ -12,11 +13,13 @@ import { type Places, roomSwitches } from './board/room_switches'
 import { roomTab, settingsTab } from './board/settings_tab'
 import { systemsTab } from './board/systems_tab'
 import type { ObjectHandles } from './handles/object_handles'
+import { objectToPlace, robotToPlace } from './handles/placeables'
+import type { Placing } from './handles/placing'
 import type { Stats } from './latency'
 import type { Feedback, Surroundings } from './panels/panel'
 import type { People } from './people/people'
 import type { Spawning } from './place/spawning'
-import type { Ground, Support } from './place/supports'
+import type { Ground, Obstacle, Support, Wall } from './place/supports'
 import type { Catalogue, Entry, Frames, Lab, Preferences, Speech, Viewer } from './ports'
 import type { Checks } from './robots/check'
 import type { RoomRobots } from './robots/robots'
@@ -29,8 +32,6 @@ import type { Guide } from './tour/guide'
 
 /** m: distance at which text is read. */
 const READ_AT = 0.9
-/** m: distance before the eyes at which new objects are put. */
-const OBJECT_AWAY = 0.8
 
 /** Everything that a room is made from. */
 export interface RoomParts extends Checks {
@@ -66,6 +67,9 @@ interface Wired extends Viewer {
   readonly visit: Pick<Visit, 'inside'>
   readonly trajectories: readonly TrajectoryInfo[]
   readonly supports: readonly Support[]
+  readonly walls: readonly Wall[]
+  readonly objects: ObjectHandles
+  readonly people: People
 }
 
 /** Return the ports of the room's parts. Values that change are read from the room, and nothing
@@ -97,6 +101,12 @@ export function portsOf(
     get bases() {
       return room.robots.bases()
     },
+    get walls() {
+      return room.walls
+    },
+    get obstacles() {
+      return obstaclesOf(room)
+    },
     get leftHanded() {
       return room.settings.leftHanded.value
     },
@@ -114,9 +124,16 @@ export function portsOf(
   }
 }
 
+function* obstaclesOf({ objects, people, head }: Wired): Iterable<Obstacle> {
+  yield* objects.obstacles()
+  yield* people.obstacles(head)
+}
+
 /** The parts of a room that the tabs of its board show and change. */
 interface Tabbed extends Places {
   readonly spawning: Spawning
+  readonly placing: Placing
+  readonly meshes: MeshSource
   readonly objects: ObjectHandles
   readonly creation: Creation
   readonly follower: LabFollower
@@ -132,14 +149,18 @@ interface Tabbed extends Places {
 
 /** Return the tabs of the board, in their order. */
 export function tabsOf(ports: Ports, { person, tabs }: RoomParts, room: Tabbed): Tab[] {
-  const { spawning, objects, follower, settings, visit, stage, drawings } = room
+  const { spawning, placing, objects, follower, settings, visit, stage, drawings } = room
   const switches = roomSwitches(ports, room, visit, stage, () => room.surfaces.length)
+  const chosen = () => placing.id
   return [
-    robotsTab(ports, (entry) => spawning.spawn(entry)),
+    robotsTab(ports, chosen, (entry) => {
+      placing.begin(robotToPlace(entry, spawning, room.meshes, () => stage.invalidate()))
+    }),
     objectsTab(
       ports,
       () => spawning.types,
-      () => spawning.before(OBJECT_AWAY),
+      chosen,
+      (type) => placing.begin(objectToPlace(type, spawning)),
       () => ({ here: objects.count, most: spawning.most }),
     ),
     systemsTab(ports, room.creation, follower),

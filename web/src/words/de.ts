@@ -666,7 +666,15 @@ export const words: Words = {
     room: 'Raum',
     all: 'Alle',
     axes: (count: number) => `${count} Achsen`,
-    placed: (name: string) => `${name} steht vor dir. Halte seinen Sockel, um ihn zu tragen.`,
+    placed: (name: string) => `${name} steht dort. Halte seinen Sockel, um ihn zu tragen.`,
+    placing:
+      'Zeige auf den Boden oder einen Tisch; der Stick dreht. Der Abzug stellt auf, die Greiftaste legt weg.',
+    hindered: {
+      edge: 'Es stünde über der Kante. Zeige weiter nach innen.',
+      thing: 'Es stünde in einem anderen Ding. Zeige daneben.',
+      robot: 'Es stünde zu nah an einem anderen Roboter. Zeige weiter weg.',
+      person: 'Dort steht ein Mensch. Zeige weiter weg.',
+    },
     play: 'Abspielen',
     pause: 'Anhalten',
     stop: 'Stopp',
@@ -775,7 +783,8 @@ export const words: Words = {
       about:
         'Roboter stellen, Bewegung laden, abspielen, scrubben und einen befreien, der anhielt.',
       steps: {
-        place: 'Stelle einen Roboter auf: wähle einen im Reiter Roboter. Er steht dann vor dir.',
+        place:
+          'Wähle einen Roboter im Reiter Roboter, zeige auf Boden oder Tisch und zieh den Abzug.',
         load: 'Drücke Bewegungen auf der Tafel des Roboters und wähle eine.',
         play: 'Drücke Abspielen. Geh um den Roboter herum, während er sich bewegt.',
         scrub: 'Zieh den Knopf auf der Zeitachse: der Roboter geht an jeden Zeitpunkt.',

@@ -618,7 +618,15 @@ export const en = {
     room: 'Room',
     all: 'All',
     axes: (count: number) => `${count} axes`,
-    placed: (name: string) => `${name} stands before you. Hold its base to carry it.`,
+    placed: (name: string) => `${name} stands there. Hold its base to carry it.`,
+    placing:
+      'Point at the floor or a table; the stick turns it. The trigger places it, the grip puts it away.',
+    hindered: {
+      edge: 'It would stand over the edge. Point further in.',
+      thing: 'It would stand in another thing. Point beside it.',
+      robot: 'It would stand too near to another robot. Point further away.',
+      person: 'A person stands there. Point further away.',
+    },
     play: 'Play',
     pause: 'Pause',
     stop: 'Stop',
@@ -724,7 +732,8 @@ export const en = {
       again: 'Show the first steps',
       about: 'Place a robot, load a motion, play it, scrub, and free a robot that halted.',
       steps: {
-        place: 'Place a robot: choose one on the tab Robots. It comes to stand before you.',
+        place:
+          'Choose a robot on the tab Robots, point at the floor or a table, and pull the trigger.',
         load: 'Press Motions on the panel of the robot, and choose one.',
         play: 'Press Play. Walk around the robot while it moves.',
         scrub: 'Drag the knob on the timeline: the robot goes to any instant.',

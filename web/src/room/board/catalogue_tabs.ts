@@ -1,6 +1,5 @@
 import { order } from '../../lab/commands'
-import type { Pose } from '../../protocol/geometry_msgs'
-import { type ObjectType, spawnObjectType, triggerType } from '../../protocol/mrlab_msgs'
+import { type ObjectType, triggerType } from '../../protocol/mrlab_msgs'
 import { named } from '../../words/words'
 import { Asking } from '../panels/asking'
 import { GAP, HIT, TEXT } from '../panels/pen'
@@ -10,7 +9,11 @@ import { BOTTOM, drawCards, EDGE, type Tab, TOP } from './board'
 const CHIP = 44
 
 /** The catalogue of robots: pictures, narrowed to a maker or size. */
-export function robotsTab(ports: Speech & Catalogue, choose: (entry: Entry) => void): Tab {
+export function robotsTab(
+  ports: Speech & Catalogue,
+  chosen: () => string,
+  choose: (entry: Entry) => void,
+): Tab {
   const page = { value: 0 }
   let group = ''
   return {
@@ -35,7 +38,9 @@ export function robotsTab(ports: Speech & Catalogue, choose: (entry: Entry) => v
         pen.text(EDGE, TOP + 90, ports.words.loading, TEXT.body, 600, 'second')
       drawCards(pen, TOP + CHIP, shown, page, (entry, left, top, width, height) => {
         const { id, name, note, picture } = entry
-        pen.card(`robot ${id}`, left, top, width, height, name, note, picture, () => choose(entry))
+        const look = { chosen: chosen() === id }
+        const act = () => choose(entry)
+        pen.card(`robot ${id}`, left, top, width, height, name, note, picture, act, look)
       })
     },
   }
@@ -45,7 +50,8 @@ export function robotsTab(ports: Speech & Catalogue, choose: (entry: Entry) => v
 export function objectsTab(
   ports: Speech & Lab,
   types: () => readonly ObjectType[],
-  poseFor: () => Pose,
+  chosen: () => string,
+  choose: (type: ObjectType) => void,
   count: () => { readonly here: number; readonly most: number },
 ): Tab {
   const asking = new Asking(ports.say)
@@ -66,15 +72,8 @@ export function objectsTab(
           named(type.id),
           `${cm.join('×')} cm`,
           null,
-          () => {
-            const request = {
-              type: type.id,
-              name: '',
-              automatic: true,
-              pose: poseFor(),
-            }
-            order(ports, 'physics/spawn_object', spawnObjectType, request)
-          },
+          () => choose(type),
+          { chosen: chosen() === type.id },
         )
         const side = Math.min(height - 90, 84)
         const colour = `rgb(${r * 255} ${g * 255} ${b * 255})`

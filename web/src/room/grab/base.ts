@@ -1,17 +1,16 @@
 import { Vector3 } from 'three'
-import { isClear, isOn, landing, type Place, type Support } from '../place/supports'
+import { type Ground, isOn, landing, type Place } from '../place/supports'
+import { type Around, BASE, type Hindrance, hindranceAt, squared } from './clearance'
 import type { Grip } from './object'
 
 /** m: a press that moves less carries nothing. */
 const TOUCH = 0.03
-/** m: bases keep this distance from each other. */
-const APART = 0.35
 /** m: the ray carries no farther. */
-const FARTHEST = 6
+export const FARTHEST = 6
 /** m: a hand holds a base from this height above it. */
 const ABOVE = 0.3
 /** rad/s and m/s at full stick. */
-const TURN_SPEED = 1.6
+export const TURN_SPEED = 1.6
 const SHIFT_SPEED = 0.8
 /** rad: smaller turns are noise. */
 const LEAST_TURN = 1e-4
@@ -27,21 +26,16 @@ interface Stick {
   readonly y: number
 }
 
-/** The level surfaces, and the bases of the other robots. */
-interface Surrounding {
-  readonly supports: readonly Support[]
-  readonly others: Iterable<Place>
-}
-
 /** A robot's base that is carried, in the lab's frame. */
 interface BaseGrab {
   readonly place: Place
-  /** About z, rad. */
+  /** About z, rad: as it is turned, and as it stands, square to a near edge. */
   heading: number
+  stands: number
   moved: boolean
   /** The landing of the pointer, and the surface there. */
   readonly land: Place
-  /** From there to the base; z is not used. */
+  /** From there, or from the middle of two, to the base; z is not used. */
   readonly offset: Vector3
   /** Place of the base when the first pointer took hold. */
   readonly start: Vector3
@@ -52,12 +46,17 @@ interface BaseGrab {
 const direction = new Vector3()
 const origin = new Vector3()
 const down = new Vector3(0, 0, -1)
+const UP = new Vector3(0, 0, 1)
+const other: Place = { x: 0, y: 0, z: 0, support: '' }
+
+type Surfaces = Pick<Ground, 'supports' | 'walls'>
 
 export function newBaseGrab(): BaseGrab {
   const place = () => ({ x: 0, y: 0, z: 0, support: 'floor' })
   return {
     place: place(),
     heading: 0,
+    stands: 0,
     moved: false,
     land: place(),
     offset: new Vector3(),
@@ -70,35 +69,43 @@ export function newBaseGrab(): BaseGrab {
 export function begin(grab: BaseGrab, { x, y, z }: Vector3, heading: number): void {
   Object.assign(grab.place, { x, y, z })
   grab.heading = heading
+  grab.stands = heading
   grab.moved = false
 }
 
 /** Let a pointer carry the base from its present place. */
-export function hold(grab: BaseGrab, by: Hold, supports: readonly Support[]): void {
+export function hold(grab: BaseGrab, by: Hold, around: Surfaces): void {
   const { place, land, start, offset } = grab
   start.set(place.x, place.y, place.z)
-  if (lands(by, supports, land)) offset.set(place.x - land.x, place.y - land.y, 0)
+  if (lands(by, around, land)) offset.set(place.x - land.x, place.y - land.y, 0)
   else offset.set(0, 0, 0)
 }
 
-/** Let a second pointer turn the base from now on. */
-export function join(grab: BaseGrab, first: Hold, second: Hold): void {
+/** Let a second pointer carry and turn the base with the first from now on: about their middle. */
+export function join(grab: BaseGrab, first: Hold, second: Hold, around: Surfaces): void {
+  const { place, land, start, offset } = grab
   grab.between = directionOf(first, second)
+  start.set(place.x, place.y, place.z)
+  if (landsBetween(first, second, around, land)) offset.set(place.x - land.x, place.y - land.y, 0)
 }
 
 /** Carry a base for `step`, s: the first pointer moves it; a second one, or the stick, turns it.
- * Returns whether the place under the pointer is clear of other bases; null: no new place. */
+ * Returns why it cannot stand under the pointer, empty: it can; null: no new place. */
 export function carry(
   grab: BaseGrab,
   first: Hold,
   second: Hold | null,
   stick: Stick,
   step: number,
-  { supports, others }: Surrounding,
-): boolean | null {
+  around: Around,
+): Hindrance | '' | null {
   if (second !== null) {
     const between = directionOf(first, second)
-    turn(grab, between - grab.between)
+    const { sin, cos, atan2 } = Math
+    const apart = between - grab.between
+    const by = atan2(sin(apart), cos(apart))
+    turn(grab, by)
+    grab.offset.applyAxisAngle(UP, by)
     grab.between = between
   }
   turn(grab, -stick.x * TURN_SPEED * step)
@@ -106,15 +113,20 @@ export function carry(
     direction.copy(first.ray.direction).setZ(0).normalize()
     grab.offset.addScaledVector(direction, -stick.y * SHIFT_SPEED * step)
   }
-  if (!lands(first, supports, grab.land)) return null
-  const x = grab.land.x + grab.offset.x
-  const y = grab.land.y + grab.offset.y
+  const { land } = grab
+  const landed =
+    second === null ? lands(first, around, land) : landsBetween(first, second, around, land)
+  grab.stands = squared(grab.heading, grab.place, around.supports)
+  if (!landed) return null
+  const x = land.x + grab.offset.x
+  const y = land.y + grab.offset.y
   if (!grab.moved && Math.hypot(x - grab.start.x, y - grab.start.y) < TOUCH) return null
-  settle(grab.land, x, y, supports)
-  if (!isClear(grab.land, APART, others)) return false
+  settle(land, x, y, around)
+  const hindrance = hindranceAt(land, BASE, around)
+  if (hindrance !== null) return hindrance
   grab.moved = true
-  Object.assign(grab.place, grab.land)
-  return true
+  Object.assign(grab.place, land)
+  return ''
 }
 
 function turn(grab: BaseGrab, by: number): void {
@@ -128,14 +140,22 @@ function directionOf(first: Hold, second: Hold): number {
 }
 
 /** Write the landing of a pointer; false: there is none. */
-function lands({ near, ray, place }: Hold, supports: readonly Support[], into: Place): boolean {
-  if (!near) return landing(supports, ray.origin, ray.direction, FARTHEST, into)
+function lands({ near, ray, place }: Hold, around: Surfaces, into: Place): boolean {
+  if (!near) return landing(around, ray.origin, ray.direction, FARTHEST, into)
   origin.copy(place).setZ(place.z + ABOVE)
-  return landing(supports, origin, down, FARTHEST, into)
+  return landing(around, origin, down, FARTHEST, into)
+}
+
+/** Write the middle of the landings of two pointers, on the surface of the first. */
+function landsBetween(first: Hold, second: Hold, around: Surfaces, into: Place): boolean {
+  if (!lands(second, around, other) || !lands(first, around, into)) return false
+  into.x = (into.x + other.x) / 2
+  into.y = (into.y + other.y) / 2
+  return true
 }
 
 /** Move a landing to x, y: on its own surface, or on the highest one below that. */
-function settle(land: Place, x: number, y: number, supports: readonly Support[]): void {
+function settle(land: Place, x: number, y: number, { supports }: Surfaces): void {
   for (const support of supports) {
     if (support.height > land.z + 0.01 || !isOn(support, x, y)) continue
     land.z = support.height

@@ -12,6 +12,7 @@ import { carried, type Grab, grab } from '../grab/object'
 import { newTrace, trace, velocityOf } from '../grab/throw'
 import type { Hit, Pointer, Signal, Target } from '../input/pointer'
 import type { Surroundings } from '../panels/panel'
+import type { Obstacle } from '../place/supports'
 import type { Frames, Lab, Speech } from '../ports'
 import { Carry } from './carry'
 
@@ -62,6 +63,21 @@ export class ObjectHandle implements Target {
 
   get free(): boolean {
     return this.object.held_by === ''
+  }
+
+  /** An upright cylinder around it, in the lab's frame; null: it is in a hand or a gripper. */
+  get obstacle(): Obstacle | null {
+    if (this.holder !== null || !this.free) return null
+    const { pose, size } = this.object
+    const { x, y, z } = pose.position
+    return {
+      kind: 'thing',
+      x,
+      y,
+      radius: Math.hypot(size.x, size.y) / 2,
+      low: z - size.z / 2,
+      high: z + size.z / 2,
+    }
   }
 
   /** Return the approximate distance of its surface from a place of the scene, m. */

@@ -3,6 +3,7 @@ import type { SceneObject } from '../../protocol/mrlab_msgs'
 import type { ShownObject } from '../../scene/lab/lab_objects'
 import type { LabScene } from '../../scene/lab/lab_scene'
 import type { Targets } from '../input/targets'
+import type { Obstacle } from '../place/supports'
 import { ObjectHandle, type ObjectPorts } from './object_handle'
 
 /** m */
@@ -54,6 +55,11 @@ export class ObjectHandles {
       found = name
     }
     return found
+  }
+
+  /** What lies or stands free. */
+  *obstacles(): Iterable<Obstacle> {
+    for (const { obstacle } of this.handles.values()) if (obstacle !== null) yield obstacle
   }
 
   /** Before each picture. now: s. */

@@ -22,8 +22,8 @@ const PERIOD = 0.2
 /** s after which the lab's own place is shown again. */
 const SETTLE = 0.8
 /** Colour of the ring at a place that may be taken, and at one beside another base. */
-const CLEAR = 0x6cb6ff
-const BLOCKED = 0xff5c4d
+export const CLEAR = 0x6cb6ff
+export const BLOCKED = 0xff5c4d
 
 const inverse = new Matrix4()
 const local = new Ray()
@@ -122,8 +122,7 @@ export class RobotHandle implements Target {
         const index = this.holders.findIndex((holder) => holder.pointer === pointer)
         if (index < 0) break
         this.holders.splice(index, 1)
-        if (this.holders[0] !== undefined)
-          hold(this.grab, this.aim(this.holders[0]), this.ports.supports)
+        if (this.holders[0] !== undefined) hold(this.grab, this.aim(this.holders[0]), this.ports)
         else if (this.grab.moved) this.release()
         break
       }
@@ -165,12 +164,12 @@ export class RobotHandle implements Target {
     const [first, second] = this.holders
     if (first === undefined) return
     if (second !== undefined) {
-      join(this.grab, this.aim(first), this.aim(second))
+      join(this.grab, this.aim(first), this.aim(second), this.ports)
       return
     }
     const heading = Math.atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z))
     begin(this.grab, position, heading)
-    hold(this.grab, this.aim(first), this.ports.supports)
+    hold(this.grab, this.aim(first), this.ports)
   }
 
   /** Bring a pointer into the lab's frame. */
@@ -186,15 +185,15 @@ export class RobotHandle implements Target {
     if (first === undefined) return
     const turning = second === undefined ? null : this.aim(second)
     const stick = { x: this.stick(first.pointer, 'x'), y: this.stick(first.pointer, 'y') }
-    const { supports } = this.ports
-    const around = { supports, others: this.others() }
-    const clear = carry(this.grab, this.aim(first), turning, stick, step, around)
-    if (clear !== null) this.ring.material.color.set(clear ? CLEAR : BLOCKED)
+    const { supports, walls, obstacles } = this.ports
+    const around = { supports, walls, obstacles, bases: this.others() }
+    const hindrance = carry(this.grab, this.aim(first), turning, stick, step, around)
+    if (hindrance !== null) this.ring.material.color.set(hindrance === '' ? CLEAR : BLOCKED)
   }
 
   private pose(): Pose {
-    const { place, heading } = this.grab
-    return upright(place.x, place.y, place.z, heading)
+    const { place, stands } = this.grab
+    return upright(place.x, place.y, place.z, stands)
   }
 
   private *others(): Iterable<Place> {

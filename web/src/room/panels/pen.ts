@@ -204,8 +204,9 @@ export class Pen {
     note: string,
     picture: CanvasImageSource | null,
     act: () => void,
+    look: Pick<ButtonLook, 'chosen'> = {},
   ): void {
-    this.face(id, x, y, width, height, { enabled: true })
+    this.face(id, x, y, width, height, { ...look, enabled: true })
     const side = height - 66
     if (picture !== null) {
       this.context.drawImage(picture, x + (width - side) / 2, y + 6, side, side)

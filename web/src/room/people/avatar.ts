@@ -119,6 +119,11 @@ export class Avatar {
     this.group.add(this.head.group, this.left.group, this.right.group)
   }
 
+  /** Of the head, in the lab's frame. */
+  get place(): Vector3 {
+    return this.head.group.position
+  }
+
   take(message: Presence): void {
     this.head.take(message.head)
     this.left.show(message.has_left)

@@ -1,4 +1,4 @@
-import { type Object3D, Quaternion, type Vector3 } from 'three'
+import { type Object3D, Quaternion, Vector3 } from 'three'
 import type { Link } from '../../link/link'
 import {
   createPresence,
@@ -16,6 +16,25 @@ const PERIOD = 0.055
 /** s without a message after which an avatar is removed. */
 const GONE = 4
 const LEVEL = new Quaternion()
+/** m: radius of a standing person, and from the eyes to the top of the head. */
+const WIDE = 0.2
+const CROWN = 0.15
+
+const eyes = new Vector3()
+
+/** An upright cylinder around a person, m. */
+export interface Standing {
+  readonly kind: 'person'
+  readonly x: number
+  readonly y: number
+  readonly radius: number
+  readonly low: number
+  readonly high: number
+}
+
+function standing({ x, y, z }: Vector3): Standing {
+  return { kind: 'person', x, y, radius: WIDE, low: 0, high: z + CROWN }
+}
 
 interface Person {
   readonly avatar: Avatar
@@ -65,6 +84,15 @@ export class People {
     return [...this.people.values()].map(({ avatar: { name, part }, aligned }) => {
       return { name, part, aligned }
     })
+  }
+
+  /** Where people stand, in the lab's frame, this one first. head: in the scene. */
+  *obstacles(head: Vector3): Iterable<Standing> {
+    const own = this.world.worldToLocal(eyes.copy(head))
+    yield standing(own)
+    for (const { avatar } of this.people.values()) {
+      if (avatar.group.visible) yield standing(avatar.place)
+    }
   }
 
   /** True if nobody else is in the common place, and nobody with a lower id waits for it. */

@@ -1,4 +1,3 @@
-import { Quaternion, Vector3 } from 'three'
 import { order } from '../../lab/commands'
 import type { Unsubscribe } from '../../link/link'
 import type { Pose } from '../../protocol/geometry_msgs'
@@ -6,18 +5,12 @@ import {
   createSpawnRobotRequest,
   listCatalogueType,
   type ObjectType,
+  spawnObjectType,
   spawnRobotType,
 } from '../../protocol/mrlab_msgs'
-import type { Entry, Frames, Lab, Speech } from '../ports'
-import { poseInWorld } from '../scene/frames'
+import type { Lab, Speech } from '../ports'
 
-const BELOW_EYES = 0.2 // m
-const LOWEST = 0.3 // m
-const UPRIGHT = { x: 0, y: 0, z: 0, w: 1 } as const
-const level = new Quaternion()
-const at = new Vector3()
-
-/** Puts new robots and objects before the eyes. */
+/** Has the lab put new robots and objects at a place. */
 export class Spawning {
   types: readonly ObjectType[] = []
   /** Objects that there may be at once; 0: not known. */
@@ -26,33 +19,25 @@ export class Spawning {
 
   /** listed: called once the types of objects are known. */
   constructor(
-    private readonly ports: Speech & Lab & Frames,
+    private readonly ports: Speech & Lab,
     private readonly listed: () => void,
   ) {
     this.undo = ports.link.onOffer(() => this.list())
     this.list()
   }
 
-  /** Have the lab place a robot on the surface before the eyes. */
-  async spawn({ id }: Entry): Promise<void> {
+  /** Put a robot there. pose: of its base; support: name of the surface. */
+  async spawnRobot(model: string, pose: Pose, support: string): Promise<void> {
     const { ports } = this
-    const request = {
-      ...createSpawnRobotRequest(),
-      model: id,
-      automatic: true,
-      has_viewer: true,
-      viewer: poseInWorld(ports.world, ports.head, ports.look),
-    }
+    const request = { ...createSpawnRobotRequest(), model, pose, surface: support }
     const answer = await order(ports, 'lab/spawn_robot', spawnRobotType, request)
     if (answer !== null) ports.say(ports.words.room.placed(answer.robot.name), false)
   }
 
-  /** Return the place at a distance before the eyes, m, a little below them. */
-  before(distance: number): Pose {
-    const { head, look } = this.ports
-    at.set(0, 0, -distance).applyQuaternion(look).add(head)
-    at.y = Math.max(at.y - BELOW_EYES, LOWEST)
-    return { ...poseInWorld(this.ports.world, at, level), orientation: UPRIGHT }
+  /** Put an object there; pose: of its middle. */
+  spawnObject(type: string, pose: Pose): Promise<unknown> {
+    const request = { type, name: '', automatic: false, pose }
+    return order(this.ports, 'physics/spawn_object', spawnObjectType, request)
   }
 
   dispose(): void {

@@ -6,7 +6,7 @@ import type { LabScene } from '../../scene/lab/lab_scene'
 import type { Targets } from '../input/targets'
 import type { Surroundings } from '../panels/panel'
 import { Stand } from '../panels/stand'
-import type { Choosing, Frames, Lab, Preferences, Speech } from '../ports'
+import type { Frames, Lab, Preferences, Speech } from '../ports'
 import type { ControlPanel } from './control'
 import { TelemetryPanel } from './telemetry'
 
@@ -36,13 +36,14 @@ interface Entry {
 export class RobotPanels {
   private readonly entries = new Map<string, Entry>()
 
-  /** make: the panel of a robot. */
+  /** away: true while robots are chosen or placed, and panels are in the way. make: the panel of a
+   * robot. */
   constructor(
     private readonly ports: Speech & Lab & Frames & Preferences & Surroundings,
     private readonly parent: Object3D,
     private readonly scene: LabScene,
     private readonly targets: Targets,
-    private readonly choosing: Pick<Choosing, 'on'>,
+    private readonly away: () => boolean,
     private readonly make: (robot: RobotView) => ControlPanel,
   ) {}
 
@@ -116,8 +117,7 @@ export class RobotPanels {
   private place(name: string, entry: Entry, now: number, step: number): void {
     const frame = this.scene.base(name)
     const robot = this.scene.robot(name)
-    // Hidden while robots are chosen by touch.
-    entry.control.panel.group.visible = frame !== undefined && !this.choosing.on
+    entry.control.panel.group.visible = frame !== undefined && !this.away()
     if (frame === undefined || robot === undefined) return
     const { head, leftHanded, seated } = this.ports
     base.setFromMatrixPosition(frame.matrixWorld)

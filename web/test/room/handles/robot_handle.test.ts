@@ -27,7 +27,9 @@ describe('a robot that is carried', () => {
     const ports = {
       world: new Object3D(),
       supports: supportsOf([]),
+      walls: [],
       bases: [],
+      obstacles: [],
       feedback: () => undefined,
       stir: () => undefined,
       say: () => undefined,

@@ -1,10 +1,10 @@
 import { describe, expect, it } from 'vitest'
 import {
-  isClear,
   isOn,
   landing,
   type SurfaceShape,
   supportsOf,
+  wallsOf,
 } from '../../../src/room/place/supports'
 
 const UP = { x: 0, y: 0, z: 0, w: 1 }
@@ -56,21 +56,42 @@ describe('supports', () => {
 describe('landing', () => {
   it('is on the table where the ray meets it, else on the floor', () => {
     const found = place()
-    expect(landing(supportsOf([table]), eyes, { x: 1, y: 0, z: -0.85 }, 5, found)).toBe(true)
+    expect(
+      landing(
+        { supports: supportsOf([table]), walls: [] },
+        eyes,
+        { x: 1, y: 0, z: -0.85 },
+        5,
+        found,
+      ),
+    ).toBe(true)
     expect(found).toMatchObject({ z: 0.75, support: 'table_1' })
-    expect(landing(supportsOf([table]), eyes, { x: 1, y: 1, z: -1 }, 5, found)).toBe(true)
+    expect(
+      landing({ supports: supportsOf([table]), walls: [] }, eyes, { x: 1, y: 1, z: -1 }, 5, found),
+    ).toBe(true)
     expect(found).toMatchObject({ z: 0, support: 'floor' })
   })
 
   it('is nowhere for a ray into the air or too far away', () => {
-    expect(landing(supportsOf([]), eyes, { x: 1, y: 0, z: 0.1 }, 5, place())).toBe(false)
-    expect(landing(supportsOf([]), eyes, { x: 1, y: 0, z: -0.1 }, 5, place())).toBe(false)
+    expect(
+      landing({ supports: supportsOf([]), walls: [] }, eyes, { x: 1, y: 0, z: 0.1 }, 5, place()),
+    ).toBe(false)
+    expect(
+      landing({ supports: supportsOf([]), walls: [] }, eyes, { x: 1, y: 0, z: -0.1 }, 5, place()),
+    ).toBe(false)
   })
 })
 
-it('a place is clear of what stands on its own level', () => {
-  const here = { x: 0, y: 0, z: 0.75, support: 'table_1' }
-  expect(isClear(here, 0.4, [{ x: 0.3, y: 0, z: 0.75 }])).toBe(false)
-  expect(isClear(here, 0.4, [{ x: 0.3, y: 0, z: 0 }])).toBe(true)
-  expect(isClear(here, 0.4, [{ x: 0.5, y: 0, z: 0.75 }])).toBe(true)
+it('a landing is before a wall, not behind it', () => {
+  const wall = plane('wall', 1, {
+    label: 'wall',
+    pose: { position: { x: 1, y: 0, z: 1 }, orientation: WALL },
+  })
+  const walls = wallsOf([wall, table])
+  expect(walls.length).toBe(1)
+  const around = { supports: supportsOf([]), walls }
+  const before = { x: 1, y: -1, z: 1.6 }
+  expect(landing(around, before, { x: 0, y: 1, z: -0.5 }, 5, place())).toBe(false)
+  expect(landing(around, before, { x: 0, y: 1, z: -2 }, 5, place())).toBe(true)
+  expect(landing(around, before, { x: 1, y: 1, z: -0.5 }, 5, place())).toBe(true)
 })
