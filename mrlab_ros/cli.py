@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import errno
 import os
 import signal
 import sys
@@ -152,16 +151,6 @@ def options(
     Settings.debug = debug
 
 
-# Causes of a disk's refusal by the error's number: no room, or no rights.
-OF_THE_DISK = {
-    errno.ENOSPC: "room",
-    errno.EDQUOT: "room",
-    errno.EROFS: "may",
-    errno.EACCES: "may",
-    errno.EPERM: "may",
-}
-
-
 def main() -> None:
     """Run the command; an error becomes one sentence and an exit code."""
     # In the background of a script SIGINT is ignored at first, and SIGTERM would tidy nothing.
@@ -189,7 +178,7 @@ def main() -> None:
         sys.exit(130)
     except ModuleNotFoundError as error:
         fail(without_graph(error), BROKEN)
-    except OSError as error:
+    except (OSError, MemoryError) as error:
         fail(*refused(error))
     except Exception as error:
         fail(_fault(error), BROKEN)
@@ -201,15 +190,18 @@ def _fault(error: Exception) -> Diagnostic:
     return COMMAND_FAULT(error=f"{type(error).__name__}: {error}")
 
 
-def refused(error: OSError) -> tuple[Diagnostic, int]:
-    """Return what to do where the disk refuses, and the exit code: of any other error BROKEN."""
+def refused(error: OSError | MemoryError) -> tuple[Diagnostic, int]:
+    """Return what to do where the machine refuses, and the exit code: of other errors BROKEN."""
     from mrlab_ros.commands.diagnostics import DISK_REFUSES, UNNAMED_FILE
+    from mrlab_ros.core.base.machine import Lack, lack, lacking
 
-    lacks = OF_THE_DISK.get(error.errno or 0)
-    if lacks is None:
-        return _fault(error), BROKEN
-    file = error.filename or UNNAMED_FILE()
-    return DISK_REFUSES(file=file, why=error.strerror, remedy=lacks), 1
+    found, said = lack(error), lacking(error)
+    may = found is Lack.READ_ONLY or isinstance(error, PermissionError)
+    if isinstance(error, OSError) and (may or (found is not None and found.is_room)):
+        file = error.filename or UNNAMED_FILE()
+        remedy = "may" if may else "room"
+        return DISK_REFUSES(file=file, why=error.strerror, remedy=remedy), 1
+    return (_fault(error), BROKEN) if said is None else (said, 1)
 
 
 def without_graph(error: ModuleNotFoundError) -> Diagnostic:

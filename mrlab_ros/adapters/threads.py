@@ -17,6 +17,7 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from typing import Any
 
 from mrlab_ros.core.base.errors import LabError
+from mrlab_ros.core.base.machine import lacking
 from mrlab_ros.core.runtime.bucket import Occurrences
 from mrlab_ros.core.runtime.diagnostics import THREAD_ENDS, THREAD_FAILED
 
@@ -58,9 +59,10 @@ def name_error(thread: str, error: Exception) -> None:
         first = count == 1
     if count is None:
         return
-    why = error.diagnostic if isinstance(error, LabError) else repr(error)
+    known = error.diagnostic if isinstance(error, LabError) else lacking(error)
+    why = known or repr(error)
     _write(thread, str(THREAD_FAILED(thread=thread, error=why, again=None if first else count)))
-    if first and not isinstance(error, LabError):
+    if first and known is None:
         traceback.print_exception(error)
 
 

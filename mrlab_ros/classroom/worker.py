@@ -12,7 +12,6 @@ It converts files itself: it is in the sandbox already, so that no other process
 from __future__ import annotations
 
 import contextlib
-import errno
 import gc
 import hashlib
 import importlib
@@ -64,6 +63,7 @@ from mrlab_ros.classroom.rubrics.marking import Marks, mark
 from mrlab_ros.classroom.setup import Bounds, Setup
 from mrlab_ros.core.base.diagnostic import Diagnostic, plain
 from mrlab_ros.core.base.errors import BadInput, LabError, Misuse
+from mrlab_ros.core.base.machine import lack
 from mrlab_ros.core.checking.check_record import Checked
 from mrlab_ros.core.conversion.convert import ConversionResult, id_from
 from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE, Options
@@ -128,8 +128,6 @@ MiB = 1 << 20
 MOST_WRITTEN = 512 * MiB  # bytes of one file that a check may write
 RESULT, TRAJECTORY, PAGE, FEEDBACK = "result.json", "trajectory.json", "page.html", "feedback.html"
 MESSAGE_SIZE = 1 << 16
-# Errors of the machine, whatever the submission is.
-OF_MACHINE = (errno.ENOSPC, errno.EDQUOT, errno.EIO, errno.ENFILE)
 # A checked file, its name, and why it could not be checked.
 First = tuple[CheckedFile | None, str, Diagnostic | None]
 
@@ -264,7 +262,8 @@ def work(warm: Warm, request: dict[str, Any]) -> None:
         why = SUBMISSION_OUT_OF_MEMORY(limit=warm.setup.bounds.memory)
     except OSError as error:
         traceback.print_exc()
-        if error.errno in OF_MACHINE:
+        found = lack(error)
+        if found is not None and found.is_shared:
             outcome, why = TO_REPEAT, MACHINE_REFUSED(why=error.strerror)
         else:
             why = SUBMISSION_FAILED(error=f"{type(error).__name__}: {error}")

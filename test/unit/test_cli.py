@@ -214,5 +214,14 @@ def test_what_is_run_elsewhere_is() -> None:
 def test_a_disk_that_refuses_is_no_error_of_the_program(number, name, remedy):
     found, code = refused(OSError(number, os.strerror(number), name))
     assert (found.code, found.values["remedy"], code) == ("disk_refuses", remedy, 1)
-    found, code = refused(OSError(errno.EIO, ""))
+    found, code = refused(OSError(errno.ENOTDIR, ""))
     assert (found.code, code) == ("command_fault", 3)
+
+
+@pytest.mark.parametrize(
+    ("error", "lack"),
+    [(OSError(errno.EMFILE, ""), "descriptors"), (MemoryError(), "memory")],
+)
+def test_what_the_machine_has_run_out_of_is_named(error, lack):
+    found, code = refused(error)
+    assert (found.code, found.values["lack"], code) == ("machine_lacks", lack, 1)

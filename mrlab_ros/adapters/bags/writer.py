@@ -7,7 +7,6 @@ overwrites. So a file whose writer was killed is a valid MCAP file without an in
 from __future__ import annotations
 
 import contextlib
-import errno
 import fcntl
 import os
 import struct
@@ -27,6 +26,7 @@ from mrlab_ros.adapters.bags.diagnostics import (
     BAG_NOT_WRITTEN,
 )
 from mrlab_ros.core.base.errors import BadInput, LabError
+from mrlab_ros.core.base.machine import lack
 from mrlab_ros.core.recording.metadata import (
     ROOT,
     BagFacts,
@@ -43,7 +43,6 @@ CHUNK_SIZE = 1 << 20
 # Kept free beside a bag, so that on a full disk its last chunk and its index still fit.
 RESERVE = ".reserve"
 RESERVE_SIZE = 8 << 20
-FULL = (errno.ENOSPC, errno.EDQUOT)
 
 
 def is_being_written(path: Path) -> bool:
@@ -265,7 +264,8 @@ class BagWriter:
         try:
             os.posix_fallocate(self._reserve, 0, RESERVE_SIZE)
         except OSError as error:
-            if error.errno in FULL:
+            found = lack(error)
+            if found is not None and found.is_room:
                 raise
             # Some file systems cannot keep space for a file; there the bag has no reserve.
 
@@ -343,7 +343,8 @@ def write_metadata(folder: Path, facts: BagFacts) -> None:
 
 
 def _trouble(folder: Path, error: OSError) -> DiskTrouble:
-    if error.errno not in FULL:
+    found = lack(error)
+    if found is None or not found.is_room:
         return DiskTrouble(BAG_NOT_WRITTEN(folder=str(folder), problem=error.strerror))
     free = size = None
     with contextlib.suppress(OSError):
@@ -352,7 +353,7 @@ def _trouble(folder: Path, error: OSError) -> DiskTrouble:
     return DiskTrouble(
         BAG_DISK_FULL(
             folder=str(folder),
-            cause="quota" if error.errno == errno.EDQUOT else "disk",
+            cause=found.value,
             free=free,
             size=size,
             needed=RESERVE_SIZE + CHUNK_SIZE,

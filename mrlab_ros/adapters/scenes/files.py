@@ -8,7 +8,6 @@ The document that a node keeps for its restart. A damaged one never stops the no
 from __future__ import annotations
 
 import contextlib
-import errno
 import json
 import os
 from collections.abc import Callable
@@ -27,6 +26,7 @@ from mrlab_ros.adapters.scenes.diagnostics import BAD_SCENE_NAME, NO_SCENE
 from mrlab_ros.adapters.whole_file import replaced
 from mrlab_ros.adapters.yaml_files import Loader, check_file, not_yaml
 from mrlab_ros.core.base.errors import BadInput, LabError
+from mrlab_ros.core.base.machine import lack
 from mrlab_ros.core.base.names import NAME, close_to
 from mrlab_ros.core.scene import document
 from mrlab_ros.core.scene import document as scene_document
@@ -113,7 +113,6 @@ def _check(name: str) -> None:
         raise BadInput(BAD_SCENE_NAME(name=name))
 
 
-FULL = (errno.ENOSPC, errno.EDQUOT)
 # Most bytes that one change adds to a state file.
 ROOM = 65_536
 # The lab's own, with its robots and systems.
@@ -171,7 +170,8 @@ class StateFile:
             with open(probe, "wb") as file:
                 os.posix_fallocate(file.fileno(), 0, 2 * size + ROOM)
         except OSError as error:
-            if error.errno in FULL:
+            found = lack(error)
+            if found is not None and found.is_room:
                 why = error.strerror or str(error)
                 raise LabError(NO_ROOM_ON_DISK(folder=str(path.parent), why=why)) from None
         finally:

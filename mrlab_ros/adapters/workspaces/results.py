@@ -6,7 +6,6 @@ The document is JSON and not a pickle: it comes from a process that touched a fi
 from __future__ import annotations
 
 import base64
-import errno
 import json
 import traceback
 from collections.abc import Callable
@@ -25,6 +24,7 @@ from mrlab_ros.adapters.workspaces.diagnostics import (
 )
 from mrlab_ros.core.base.diagnostic import Diagnostic, from_plain, plain
 from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.machine import lack
 from mrlab_ros.core.conversion.candidates import Candidate, Preview
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome, convert
 from mrlab_ros.core.conversion.options import MOST_ROWS, Options
@@ -146,15 +146,10 @@ def unexpected(file: str, error: Exception) -> Diagnostic:
     return CONVERTER_FAILED(file=file, error=said)
 
 
-def is_full(error: OSError) -> bool:
-    """Say whether a disk, or what a person may use of it, is full."""
-    return error.errno in (errno.ENOSPC, errno.EDQUOT)
-
-
 def failed_here(file: str, error: OSError, folder: str = "") -> Diagnostic:
     """Return what is said where this machine fails, and not the file."""
-    why = error.strerror or str(error)
-    if is_full(error):
+    found, why = lack(error), error.strerror or str(error)
+    if found is not None and found.is_room:
         return NO_ROOM(file=file, error=why, folder=folder or None)
     return LAB_FAILED(file=file, error=why)
 

@@ -66,6 +66,7 @@ from mrlab_ros.adapters.workspaces.matlab.recognition import recognise
 from mrlab_ros.adapters.workspaces.sinks import Found
 from mrlab_ros.core.base.diagnostic import Diagnostic, plain
 from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.machine import lack
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.conversion.picking import is_motion
 from mrlab_ros.core.conversion.workspace import Workspace
@@ -185,8 +186,7 @@ def serve(source: int, target: int, numbers: int | None, request: dict[str, Any]
     except MemoryError:
         sink.finish(refused=plain(TOO_LARGE(file=name, part="reading", limit=memory)))
     except OSError as error:
-        full = results.is_full(error)
-        why = results.failed_here(name, error) if full else _refusal(name, error)
+        why = results.failed_here(name, error) if lack(error) else _refusal(name, error)
         sink.finish(refused=plain(why))
     except Exception as error:
         sink.finish(refused=plain(_refusal(name, error)))

@@ -4,6 +4,19 @@ from __future__ import annotations
 
 from mrlab_ros.core.base.diagnostic import INFO, Code
 
+# what a machine has run out of
+MACHINE_LACKS = Code(
+    "machine_lacks",
+    "{lack:choice disk=The disk is full|quota=The quota on the disk is used up"
+    "|read_only=The disk is read-only|device=The disk has a fault"
+    "|descriptors=The process has no file descriptor left"
+    "|files=The machine has no file descriptor left|memory=No memory is left}.",
+    "{lack:choice disk=Make room on that disk.|quota=Make room on that disk."
+    "|read_only=Name a folder that can be written.|device=Check that disk."
+    "|descriptors=Raise the limit (ulimit -n).|files=End other programs."
+    "|memory=End other programs.}",
+)
+
 # places in a file, and what was expected there: parts of other texts
 
 FIELD = Code("field", "{place:problem}: {key}", severity=INFO, meaning="A field of a mapping.")

@@ -1915,6 +1915,10 @@ export const diagnostics: Templates = {
     'Wähle eine engere Grenze.',
   ],
   lost_points: ['{test}: {found:problem}.', '[{hint}]'],
+  machine_lacks: [
+    '{lack:choice disk=Der Datenträger ist voll|quota=Das Kontingent auf dem Datenträger ist aufgebraucht|read_only=Der Datenträger ist schreibgeschützt|device=Der Datenträger hat einen Fehler|descriptors=Der Prozess hat keinen Dateideskriptor mehr frei|files=Der Rechner hat keinen Dateideskriptor mehr frei|memory=Es ist kein Speicher mehr frei}.',
+    '{lack:choice disk=Mach auf dem Datenträger Platz.|quota=Mach auf dem Datenträger Platz.|read_only=Nenn einen Ordner, in den geschrieben werden kann.|device=Prüfe den Datenträger.|descriptors=Heb die Grenze an (ulimit -n).|files=Beende andere Programme.|memory=Beende andere Programme.}',
+  ],
   machine_refused: [
     'Der Rechner ließ die Prüfung nicht enden ({why:problem}).',
     'Schaffe Platz im Speicher oder auf dem Datenträger und starte denselben Befehl noch einmal: Er prüft, was zu wiederholen ist.',
