@@ -38,17 +38,13 @@ class Announcer:
 
         from mrlab_ros.messages import qos
         from mrlab_ros.ros import environment
+        from mrlab_ros.ros.node import HiddenNode
 
         environment.prepare()
         self._context = Context()
         no_signals = SignalHandlerOptions.NO
         rclpy.init(args=[], context=self._context, signal_handler_options=no_signals)
-        self._node = rclpy.create_node(
-            f"_supervisor_{os.getpid()}",
-            context=self._context,
-            start_parameter_services=False,
-            enable_rosout=False,
-        )
+        self._node = HiddenNode(f"_supervisor_{os.getpid()}", self._context, remapped=True)
         with self._lock:
             self._topic = self._node.create_publisher(LabProcesses, "/processes", qos.LATCHED)
         self.announce(self._states)

@@ -7,10 +7,10 @@ import time
 
 from mrlab_msgs.msg import RecorderState
 from rclpy.context import Context
-from rclpy.node import Node
 
 from mrlab_ros.messages import qos
 from mrlab_ros.ros.decoding import subscribe
+from mrlab_ros.ros.node import HiddenNode
 from mrlab_ros.ros.spinning import SpunNode
 
 TOPIC = "/recorder/state"
@@ -24,13 +24,7 @@ class StandAside:
 
     def __init__(self, context: Context | None = None) -> None:
         self._replays = self._received = False
-        node = Node(
-            f"_stand_aside_{os.getpid()}",
-            context=context,
-            start_parameter_services=False,
-            enable_rosout=False,
-            use_global_arguments=False,
-        )
+        node = HiddenNode(f"_stand_aside_{os.getpid()}", context)
         subscribe(node, RecorderState, TOPIC, self._on_state, qos.LATCHED)
         self._spun = SpunNode(node)
 

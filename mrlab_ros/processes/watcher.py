@@ -9,7 +9,6 @@ from dataclasses import replace
 
 from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.context import Context
-from rclpy.node import Node
 
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.runtime.watch import PERIOD_S, Sign, Watch
@@ -18,6 +17,7 @@ from mrlab_ros.messages.status import living_in, signs_to_message
 from mrlab_ros.processes.child_process import LAST_EXIT, RESTARTS
 from mrlab_ros.ros.clock import every
 from mrlab_ros.ros.decoding import subscribe, undecoded
+from mrlab_ros.ros.node import HiddenNode
 from mrlab_ros.ros.spinning import SpunNode
 
 TOPIC = "/diagnostics"
@@ -52,13 +52,7 @@ class Watcher:
         self.failed: Iterable[Diagnostic] = ()
         self._watch = Watch(process)
         self._began = time.monotonic()
-        self._node = Node(
-            f"_watcher_{process}_{os.getpid()}",
-            context=context,
-            start_parameter_services=False,
-            enable_rosout=False,
-            use_global_arguments=False,
-        )
+        self._node = HiddenNode(f"_watcher_{process}_{os.getpid()}", context)
         self._topic = self._node.create_publisher(DiagnosticArray, TOPIC, qos.LATCHED)
         # Not latched: diagnostics of other robots seldom are, and rclpy would warn of each.
         subscribe(self._node, DiagnosticArray, TOPIC, self._hear, qos.EVENTS)

@@ -30,6 +30,7 @@ from mrlab_ros.ros.decoding import subscribe
 from mrlab_ros.ros.diagnostics import CLIENT_CLOSED, NOT_OFFERED
 from mrlab_ros.ros.environment import domain_id
 from mrlab_ros.ros.graph import CALL_TIMEOUT_S, FIND_TIMEOUT_S, GraphClient, Request, Response, T
+from mrlab_ros.ros.node import HiddenNode
 
 if TYPE_CHECKING:
     from message_bases import Service
@@ -90,12 +91,7 @@ class Graph(GraphClient):
         except rclpy_implementation.RCLError:
             environment.check_log_folder()
             raise
-        self.node: Node = rclpy.create_node(
-            "_mrlab_command",
-            context=self._context,
-            start_parameter_services=False,
-            enable_rosout=False,
-        )
+        self.node: Node = HiddenNode("_mrlab_command", self._context, remapped=True)
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self.node)
         self._clients: dict[str, Any] = {}

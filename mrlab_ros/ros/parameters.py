@@ -28,6 +28,7 @@ from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.names import PARAMETERS_OF_RCLPY
 from mrlab_ros.core.base.records import Field
 from mrlab_ros.ros.diagnostics import PARAMETER_FIXED, PARAMETERS_REFUSED
+from mrlab_ros.ros.node import HiddenNode, LeanNode
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -50,7 +51,7 @@ class NodeArguments(TypedDict, total=False):
     parameter_overrides: list[Parameter]
 
 
-class ParameterNode(Node, Generic[P]):
+class ParameterNode(LeanNode, Generic[P]):
     """A node whose parameters are the fields of a dataclass.
 
     A subclass declares its name, the dataclass `kind`, and `others`: the dataclasses of the lab's
@@ -95,13 +96,7 @@ class ParameterNode(Node, Generic[P]):
 
         remapped: the names that the process was started with apply to it.
         """
-        return Node(
-            f"_{self.get_name()}_{part}",
-            context=self.context,
-            start_parameter_services=False,
-            enable_rosout=False,
-            use_global_arguments=remapped,
-        )
+        return HiddenNode(f"_{self.get_name()}_{part}", self.context, remapped=remapped)
 
     def parameters_changed(self) -> None:
         """Put `self.parameters` into effect after a change; called once for each change."""

@@ -27,6 +27,7 @@ from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.ros import clock, environment
 from mrlab_ros.ros.diagnostics import BAD_ROS_ARGUMENTS
 from mrlab_ros.ros.environment import skip_generator
+from mrlab_ros.ros.node import HiddenNode
 
 # The longest the executor waits at a time, s; what arrives is handed on at once all the same.
 WAIT_S = 0.2
@@ -114,11 +115,4 @@ class Caller(SpunNode):
     """A hidden node beside `owner` through which it calls services and subscribes to topics."""
 
     def __init__(self, owner: Node) -> None:
-        super().__init__(
-            Node(
-                f"_{owner.get_name()}_caller",
-                context=owner.context,
-                start_parameter_services=False,
-                enable_rosout=False,
-            )
-        )
+        super().__init__(HiddenNode(f"_{owner.get_name()}_caller", owner.context, remapped=True))

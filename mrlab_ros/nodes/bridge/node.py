@@ -9,7 +9,6 @@ import json
 import sys
 import time
 import traceback
-from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -40,7 +39,13 @@ from mrlab_ros.core.bridge.links import (
     check_router,
     local_endpoint,
 )
-from mrlab_ros.core.bridge.rules import Direction, Rules, ServiceRule, TopicRule
+from mrlab_ros.core.bridge.rules import (
+    Direction,
+    LiveRules,
+    Rules,
+    ServiceRule,
+    TopicRule,
+)
 from mrlab_ros.core.runtime.identity import Neighbours
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.status import latency_to_message
@@ -126,8 +131,6 @@ KEPT = "/@mrlab/bridge/kept"
 REPORT_PERIOD_S = 1.0
 # How often calls that have waited too long are refused, s.
 LATE_PERIOD_S = 0.2
-# Names whose rules are remembered.
-NAMES = 4096
 # How long the forwarding thread may wait for another Python thread, s; Python's own is 5 ms.
 SWITCH_INTERVAL_S = 5e-4
 
@@ -140,9 +143,8 @@ class BridgeNode(
     def __init__(self, session: Session | None = None, **ros: Unpack[NodeArguments]) -> None:
         super().__init__(**ros)
         self._rules = _rules(Path(self.parameters.allow_list))
-        # Of every name at every check; matching it with all patterns takes 20 us.
-        self._topic_rule = lru_cache(NAMES)(self._rules.topic)
-        self._service_rule = lru_cache(NAMES)(self._rules.service)
+        self._topic_rules = LiveRules(self._rules.topic)
+        self._service_rules = LiveRules(self._rules.service)
         prefix = self.parameters.prefix
         settings, guests = zenoh_settings(self.parameters, self._rules)
         self._session: Session = session or ZenohSession(settings)
@@ -221,26 +223,19 @@ class BridgeNode(
         """Open and close routes as the graph changed."""
         going_out: dict[str, tuple[TopicRule, str]] = {}
         coming_in: dict[str, tuple[TopicRule, str]] = {}
-        for name, types in self.get_topic_names_and_types():
-            for type_name in types:
-                rule = self._topic_rule(name, type_name)
-                if rule is not None:
-                    out = rule.direction is Direction.OUT
-                    (going_out if out else coming_in).setdefault(name, (rule, type_name))
+        for name, type_name, rule in self._topic_rules.of(self.get_topic_names_and_types()):
+            out = rule.direction is Direction.OUT
+            (going_out if out else coming_in).setdefault(name, (rule, type_name))
         self._outward.keep(going_out, thorough)
         self._inward.keep(coming_in, thorough)
         called: dict[str, tuple[ServiceRule, str]] = {}
         servers: dict[str, int] = {}
-        for name, types in self.get_service_names_and_types():
-            # A client keeps its service's name in the graph, and the bridge has clients itself.
-            for type_name in types:
-                service = self._service_rule(name, type_name)
-                if service is None:
-                    continue
-                self._bridge.give_way()
-                if count := self.count_services(name):
-                    called.setdefault(name, (service, type_name))
-                    servers[name] = count
+        # A client keeps its service's name in the graph, and the bridge has clients itself.
+        for name, type_name, service in self._service_rules.of(self.get_service_names_and_types()):
+            self._bridge.give_way()
+            if count := self.count_services(name):
+                called.setdefault(name, (service, type_name))
+                servers[name] = count
         self._servers = servers
         self._service_routes.keep(called)
 

@@ -19,7 +19,6 @@ from functools import partial
 from typing import Any
 
 from rclpy.event_handler import SubscriptionEventCallbacks
-from rclpy.node import Node
 from rclpy.serialization import deserialize_message
 from rclpy.subscription import Subscription
 from rclpy.topic_endpoint_info import TopicEndpointInfo
@@ -36,6 +35,7 @@ from mrlab_ros.core.bridge.rules import (
 )
 from mrlab_ros.nodes.bridge.routes import BridgeContext, Count, Route, TopicRoutes, profile
 from mrlab_ros.ros.arrivals import Arrivals, OnMessage
+from mrlab_ros.ros.node import HiddenNode
 from mrlab_ros.ros.worker import Worker
 
 # Bytes in the queue; beyond it the oldest messages are dropped, so that the newest state arrives.
@@ -174,13 +174,7 @@ class Outward(TopicRoutes[OutRoute]):
         self._caps = RateCaps()
         self._must_arrive = Sender("bridge_sender", bridge.warn_once)
         # No executor spins this node: its subscriptions have a thread that does nothing else.
-        self._receiver = Node(
-            "_bridge_receiver",
-            context=bridge.streams.context,
-            start_parameter_services=False,
-            enable_rosout=False,
-            use_global_arguments=False,
-        )
+        self._receiver = HiddenNode("_bridge_receiver", bridge.streams.context)
         self._arrivals = Arrivals("bridge_out", bridge.warn_of_loss)
 
     def stop(self) -> None:

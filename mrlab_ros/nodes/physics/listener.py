@@ -32,6 +32,7 @@ from mrlab_ros.messages.time import time_from_message
 from mrlab_ros.nodes.physics.publishers import WorldPublishers
 from mrlab_ros.ros.clock import LabClock
 from mrlab_ros.ros.decoding import decoder
+from mrlab_ros.ros.node import HiddenNode
 from mrlab_ros.ros.raw_streams import WaitSetThread
 
 
@@ -84,12 +85,7 @@ class GraphListener:
         self.robots: dict[str, Followed] = {}
         # The names in the newest /robots; None before the first one.
         self.known_robots: frozenset[str] | None = None
-        self._node = Node(
-            "_physics_listener",
-            context=node.context,
-            start_parameter_services=False,
-            enable_rosout=False,
-        )
+        self._node = HiddenNode("_physics_listener", node.context, remapped=True)
         self._thread = WaitSetThread(node.context, "physics", turn, self._on_error)
         self._subscribe(msg.Robots, "/robots", self._on_robots, qos.LATCHED)
 

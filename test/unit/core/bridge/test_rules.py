@@ -176,3 +176,21 @@ def test_every_type_of_the_shipped_list_exists():
     for rule in (*rules.topics, *rules.services):
         package, folder, name = rule.type.split("/")
         assert hasattr(import_module(f"{package}.{folder}"), name), rule.type
+
+
+def test_rules_are_looked_for_once_and_remembered_as_long_as_their_names_are_in_the_graph():
+    asked = []
+    rules = br.parse({"topics": [{"name": "/*/state", "direction": "out"}]})
+
+    def find(name, type_name):
+        asked.append(name)
+        return rules.topic(name, type_name)
+
+    live = br.LiveRules(find)
+    graph = [("/a/state", ["x/msg/A"]), ("/a/other", ["x/msg/A"])]
+    for _ in range(2):
+        assert [name for name, _, _ in live.of(graph)] == ["/a/state"]
+    assert asked == ["/a/state", "/a/other"]
+    assert list(live.of([])) == []
+    assert len(list(live.of(graph))) == 1
+    assert len(asked) == 4
