@@ -70,14 +70,19 @@ def test_a_refused_file_is_shown_with_the_failing_frame(drawn_page: Page, tmp_pa
     upload.send(student_files.beyond(tmp_path))
     expect(upload.outcome("refused")).to_be_visible()
     upload.wait_for_robot()
+    # at the first failing frame, with the strip of its joint alone
+    expect(page.locator(".scene-clock")).to_contain_text("0.89")
+    expect(upload.strips).to_have_count(1)
     first = upload.picture()
     expect(page.get_by_role("button", name="Publish")).to_have_count(0)
     finding = upload.finding("joint_limit")
-    number = finding.locator(".finding-number").inner_text()
-    assert number == "2"
-    finding.get_by_role("button", name="rows 91 to 111").click()
+    assert finding.locator(".finding-number").inner_text() == "2"
+    page.get_by_role("button", name="Next finding").click()
     expect(page.locator(".scene-clock")).to_contain_text("0.90")
+    expect(finding.get_by_role("button", name="rows 91 to 111")).to_be_visible()
     assert difference(first, upload.picture()) > 0.01
+    page.get_by_role("button", name="Show all 6 joints").click()
+    expect(upload.strips).to_have_count(6)
 
 
 def test_a_file_that_is_none_says_what_to_do(page: Page, tmp_path: Path) -> None:

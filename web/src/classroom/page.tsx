@@ -206,6 +206,7 @@ export function ClassPage() {
               <summary>{words.value.check.findings}</summary>
               <Findings
                 findings={loaded.motion.findings.map((each) => ({ ...each, where: '' }))}
+                joints={loaded.motion.robot.joints}
                 selected={selected.value}
                 onSelect={(finding) => {
                   selected.value = finding

@@ -15,12 +15,23 @@ interface FindingItemProps {
   readonly onShow?: (() => void) | undefined
   /** True for the finding that is shown. */
   readonly shown: boolean
+  /** Only its message, on one line; a press shows it. */
+  readonly folded?: boolean
   readonly children?: ComponentChildren
 }
 
 /** A finding in a list, with the number that it has in plots and in 3D. */
 export function FindingItem(props: FindingItemProps) {
   const { number, severity, code, where, message, remedy, onShow, shown, children } = props
+  if (props.folded)
+    return (
+      <li class={`finding finding-${severity} finding-folded`} data-code={code}>
+        <button type="button" aria-expanded={false} onClick={onShow}>
+          <span class="finding-number">{number}</span>
+          <span class="finding-line">{message}</span>
+        </button>
+      </li>
+    )
   return (
     <li
       class={`finding finding-${severity}`}
@@ -42,7 +53,7 @@ export function FindingItem(props: FindingItemProps) {
             <span class="second">{where}</span>
           )}
         </p>
-        <p>{message}</p>
+        {message && <p>{message}</p>}
         {remedy && <p class="second small">{remedy}</p>}
         {children}
       </div>

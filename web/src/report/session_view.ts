@@ -54,7 +54,7 @@ export function createSessionView(
     note.textContent = text
     note.hidden = text === ''
   }
-  const controls = new Controls(player, words, 0.1, (time) => Math.floor(time * 100) + 1, [])
+  const controls = new Controls(player, words, 0.1, (time) => Math.floor(time * 100) + 1)
   element.append(controls.element)
   controls.setMarks(marks)
 

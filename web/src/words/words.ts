@@ -62,6 +62,17 @@ export function named(id: string, name = id): string {
   return Object.hasOwn(own, id) ? (own[id] ?? name) : name
 }
 
+/** Return a joint's name for people, such as "Elbow (J3)", "Joint 3" or "A1"; place: along the
+ * arm, from 0. */
+export function jointName(name: string, place: number): string {
+  const number = String(place + 1)
+  const bare = name.split('_').filter((part) => part !== 'joint')
+  const text = named(name, bare.join(' '))
+  if (text === '' || text === number) return words.value.plots.joint(number)
+  const capital = text.charAt(0).toLocaleUpperCase() + text.slice(1)
+  return capital === `A${number}` ? capital : `${capital} (J${number})`
+}
+
 /** The person's own kind of the language, such as en-GB: dates and numbers differ. */
 const locale = computed(
   () => navigator.languages.find((tag) => tag.startsWith(language.value)) ?? language.value,

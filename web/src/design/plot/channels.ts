@@ -2,6 +2,7 @@ import type { Course } from '../../playback/course'
 import type { MotionDocument, MotionJoint, PackedArray } from '../../playback/motion'
 import { unpack } from '../../playback/motion'
 import type { Diagnostic } from '../../words/diagnostic'
+import { jointName } from '../../words/words'
 import type { Mark, Strip } from './strip'
 
 export type Channel = 'angles' | 'velocities' | 'proxies'
@@ -59,7 +60,7 @@ export function stripsOf(
     const { unit, scale } = unitOf(joint, channel)
     const [lower, upper] = limitsOf(joint, channel)
     return {
-      label: `${index + 1} ${joint.name}`,
+      label: jointName(joint.name, index),
       unit,
       values: column(values, index, joints.length, scale),
       compared: compared && column(compared, index, joints.length, scale),

@@ -9,15 +9,8 @@ const TEXT = 15 // height of a label of a limit, CSS pixels
 export interface Limits {
   readonly lower: number | null
   readonly upper: number | null
-  /** As shown, such as deg. */
+  /** As shown, such as °. */
   readonly unit: string
-}
-
-export interface LimitWords {
-  /** Such as "limit 180". */
-  limit(value: string): string
-  /** Such as "limits -180 and 180". */
-  limits(low: string, high: string): string
 }
 
 function hatch(colour: string, ratio: number): CanvasPattern | null {
@@ -38,67 +31,45 @@ function hatch(colour: string, ratio: number): CanvasPattern | null {
   return context.createPattern(tile, 'repeat')
 }
 
-/** Hatch the ranges beyond the limits, and label the limits. */
-export function drawForbidden(plot: uPlot, line: Limits, theme: Theme, words: LimitWords): void {
+/** Hatch the ranges beyond the limits; name the limits in the gutter right of the curves, those
+ * that the axis does not reach with an arrow. */
+export function drawForbidden(plot: uPlot, line: Limits, theme: Theme): void {
   const { ctx, bbox } = plot
   const ratio = devicePixelRatio
   const colour = theme.states.COLLISION_HALT
   const pattern = hatch(colour, ratio)
+  const right = bbox.left + bbox.width
   const bottom = bbox.top + bbox.height
+  const half = (TEXT / 2) * ratio
   ctx.save()
-  ctx.beginPath()
-  ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height)
-  ctx.clip()
   ctx.font = FONT.replace('13', String(13 * ratio))
-  const label = (text: string, y: number) => {
-    // On a patch of the card, so that neither hatching nor line crosses the letters.
-    const width = ctx.measureText(text).width
-    ctx.globalAlpha = 0.85
-    ctx.fillStyle = theme.colours.card
-    ctx.fillRect(bbox.left + 4 * ratio, y, width + 8 * ratio, TEXT * ratio)
-    ctx.globalAlpha = 1
-    ctx.fillStyle = colour
-    ctx.textBaseline = 'top'
-    ctx.fillText(text, bbox.left + 8 * ratio, y + ratio)
-  }
-  const places: number[] = []
+  ctx.textBaseline = 'middle'
+  ctx.lineWidth = 1.25 * ratio
+  ctx.strokeStyle = colour
+  let taken = bbox.top - half
   for (const [limit, above] of [
     [line.upper, true],
     [line.lower, false],
   ] as const) {
     if (limit === null) continue
     const y = plot.valToPos(limit, 'y', true)
-    if (y <= bbox.top || y >= bottom) continue
-    const [from, height] = above ? [bbox.top, y - bbox.top] : [y, bottom - y]
-    ctx.globalAlpha = 0.7
-    if (pattern) ctx.fillStyle = pattern
-    ctx.fillRect(bbox.left, from, bbox.width, height)
-    ctx.globalAlpha = 1
-    ctx.strokeStyle = colour
-    ctx.lineWidth = 1.25 * ratio
-    ctx.beginPath()
-    ctx.moveTo(bbox.left, y)
-    ctx.lineTo(bbox.left + bbox.width, y)
-    ctx.stroke()
-    places.push(y)
-  }
-  const { upper, lower } = line
-  const [top, low] = places
-  if (top !== undefined && low !== undefined && low - top < 2 * TEXT * ratio) {
-    // too near to each other for a label each
-    const middle = (top + low - TEXT * ratio) / 2
-    label(words.limits(fixed(lower ?? 0, 0), fixed(upper ?? 0, 0)), middle)
-    ctx.restore()
-    return
-  }
-  for (const [limit, above] of [
-    [upper, true],
-    [lower, false],
-  ] as const) {
-    if (limit === null) continue
-    const y = plot.valToPos(limit, 'y', true)
-    const text = words.limit(fixed(limit, 0))
-    if (y > bbox.top && y < bottom) label(text, above ? y + 3 * ratio : y - 17 * ratio)
+    const far = y <= bbox.top || y >= bottom
+    if (!far) {
+      ctx.globalAlpha = 0.7
+      if (pattern) ctx.fillStyle = pattern
+      ctx.fillRect(bbox.left, above ? bbox.top : y, bbox.width, above ? y - bbox.top : bottom - y)
+      ctx.globalAlpha = 1
+      ctx.setLineDash([6 * ratio, 3 * ratio])
+      ctx.beginPath()
+      ctx.moveTo(bbox.left, y)
+      ctx.lineTo(right, y)
+      ctx.stroke()
+    }
+    const place = Math.max(Math.min(Math.max(y, bbox.top + half), bottom - half), taken + 2 * half)
+    taken = place
+    const text = `${fixed(limit, 0)}${line.unit === 'mm' ? ' mm' : line.unit}`
+    ctx.fillStyle = far ? theme.colours.second : colour
+    ctx.fillText(`${far ? (above ? '↑ ' : '↓ ') : ''}${text}`, right + 6 * ratio, place)
   }
   ctx.restore()
 }

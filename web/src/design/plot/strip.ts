@@ -2,7 +2,7 @@ import uPlot from 'uplot'
 import 'uplot/dist/uPlot.min.css'
 import { number } from '../../words/words'
 import type { Theme } from '../theme'
-import { drawForbidden, FONT, type Limits, type LimitWords } from './limits'
+import { drawForbidden, FONT, type Limits } from './limits'
 
 /** One line over time with its limits, in the unit that is shown. */
 export interface Strip extends Limits {
@@ -37,7 +37,6 @@ interface StripOptions {
   readonly strip: Strip
   readonly marks: readonly Mark[]
   readonly theme: Theme
-  readonly words: LimitWords
   readonly height: number
   /** The last strip has the axis of time. */
   readonly axis: boolean
@@ -50,6 +49,10 @@ interface StripOptions {
 // Left of the plot, for the numbers of the axis; strips are stacked.
 const AXIS_WIDTH = 52
 const AXIS_HEIGHT = 30
+// Right of it, for the limits.
+const GUTTER = 62
+// A joint that rests shows no noise: the least span of an axis, ° or mm.
+const LEAST_SPAN = 10
 // A limit that is farther from the line than this share of its range would only flatten it.
 const NEAR = 0.35
 
@@ -70,10 +73,13 @@ export function rangeOf(strip: Strip): [number, number] {
   let low = Math.min(a, c)
   let high = Math.max(b, d)
   if (!(high >= low)) return [-1, 1]
-  const span = Math.max(high - low, 1)
+  const middle = (low + high) / 2
+  low = Math.min(low, middle - LEAST_SPAN / 2)
+  high = Math.max(high, middle + LEAST_SPAN / 2)
+  const span = high - low
   if (strip.upper !== null && strip.upper <= high + NEAR * span) high = Math.max(high, strip.upper)
   if (strip.lower !== null && strip.lower >= low - NEAR * span) low = Math.min(low, strip.lower)
-  const margin = 0.14 * Math.max(high - low, 1)
+  const margin = 0.14 * (high - low)
   return [low - margin, high + margin]
 }
 
@@ -135,7 +141,7 @@ export function createStrip(parent: HTMLElement, width: number, options: StripOp
     {
       width,
       height,
-      padding: [6, 12, 6, 0],
+      padding: [6, GUTTER, 6, 0],
       legend: { show: false },
       scales: { x: { time: false }, y: { range } },
       cursor: {
@@ -166,7 +172,7 @@ export function createStrip(parent: HTMLElement, width: number, options: StripOp
       ],
       series,
       hooks: {
-        drawClear: [(drawn) => drawForbidden(drawn, strip, theme, options.words)],
+        drawClear: [(drawn) => drawForbidden(drawn, strip, theme)],
         // A new or resized plot has its scales when it is drawn, not before.
         draw: [(drawn) => drawMarks(drawn, options), place],
         setCursor: [(drawn) => options.onCursor(drawn.cursor.idx ?? null)],

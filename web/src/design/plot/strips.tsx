@@ -1,8 +1,9 @@
-import type { ReadonlySignal } from '@preact/signals'
-import { useEffect, useRef, useState } from 'preact/hooks'
+import { type ReadonlySignal, useComputed, useSignal } from '@preact/signals'
+import { useEffect, useMemo, useRef, useState } from 'preact/hooks'
 import { fixed, words } from '../../words/words'
+import { Button } from '../button'
 import { theme } from '../theme'
-import { createStrip, type Mark, rangeOf, type Strip, type StripPlot } from './strip'
+import { createStrip, type Mark, type Strip, type StripPlot } from './strip'
 import './plot.css'
 
 interface StripsProps {
@@ -14,7 +15,11 @@ interface StripsProps {
   readonly rowOf: (index: number) => number
   /** Position in the motion, s. */
   readonly time: ReadonlySignal<number>
+  /** Return the sample at a time, s. */
+  readonly indexAt: (time: number) => number
   readonly onSeek: (time: number) => void
+  /** Place of the joint that matters now: its strip is first, the others are folded; null: all. */
+  readonly focus: number | null
 }
 
 const HEIGHT = 92
@@ -37,32 +42,44 @@ function summary(strip: Strip): string {
   return `${strip.label}: ${w.from(fixed(low, 1), fixed(high, 1), strip.unit)}${limits}`
 }
 
-/** Return the limits that the axis does not reach, such as `↓ -360° ↑ 360°`. */
-function farLimits(strip: Strip): string {
-  const [low, high] = rangeOf(strip)
-  const { lower, upper } = strip
-  const unit = strip.unit === '°' ? '°' : ''
-  const far = [
-    lower !== null && lower < low ? `↓ ${fixed(lower, 0)}${unit}` : '',
-    upper !== null && upper > high ? `↑ ${fixed(upper, 0)}${unit}` : '',
-  ]
-  return far.filter(Boolean).join('  ')
-}
-
 /** Return a number of a strip with its unit; nothing at a gap. */
 function valueAt(strip: Strip, index: number): string {
   const value = strip.values[index] ?? Number.NaN
-  return Number.isNaN(value) ? '' : `${fixed(value, 1)} ${strip.unit}`
+  if (Number.isNaN(value)) return ''
+  return `${fixed(value, 1)}${strip.unit.startsWith('°') ? '' : ' '}${strip.unit}`
+}
+
+/** The number under the cursor, else at the playhead. */
+function Value({ strip, index }: { strip: Strip; index: ReadonlySignal<number> }) {
+  return <span class="strip-value">{valueAt(strip, index.value)}</span>
+}
+
+interface PlaceProps extends Pick<StripsProps, 'times' | 'rowOf'> {
+  readonly index: ReadonlySignal<number>
+}
+
+function Place({ times, index, rowOf }: PlaceProps) {
+  const at = index.value
+  return <>{words.value.plots.at(fixed(times[at] ?? 0, 2), String(rowOf(at)))}</>
 }
 
 let nextSync = 1
 
 /** One strip a joint, below each other, with one cursor. A click seeks. */
-export function Strips({ times, strips, marks, rowOf, time, onSeek }: StripsProps) {
+export function Strips(props: StripsProps) {
+  const { times, strips, marks, rowOf, indexAt, time, onSeek, focus } = props
   const list = useRef<HTMLDivElement>(null)
   const seek = useRef(onSeek)
   seek.current = onSeek
-  const [under, setUnder] = useState<number | null>(null)
+  const under = useSignal<number | null>(null)
+  const index = useComputed(() => under.value ?? indexAt(time.value))
+  const [all, setAll] = useState(false)
+  const folds = focus !== null && strips.length > 1
+  const shown = useMemo(() => {
+    const first = strips.filter((strip) => strip.colour === focus)
+    const others = strips.filter((strip) => strip.colour !== focus)
+    return folds && !all ? first : [...first, ...others]
+  }, [strips, focus, all, folds])
   const w = words.value.plots
 
   useEffect(() => {
@@ -71,18 +88,17 @@ export function Strips({ times, strips, marks, rowOf, time, onSeek }: StripsProp
     const hosts = [...element.querySelectorAll<HTMLElement>('.strip-plot')]
     const width = () => Math.max(hosts[0]?.clientWidth ?? 0, 120)
     const sync = `strips-${nextSync++}`
-    const plots: StripPlot[] = strips.map((strip, index) =>
-      createStrip(hosts[index] as HTMLElement, width(), {
+    const plots: StripPlot[] = shown.map((strip, place) =>
+      createStrip(hosts[place] as HTMLElement, width(), {
         times,
         strip,
-        marks: marks.filter((mark) => mark.strip === null || mark.strip === index),
+        marks: marks.filter((mark) => mark.strip === null || mark.strip === strip.colour),
         theme: theme.value,
-        words: words.value.plots,
         height: width() < NARROW ? FLAT_HEIGHT : HEIGHT,
-        axis: index === strips.length - 1,
+        axis: place === shown.length - 1,
         sync,
         onCursor: (at) => {
-          if (index === 0) setUnder(at)
+          if (place === 0) under.value = at
         },
         onSeek: (at) => seek.current(at),
       }),
@@ -104,25 +120,33 @@ export function Strips({ times, strips, marks, rowOf, time, onSeek }: StripsProp
       resized.disconnect()
       for (const plot of plots) plot.dispose()
     }
-  }, [times, strips, marks, time, theme.value, words.value])
+  }, [times, shown, marks, time, theme.value, words.value])
 
   return (
     <div class="strips" ref={list}>
       <p class="strips-cursor tiny second" aria-hidden="true">
-        {under === null ? w.hint : w.at(fixed(times[under] ?? 0, 2), String(rowOf(under)))}
+        <Place times={times} index={index} rowOf={rowOf} />
       </p>
-      {strips.map((strip, index) => (
+      {shown.map((strip) => (
         <figure class="strip" key={strip.label}>
           <figcaption>
             <span class={`strip-dot joint-${(strip.colour % 7) + 1}`} />
             <span class="strip-name">{strip.label}</span>
-            <span class="strip-value">
-              {under === null ? farLimits(strip) : valueAt(strip, under)}
-            </span>
+            <Value strip={strip} index={index} />
           </figcaption>
-          <div class="strip-plot" role="img" aria-label={summary(strip)} data-strip={index} />
+          <div
+            class="strip-plot"
+            role="img"
+            aria-label={summary(strip)}
+            data-strip={strip.colour}
+          />
         </figure>
       ))}
+      {folds && (
+        <Button look="quiet" aria-expanded={all} onClick={() => setAll(!all)}>
+          {all ? w.fold : w.unfold(strips.length)}
+        </Button>
+      )}
     </div>
   )
 }

@@ -21,7 +21,7 @@ export function Timeline({ player, rate, enabled, marks = NO_MARKS }: TimelinePr
   const { scene } = words.value
   useEffect(() => {
     const row = (time: number) => Math.floor(time * rate + 1e-6) + 1
-    const controls = new Controls(player, scene, rate > 0 ? 1 / rate : 0.01, row, [])
+    const controls = new Controls(player, scene, rate > 0 ? 1 / rate : 0.01, row)
     controls.setEnabled(enabled)
     host.current?.append(controls.element)
     shown.current = controls

@@ -1,18 +1,27 @@
+import { useRef } from 'preact/hooks'
 import type { Diagnostic, Fix } from '../../api/types'
 import { Button } from '../../design/button'
 import { FindingItem } from '../../design/finding'
 import { showToast } from '../../design/toast'
 import { say } from '../../words/diagnostic'
-import { words } from '../../words/words'
+import { jointName, words } from '../../words/words'
 import { applied, fixLabel } from './fixes'
 
 interface FindingsProps {
+  /** Of the robot, in its order. */
+  joints: readonly { readonly name: string }[] | undefined
   findings: readonly Diagnostic[]
   /** Number of the shown finding, from 1; 0: none. */
   selected: number
   onSelect: (number: number) => void
+  /** Number of the finding whose message is the page's title; 0: none. */
+  titled?: number
   /** Absent: nothing can be mended here. */
   onFix?: (fix: Fix) => void
+  /** Absent: no other robot makes the file acceptable. */
+  onOtherRobot?: (() => void) | undefined
+  /** Show what a fix would do; null: no longer. */
+  onTry?: (fix: Fix | null) => void
   /** The choice between matrices is offered elsewhere on the page. */
   chosenElsewhere?: boolean
   busy?: boolean
@@ -40,7 +49,7 @@ function Matlab({ line }: { line: string }) {
   )
 }
 
-function place(finding: Diagnostic): string {
+function place(finding: Diagnostic, joints: FindingsProps['joints']): string {
   const w = words.value.upload
   const rows =
     finding.first_row === 0
@@ -48,14 +57,25 @@ function place(finding: Diagnostic): string {
       : finding.last_row > finding.first_row
         ? w.rows(finding.first_row, finding.last_row)
         : w.row(finding.first_row)
-  return [finding.variable, finding.joint, rows].filter(Boolean).join(' · ')
+  return [finding.variable, nameOf(finding, joints), rows].filter(Boolean).join(' · ')
+}
+
+/** Return the message of a finding with the joint's name for people. */
+export function said(finding: Diagnostic, joints: FindingsProps['joints']): string {
+  const { message } = say(finding)
+  return finding.joint ? message.replaceAll(finding.joint, nameOf(finding, joints)) : message
+}
+
+function nameOf({ joint }: Diagnostic, joints: FindingsProps['joints']): string {
+  const index = joints?.findIndex(({ name }) => name === joint) ?? -1
+  return index < 0 ? joint : jointName(joint, index)
 }
 
 function Finding(props: FindingsProps & { finding: Diagnostic; number: number }) {
-  const { finding, number, selected, onSelect, onFix, busy = false, chosenElsewhere } = props
+  const { finding, number, selected, onSelect, onFix, onTry, busy = false } = props
   const w = words.value
-  const where = place(finding)
-  const fixes = finding.fixes.filter((fix) => !chosenElsewhere || fix.option !== 'variable')
+  const where = place(finding, props.joints)
+  const fixes = finding.fixes.filter((fix) => !props.chosenElsewhere || fix.option !== 'variable')
   // Several options may have the same line of MATLAB.
   const lines = [...new Set(fixes.map((fix) => fix.matlab).filter(Boolean))]
   return (
@@ -64,9 +84,12 @@ function Finding(props: FindingsProps & { finding: Diagnostic; number: number })
       severity={finding.severity}
       code={finding.code}
       where={where}
-      {...say(finding)}
-      onShow={finding.first_row > 0 ? () => onSelect(number) : undefined}
+      remedy={say(finding).remedy}
+      message={said(finding, props.joints)}
+      {...(props.titled === number && selected === number && { message: '' })}
+      onShow={finding.first_row > 0 || selected !== number ? () => onSelect(number) : undefined}
       shown={selected === number}
+      folded={selected !== number}
     >
       {onFix && (
         <div class="finding-fixes">
@@ -78,10 +101,19 @@ function Finding(props: FindingsProps & { finding: Diagnostic; number: number })
                 icon="wrench"
                 disabled={busy}
                 onClick={() => onFix(fix)}
+                onPointerEnter={(event) => event.pointerType === 'mouse' && onTry?.(fix)}
+                onPointerLeave={() => onTry?.(null)}
+                onFocus={(event) => event.currentTarget.matches(':focus-visible') && onTry?.(fix)}
+                onBlur={() => onTry?.(null)}
               >
-                {fixLabel(fix, w)}
+                {fixLabel(fix, w, finding.variable)}
               </Button>
             ))}
+          {props.onOtherRobot && finding.severity === 'error' && (
+            <Button look="quiet" icon="robot" onClick={props.onOtherRobot}>
+              {w.upload.otherRobot}
+            </Button>
+          )}
         </div>
       )}
       {lines.map((line) => (
@@ -91,17 +123,76 @@ function Finding(props: FindingsProps & { finding: Diagnostic; number: number })
   )
 }
 
-/** The findings of the converter; the numbers are those of plots and 3D. */
+/** Return the number of the finding that is shown first: the first error, else the first. */
+export function firstFinding(findings: readonly Diagnostic[]): number {
+  return (
+    Math.max(
+      findings.findIndex(({ severity }) => severity === 'error'),
+      0,
+    ) + 1
+  )
+}
+
+const SWIPE = 48 // px
+
+/** The findings of the converter, one unfolded; the numbers are those of plots and 3D. The arrow
+ * keys and a swipe lead to the next and the one before. */
 export function Findings(props: FindingsProps) {
   const w = words.value.upload
+  const { findings, onSelect } = props
+  const selected = props.selected || firstFinding(findings)
+  const swipe = useRef<readonly [number, number] | null>(null)
+  const step = (by: number) => {
+    const next = selected + by
+    if (next >= 1 && next <= findings.length) onSelect(next)
+  }
+  const key = (event: KeyboardEvent) => {
+    const by = { ArrowDown: 1, ArrowRight: 1, ArrowUp: -1, ArrowLeft: -1 }[event.key]
+    if (by === undefined) return
+    event.preventDefault()
+    step(by)
+  }
   return (
-    <section class="stack-8" aria-labelledby="findings">
-      <h2 id="findings">{w.findings(props.findings.length)}</h2>
+    <section
+      class="stack-8 motion-findings"
+      aria-labelledby="findings"
+      onKeyDown={key}
+      onTouchStart={({ touches: [touch] }) => {
+        swipe.current = touch ? [touch.clientX, touch.clientY] : null
+      }}
+      onTouchEnd={({ changedTouches: [touch] }) => {
+        if (!touch || !swipe.current) return
+        const [x, y] = [touch.clientX - swipe.current[0], touch.clientY - swipe.current[1]]
+        if (Math.abs(x) > SWIPE && Math.abs(x) > 2 * Math.abs(y)) step(x < 0 ? 1 : -1)
+      }}
+    >
+      <div class="motion-findings-head">
+        <h2 id="findings">{w.findings(findings.length)}</h2>
+        {findings.length > 1 && (
+          <>
+            <Button
+              look="quiet"
+              icon="back"
+              label={w.previousFinding}
+              disabled={selected === 1}
+              onClick={() => step(-1)}
+            />
+            <Button
+              look="quiet"
+              icon="next"
+              label={w.nextFinding}
+              disabled={selected === findings.length}
+              onClick={() => step(1)}
+            />
+          </>
+        )}
+      </div>
       <ol class="findings">
-        {props.findings.map((finding, index) => (
+        {findings.map((finding, index) => (
           <Finding
             key={`${finding.code} ${finding.first_row} ${finding.joint} ${finding.message}`}
             {...props}
+            selected={selected}
             finding={finding}
             number={index + 1}
           />

@@ -24,9 +24,17 @@ export function applied(options: ConvertOptions, { option, value }: Fix): Conver
   return null
 }
 
-/** Return the label of a fix's button. */
-export function fixLabel({ option, value }: Fix, words: Words): string {
-  const label = words.fixes[option as keyof Words['fixes']]
+const ROWS = /\((\d+):(\d+), :\)$/
+
+/** Return the label of a fix's button. variable: that the finding is about; a file without names
+ * has one of the lab's own. */
+export function fixLabel({ option, value }: Fix, words: Words, variable = ''): string {
+  const [, first, last] = (option === 'variable' && ROWS.exec(value)) || []
+  if (first && last) return words.fixes.keepRows(first, last)
+  if (option === 'variable' && value === variable) return words.fixes.allTheSame
+  const label = words.fixes[option as keyof Words['fixes']] as
+    | ((value: string) => string)
+    | undefined
   return label === undefined ? `${option} = ${value}` : label(value)
 }
 

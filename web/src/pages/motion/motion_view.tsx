@@ -21,6 +21,8 @@ interface MotionViewProps {
   motion: MotionDocument
   /** A second motion of the same robot: dashed in the plots, a ghost in 3D. */
   compared?: MotionDocument | null
+  /** What the ghost is, on the scene; empty: nothing. */
+  note?: string
   /** Number of the finding that is shown, from 1; 0: none. */
   selected: Signal<number>
 }
@@ -31,7 +33,7 @@ function comparable(motion: MotionDocument, other: MotionDocument | null): boole
 }
 
 /** A motion in 3D and as plots, at the same time and with the same numbers of findings. */
-export function MotionView({ motion, compared = null, selected }: MotionViewProps) {
+export function MotionView({ motion, compared = null, note = '', selected }: MotionViewProps) {
   const w = words.value.plots
   const time = useSignal(0)
   const host = useRef<HTMLDivElement>(null)
@@ -62,7 +64,6 @@ export function MotionView({ motion, compared = null, selected }: MotionViewProp
         if (!here || element === null) return
         const made = createMotionPreview(element, motion, {
           words: words.value.scene,
-          compared: comparable(motion, compared) ? compared : null,
         })
         const stopTime = made.onTime((now) => {
           time.value = now
@@ -71,6 +72,8 @@ export function MotionView({ motion, compared = null, selected }: MotionViewProp
           selected.value = number
         })
         preview.current = made
+        made.compare(ghost.current)
+        made.select(selected.peek())
         dispose = () => {
           stopTime()
           stopSelect()
@@ -86,7 +89,13 @@ export function MotionView({ motion, compared = null, selected }: MotionViewProp
       here = false
       dispose()
     }
-  }, [motion, compared, language.value])
+  }, [motion, language.value])
+  const ghost = useRef<MotionDocument | null>(null)
+  ghost.current = comparable(motion, compared) ? compared : null
+  useEffect(() => preview.current?.compare(ghost.current), [ghost.current])
+
+  const focused = motion.findings[selected.value - 1]?.joint
+  const focus = motion.robot.joints.findIndex(({ name }) => name === focused)
 
   const seek = (to: number) => {
     if (preview.current) preview.current.seek(to)
@@ -102,7 +111,12 @@ export function MotionView({ motion, compared = null, selected }: MotionViewProp
 
   return (
     <div class="motion-view">
-      <div class="motion-scene" ref={host} />
+      <div class="motion-scene">
+        <div class="motion-host" ref={host} />
+        <p class="motion-note small" role="status">
+          {note}
+        </p>
+      </div>
       {failed && (
         <Notice severity="warning">
           <p>{w.noScene}</p>
@@ -125,7 +139,9 @@ export function MotionView({ motion, compared = null, selected }: MotionViewProp
           strips={strips}
           marks={marks}
           rowOf={(index) => course.rowOf(index)}
+          indexAt={(at) => course.frameAt(at)}
           time={time}
+          focus={focus < 0 ? null : focus}
           onSeek={seek}
         />
       </section>

@@ -146,6 +146,7 @@ export function TrajectoryDetail({ catalogue, id }: DetailProps) {
           {info && info.warnings.length > 0 && (
             <Findings
               findings={info.warnings}
+              joints={motion?.robot.joints}
               selected={selected.value}
               onSelect={(number) => {
                 selected.value = number

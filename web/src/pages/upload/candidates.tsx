@@ -16,7 +16,7 @@ interface CandidatesProps {
 export function Candidates({ candidates, busy, drawn, onChoose }: CandidatesProps) {
   const w = words.value.upload
   return (
-    <section class="card stack" aria-labelledby="candidates">
+    <section class="card stack candidates-card" aria-labelledby="candidates">
       <h2 id="candidates">{w.which}</h2>
       <ul class="candidates">
         {candidates.map((candidate) => (

@@ -48,11 +48,14 @@ export class UploadFlow {
   readonly result = signal<Result | null>(null)
   readonly error = signal('')
   readonly published = signal<TrajectoryInfo | null>(null)
+  /** The motion as a fix would make it; null: none is looked at. */
+  readonly tried = signal<{ readonly fix: Fix; readonly motion: MotionDocument } | null>(null)
   readonly #before = signal<readonly Result[]>([])
   readonly canUndo = computed(() => this.#before.value.length > 0)
   readonly busy = computed(() => this.stage.value.kind !== 'idle')
   #upload: Upload | null = null
   #running: AbortController | null = null
+  #trying: AbortController | null = null
 
   constructor(private readonly api: Api) {}
 
@@ -121,6 +124,31 @@ export class UploadFlow {
     return this.#again()
   }
 
+  /** Convert with a fix to show what it does; null: look at none. */
+  async try(fix: Fix | null): Promise<void> {
+    this.#trying?.abort()
+    this.tried.value = null
+    const options = fix && applied(this.options.value, fix)
+    if (!fix || !options || this.#upload === null || this.busy.value) return
+    const trying = new AbortController()
+    this.#trying = trying
+    try {
+      const { motion } = await this.#convert(options, this.#upload.upload, trying.signal)
+      if (motion !== null && !trying.signal.aborted) this.tried.value = { fix, motion }
+    } catch {
+      // nothing is shown; the press itself says what went wrong
+    }
+  }
+
+  async #convert(options: ConvertOptions, upload: string, signal: AbortSignal) {
+    const robot = { robot_model: this.robot.value, end_effector: this.effector.value }
+    const conversion = await this.api.convert({ ...options, upload, ...robot }, signal)
+    this.stage.value = this.busy.value ? { kind: 'loading' } : this.stage.value
+    const motion = conversion.motion && (await this.api.motion(conversion.motion, signal))
+    signal.throwIfAborted()
+    return { conversion, motion: motion || null }
+  }
+
   /** Go back to the result before the last change. */
   undo(): void {
     const before = this.#before.value.at(-1)
@@ -180,17 +208,10 @@ export class UploadFlow {
       }
       this.stage.value = { kind: 'converting' }
       const { upload } = this.#upload
-      const conversion = await this.api.convert(
-        { ...choice.options, upload, robot_model: choice.robot, end_effector: choice.effector },
-        running.signal,
-      )
-      this.stage.value = { kind: 'loading' }
-      const motion =
-        conversion.motion === null
-          ? null
-          : await this.api.motion(conversion.motion, running.signal)
-      running.signal.throwIfAborted()
-      this.result.value = { choice, conversion, motion }
+      this.result.value = {
+        choice,
+        ...(await this.#convert(choice.options, upload, running.signal)),
+      }
     } catch (error) {
       if (!isAbort(error) && this.#running === running) this.error.value = sentence(error)
     } finally {
@@ -202,6 +223,7 @@ export class UploadFlow {
   }
 
   #again(): Promise<void> | undefined {
+    void this.try(null)
     this.published.value = null
     if (this.file.value === null) return
     const { value } = this.result

@@ -1,10 +1,11 @@
-import { useSignal } from '@preact/signals'
+import { signal } from '@preact/signals'
+import { useMemo, useRef } from 'preact/hooks'
 import { Button } from '../../design/button'
 import { OutcomeChip } from '../../design/chip'
 import { spoken } from '../../words/diagnostic'
 import { named, words } from '../../words/words'
-import { Findings } from '../motion/findings'
-import { optionLabels, robotMatters } from '../motion/fixes'
+import { Findings, firstFinding, said } from '../motion/findings'
+import { fixLabel, optionLabels, robotMatters } from '../motion/fixes'
 import { MotionView } from '../motion/lazy'
 import { Candidates } from './candidates'
 import type { Result, UploadFlow } from './flow'
@@ -21,21 +22,29 @@ function robotName(flow: UploadFlow, model: string): string {
   return flow.library.value?.robots.find((robot) => robot.model === model)?.name ?? model
 }
 
-/** The verdict of an accepted file; of a refused one the findings say it. */
-function title(flow: UploadFlow, result: Result): string {
-  const { conversion, choice } = result
+/** What a file is refused or doubted for: number of the finding; 0: it fits, or is to be chosen. */
+function causeOf({ conversion: { outcome, diagnostics } }: Result): number {
+  const first = firstFinding(diagnostics)
+  const doubted = (diagnostics[first - 1]?.severity ?? 'info') !== 'info'
+  return outcome !== 'ambiguous' && doubted ? first : 0
+}
+
+/** The cause, else the verdict. */
+function title(result: Result): string {
+  const { conversion, motion } = result
   const w = words.value.upload
-  if (conversion.outcome === 'accepted') return spoken(conversion)
   if (conversion.outcome === 'ambiguous') return w.several(conversion.candidates.length)
-  if (!robotMatters(result.conversion)) return w.unread
-  return w.refused(robotName(flow, choice.robot))
+  const cause = conversion.diagnostics[causeOf(result) - 1]
+  return cause ? said(cause, motion?.robot.joints) : spoken(conversion)
 }
 
 /** The outcome of a file: evidence, motion, findings, and the next steps. */
 export function Verdict({ flow, result, file }: VerdictProps) {
   const w = words.value
-  const selected = useSignal(0)
   const { conversion, motion, choice } = result
+  const selected = useMemo(() => signal(firstFinding(conversion.diagnostics)), [conversion])
+  const robots = useRef<HTMLDetailsElement>(null)
+  const tried = flow.tried.value
   const busy = flow.busy.value
   const labels = optionLabels(choice.options, w)
   const effector = flow.library.value?.end_effectors.find((each) => each.id === choice.effector)
@@ -46,8 +55,16 @@ export function Verdict({ flow, result, file }: VerdictProps) {
           <div class="row">
             <OutcomeChip outcome={conversion.outcome} />
             <span class="second small verdict-file">{file.name}</span>
+            {flow.canUndo.value && (
+              <Button look="quiet" icon="undo" onClick={() => flow.undo()}>
+                {w.undo}
+              </Button>
+            )}
+            <Button look="quiet" icon="upload" onClick={() => flow.reset()}>
+              {w.upload.otherFile}
+            </Button>
           </div>
-          <h1 class="verdict-message">{title(flow, result)}</h1>
+          <h1 class="verdict-message">{title(result)}</h1>
           {labels.length > 0 && (
             <p class="row small">
               {labels.map((label) => (
@@ -57,16 +74,6 @@ export function Verdict({ flow, result, file }: VerdictProps) {
               ))}
             </p>
           )}
-        </div>
-        <div class="row verdict-actions">
-          {flow.canUndo.value && (
-            <Button icon="undo" onClick={() => flow.undo()}>
-              {w.undo}
-            </Button>
-          )}
-          <Button icon="upload" onClick={() => flow.reset()}>
-            {w.upload.otherFile}
-          </Button>
         </div>
         {busy && <progress class="progress verdict-progress" aria-label={w.loading} />}
       </header>
@@ -86,17 +93,30 @@ export function Verdict({ flow, result, file }: VerdictProps) {
           {conversion.diagnostics.length > 0 && (
             <Findings
               findings={conversion.diagnostics}
+              joints={motion?.robot.joints}
+              titled={causeOf(result)}
               selected={selected.value}
               onSelect={(number) => {
                 selected.value = number
               }}
               onFix={(fix) => void flow.apply(fix)}
+              onOtherRobot={
+                robotMatters(conversion) && conversion.outcome === 'rejected'
+                  ? () => {
+                      if (!robots.current) return
+                      robots.current.open = true
+                      robots.current.scrollIntoView({ block: 'center' })
+                      robots.current.querySelector('summary')?.focus()
+                    }
+                  : undefined
+              }
+              onTry={(fix) => void flow.try(fix)}
               chosenElsewhere={conversion.outcome === 'ambiguous'}
               busy={busy}
             />
           )}
           {robotMatters(result.conversion) && (
-            <details class="card verdict-robot">
+            <details class="card verdict-robot" ref={robots}>
               <summary>
                 <span class="second small">{w.upload.checkedFor}</span>
                 <strong>
@@ -114,7 +134,13 @@ export function Verdict({ flow, result, file }: VerdictProps) {
             {conversion.outcome === 'ambiguous' && (
               <p class="second small">{w.upload.drawn(motion.source.variable)}</p>
             )}
-            <MotionView key={conversion.motion} motion={motion} selected={selected} />
+            <MotionView
+              key={conversion.motion}
+              motion={motion}
+              compared={tried?.motion ?? null}
+              note={tried ? w.upload.wouldBe(fixLabel(tried.fix, w)) : ''}
+              selected={selected}
+            />
           </div>
         )}
       </div>

@@ -107,8 +107,10 @@ export class LabelSpacing {
     // a sprite without attenuation is as large as at distance 1
     const pixels = canvas.clientHeight / (2 * Math.tan((camera.fov * Math.PI) / 360))
     this.taken.length = 0
-    for (const { sprite } of this.labels) {
+    for (const label of this.labels) {
+      const { sprite } = label
       if (!sprite.visible) continue
+      label.fit(pixels)
       this.stage.toScreen(sprite.position, this.at)
       const width = sprite.scale.x * pixels
       const height = sprite.scale.y * pixels

@@ -8,13 +8,6 @@ const ICONS = {
   pause: 'M7 5.5h3.6v13H7zM13.4 5.5H17v13h-3.6z',
 } as const
 
-/** A switch beside the timeline, such as the one of the ghosts. */
-interface Toggle {
-  readonly label: string
-  readonly on: boolean
-  readonly set: (on: boolean) => void
-}
-
 /** Something at a place of a timeline. */
 export interface TimeMark {
   /** s */
@@ -51,7 +44,6 @@ export class Controls {
     private readonly words: SceneWords,
     step: number,
     private readonly rowAt: (time: number) => number,
-    toggles: readonly Toggle[],
   ) {
     this.element.className = 'scene-controls'
     this.button.type = 'button'
@@ -91,8 +83,7 @@ export class Controls {
     this.track.className = 'scene-track'
     this.marks.className = 'scene-marks'
     this.track.append(this.slider, this.marks)
-    this.element.append(this.button, this.track, this.clock, this.speed)
-    for (const toggle of toggles) this.element.append(switchFor(toggle))
+    this.element.append(this.track, this.button, this.clock, this.speed)
     this.stopListening = player.onChange(() => this.showState())
     this.showState()
     this.show(player.position())
@@ -102,7 +93,6 @@ export class Controls {
    * the timeline has the same places for keyboards. */
   setMarks(marks: readonly TimeMark[]): void {
     const { duration } = this.player
-    this.track.classList.toggle('scene-track-marked', marks.length > 0)
     this.marks.replaceChildren(
       ...marks.map(({ time, severity, words }) => {
         const mark = document.createElement('button')
@@ -157,15 +147,4 @@ export class Controls {
     this.stopListening()
     this.element.remove()
   }
-}
-
-function switchFor(toggle: Toggle): HTMLElement {
-  const label = document.createElement('label')
-  label.className = 'scene-toggle'
-  const box = document.createElement('input')
-  box.type = 'checkbox'
-  box.checked = toggle.on
-  box.addEventListener('change', () => toggle.set(box.checked))
-  label.append(box, toggle.label)
-  return label
 }

@@ -16,8 +16,6 @@ interface PreviewOptions {
   /** The source of meshes; by default the gateway's /assets/. */
   readonly meshes?: MeshSource
   readonly words: SceneWords
-  /** A second motion of a robot with the same joints, shown as a ghost. */
-  readonly compared?: MotionDocument | null
   /** A picture for browsers without WebGL. */
   readonly poster?: string
 }
@@ -25,6 +23,9 @@ interface PreviewOptions {
 /** A motion in 3D that plays. Times are s from the first frame. */
 export interface MotionPreview {
   play(): void
+  /** Show a second motion of a robot with the same joints as a ghost; null: the first and the last
+   * pose instead. */
+  compare(motion: MotionDocument | null): void
   seek(time: number): void
   /** Choose a finding by its number, from 1, and seek to its row; 0: none. */
   select(finding: number): void
@@ -71,8 +72,7 @@ export function createMotionPreview(
   let scene: PreviewScene | null = null
   try {
     stage = new Stage(view, words.view)
-    const compared = options.compared ? courseOf(options.compared) : null
-    scene = new PreviewScene(stage, motion, course, meshes, words, compared)
+    scene = new PreviewScene(stage, motion, course, meshes, words)
   } catch (error) {
     stage?.dispose()
     stage = null
@@ -91,16 +91,24 @@ export function createMotionPreview(
     }
   }
 
-  const ghosts = options.compared ? words.compared : words.ghosts
-  const toggles =
-    scene === null
-      ? []
-      : [
-          { label: ghosts, on: true, set: scene.setGhosts.bind(scene) },
-          { label: words.path, on: true, set: scene.setPath.bind(scene) },
-        ]
+  if (scene !== null) {
+    const ghosts = document.createElement('span')
+    ghosts.textContent = words.ghosts
+    const show = document.createElement('details')
+    show.className = 'scene-show'
+    const summary = document.createElement('summary')
+    summary.textContent = words.show
+    const path = document.createElement('span')
+    path.textContent = words.path
+    show.append(
+      summary,
+      switchFor(ghosts, scene.showsGhosts, scene.setGhosts.bind(scene)),
+      switchFor(path, true, scene.setPath.bind(scene)),
+    )
+    view.append(show)
+  }
   const rowAt = (time: number) => course.rowOf(course.frameAt(time))
-  const controls = new Controls(player, words, 1 / motion.frame_rate, rowAt, toggles)
+  const controls = new Controls(player, words, 1 / motion.frame_rate, rowAt)
   controls.setMarks(
     motion.findings
       .filter(({ first_row }) => first_row > 0)
@@ -176,6 +184,9 @@ export function createMotionPreview(
 
   return {
     play: () => player.play(),
+    compare: (other) => {
+      scene?.setCompared(other && courseOf(other))
+    },
     seek: (time) => player.seek(time),
     select: choose,
     onTime: (listener) => {
@@ -198,6 +209,18 @@ export function createMotionPreview(
       element.remove()
     },
   }
+}
+
+/** Return a switch with its text. */
+function switchFor(text: HTMLElement, on: boolean, set: (on: boolean) => void): HTMLElement {
+  const label = document.createElement('label')
+  label.className = 'scene-toggle'
+  const box = document.createElement('input')
+  box.type = 'checkbox'
+  box.checked = on
+  box.addEventListener('change', () => set(box.checked))
+  label.append(box, text)
+  return label
 }
 
 /** Advance the clock without a picture. */

@@ -12,6 +12,7 @@ import { ContactPatch } from '../stage/floor'
 import { Label } from '../stage/labels'
 import type { Stage } from '../stage/stage'
 import type { SceneTheme } from '../stage/theme'
+import { JointArc } from './joint_arc'
 import { placeOf, ToolPath, type Track, trackOf } from './tool_path'
 
 const LABEL = 0.019 // as a part of the distance to it
@@ -38,6 +39,10 @@ export class PreviewScene {
   private readonly patch = new ContactPatch()
   private readonly positions: Float64Array
   private readonly undo: (() => void)[] = []
+  private readonly arc = new JointArc()
+  private compared: Course | null = null
+  /** The first and the last pose are shown: of a refused motion they would hide what is wrong. */
+  showsGhosts: boolean
   private chosen = 0
   private frame = -1
   private time = 0
@@ -48,7 +53,6 @@ export class PreviewScene {
     private readonly course: Course,
     meshes: MeshSource,
     words: SceneWords,
-    private readonly compared: Course | null = null,
   ) {
     const { urdf, joints } = motion.robot
     const names = joints.map((joint) => joint.name)
@@ -57,16 +61,14 @@ export class PreviewScene {
     this.positions = new Float64Array(course.jointCount)
     this.robot = make()
     const track = trackOf(this.robot, course)
-    this.ghosts = compared === null ? [make(), make()] : [make()]
+    this.showsGhosts = motion.verdict !== 'refused'
+    this.ghosts = [make(), make()]
     const last = course.duration
-    for (const [i, ghost] of this.ghosts.entries()) {
+    for (const ghost of this.ghosts) {
       ghost.setLook('ghost')
-      course.sample(i === 0 ? 0 : last, this.positions)
-      ghost.setPositions(this.positions)
-      ghost.setGripper(course.gripperAt(i === 0 ? 0 : last) === true)
       stage.world.add(ghost.root)
     }
-    stage.world.add(this.robot.root, this.patch)
+    stage.world.add(this.robot.root, this.patch, this.arc.group, this.arc.label.sprite)
 
     const bad = motion.findings.filter((one) => one.severity === 'error' && one.first_row > 0)
     const marked = (frame: number) => {
@@ -89,6 +91,7 @@ export class PreviewScene {
     const spacing = new LabelSpacing(stage, [
       ...this.markers.map((marker) => marker.label),
       ...this.ends,
+      this.arc.label,
     ])
     this.undo.push(
       stage.onTheme((theme) => this.setTheme(theme)),
@@ -98,6 +101,7 @@ export class PreviewScene {
       }),
     )
 
+    this.setCompared(null)
     this.ready = Promise.all([this.robot, ...this.ghosts].map((one) => one.ready)).then(() => {
       this.patch.fit(this.robot.footprint())
       this.fit(track)
@@ -114,27 +118,61 @@ export class PreviewScene {
     robot.setPositions(this.positions)
     const closed = course.gripperAt(time)
     if (closed !== null) robot.setGripper(closed)
-    this.showCompared(time)
+    if (this.compared !== null) this.poseGhost(this.ghosts[0], this.compared, time)
+    this.arc.follow(robot)
     this.paint()
     this.stage.invalidate()
   }
 
-  private showCompared(time: number): void {
-    const [ghost] = this.ghosts
-    if (this.compared === null || ghost === undefined) return
-    this.compared.sample(time, this.positions)
-    ghost.setPositions(this.positions)
-    ghost.setGripper(this.compared.gripperAt(time) === true)
+  /** Show another motion of the same joints as a ghost; null: the first and the last pose. */
+  setCompared(compared: Course | null): void {
+    this.compared = compared
+    if (compared === null) {
+      for (const [i, ghost] of this.ghosts.entries()) {
+        this.poseGhost(ghost, this.course, i === 0 ? 0 : this.course.duration)
+      }
+    }
+    this.setGhosts(this.showsGhosts)
+    this.show(this.time)
+  }
+
+  private poseGhost(ghost: SceneRobot | undefined, course: Course, time: number): void {
+    course.sample(time, this.positions)
+    ghost?.setPositions(this.positions)
+    ghost?.setGripper(course.gripperAt(time) === true)
   }
 
   /** Choose a finding by its number, from 1; 0: none. Return its time, s, or null without rows. */
   choose(number: number): number | null {
     this.chosen = number
+    const finding = this.motion.findings[number - 1]
+    this.showArc(finding)
     this.setTheme(this.stage.theme)
     this.stage.invalidate()
-    const finding = this.motion.findings[number - 1]
     if (finding === undefined || finding.first_row === 0) return null
     return this.course.timeOfRow(finding.first_row)
+  }
+
+  /** Draw the limit at the joint of a finding whose rows go beyond it. */
+  private showArc(finding: Diagnostic | undefined): void {
+    const { course, motion, robot } = this
+    const place = motion.robot.joints.findIndex(({ name }) => name === finding?.joint)
+    const joint = motion.robot.joints[place]
+    this.arc.clear()
+    if (finding === undefined || joint === undefined || joint.kind === 'prismatic') return
+    const first = course.frameAt(course.timeOfRow(finding.first_row))
+    const last = course.frameAt(course.timeOfRow(finding.last_row))
+    let [low, high] = [joint.lower ?? -Infinity, joint.upper ?? Infinity]
+    const allowed = [low, high] as const
+    for (let frame = first; frame <= last; frame++) {
+      const angle = course.positions[frame * course.jointCount + place] as number
+      if (angle < low) low = angle
+      if (angle > high) high = angle
+    }
+    const turn = robot.turnOf(joint.name)
+    if (turn === null) return
+    if (high > allowed[1]) this.arc.set(turn, allowed[1], high, allowed[0])
+    else if (low < allowed[0]) this.arc.set(turn, allowed[0], low, allowed[1])
   }
 
   /** Return the number of the finding whose mark is at a place on the canvas, CSS pixels; 0:
@@ -152,8 +190,10 @@ export class PreviewScene {
   }
 
   setGhosts(on: boolean): void {
-    for (const ghost of this.ghosts) ghost.root.visible = on
-    for (const label of this.ends) label.sprite.visible = on
+    this.showsGhosts = on
+    for (const [i, ghost] of this.ghosts.entries())
+      ghost.root.visible = this.compared === null ? on : i === 0
+    for (const label of this.ends) label.sprite.visible = on && this.compared === null
     this.stage.invalidate()
   }
 
@@ -168,6 +208,7 @@ export class PreviewScene {
     for (const { label } of this.markers) label.dispose()
     for (const label of this.ends) label.dispose()
     this.path.dispose()
+    this.arc.dispose()
     this.patch.release()
     this.looks.dispose()
   }
@@ -225,6 +266,7 @@ export class PreviewScene {
   private setTheme(theme: SceneTheme): void {
     this.looks.setTheme(theme)
     this.path.setTheme(theme)
+    this.arc.setTheme(theme)
     for (const label of this.ends) label.paint(theme.card, theme.second)
     for (const [i, { label, finding }] of this.markers.entries()) {
       const chosen = this.motion.findings[this.chosen - 1] === finding

@@ -18,6 +18,7 @@ import { Hose } from './hose'
 import { hosesOf, type Level, levelsOf } from './levels'
 import type { Looks } from './looks'
 import type { MeshSource } from './meshes'
+import { type Turn, turnOf } from './turn'
 
 const PLACEHOLDER = 0.09 // m, edge of the box that stands for a missing mesh
 const ONE = new Vector3(1, 1, 1)
@@ -178,6 +179,13 @@ export class SceneRobot {
       between.identity()
     }
     return new Chain(joints, between)
+  }
+
+  /** Return where a joint turns; null: it slides, or there is none. */
+  turnOf(joint: string): Turn | null {
+    const found = this.movables.get(joint)
+    if (found === undefined || found.prismatic) return null
+    return turnOf(joint, found, this.tip, [...this.movables.values()])
   }
 
   /** Return the height of its body or joints above its base, m, as it was last drawn. */

@@ -1,11 +1,13 @@
 import { CanvasTexture, Sprite, SpriteMaterial, SRGBColorSpace } from 'three'
 
 const FONT = 'system-ui, -apple-system, "Segoe UI", Roboto, "Liberation Sans", sans-serif'
+const LEAST_PIXELS = 20 // CSS pixels
 const SCALE = 3 // texels a CSS pixel: sharp on dense screens
 
 /** A finding's number in a disc, or a word in a pill, that keeps its size on the screen. */
 export class Label {
   readonly sprite: Sprite
+  private grown = 1
   private readonly canvas = document.createElement('canvas')
   private readonly texture = new CanvasTexture(this.canvas)
   private readonly material = new SpriteMaterial({
@@ -16,9 +18,9 @@ export class Label {
     transparent: true,
   })
 
-  /** height: as a part of the distance from which it is seen. */
+  /** text: a change is seen once it is painted. height: as a part of the distance from which it is seen. */
   constructor(
-    readonly text: string,
+    public text: string,
     private readonly height: number,
   ) {
     this.texture.colorSpace = SRGBColorSpace
@@ -53,7 +55,13 @@ export class Label {
     context.fillText(this.text, this.canvas.width / 2, pixels * 0.53)
     this.texture.dispose()
     this.texture.needsUpdate = true
-    const scale = this.height * (chosen ? 1.25 : 1)
+    this.grown = chosen ? 1.25 : 1
+    this.fit(Number.POSITIVE_INFINITY)
+  }
+
+  /** Keep it legible in a small view. pixels: of something as high as its distance. */
+  fit(pixels: number): void {
+    const scale = Math.max(this.height, LEAST_PIXELS / pixels) * this.grown
     this.sprite.scale.set((scale * this.canvas.width) / this.canvas.height, scale, 1)
   }
 

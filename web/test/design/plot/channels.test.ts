@@ -32,7 +32,7 @@ test('a line of which no sample is finite has an axis all the same', () => {
 test('angles are degrees with the limits of the joint', () => {
   const motion = fakeMotion({ verdict: 'accepted', message: '' })
   const elbow = stripsOf(motion, 'angles')[2]
-  expect(elbow?.label).toBe('3 elbow')
+  expect(elbow?.label).toBe('Elbow (J3)')
   expect(elbow?.values[0]).toBeCloseTo(89.95, 1)
   expect(elbow?.upper).toBeCloseTo(180)
 })
