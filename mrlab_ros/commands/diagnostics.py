@@ -135,6 +135,14 @@ NO_USERS_HERE = Code(
     "There is no keys folder here and no lab runs.",
     "Make one, or name it with --dir.",
 )
+GIVEN_OR_ERASED = Code(
+    "given_or_erased", "The data is to be erased and given away.", "Choose one of the two."
+)
+DATA_OF_ANOTHER_LAB = Code(
+    "data_of_another_lab",
+    "The lab that runs here is not the one of these people.",
+    "Start theirs, or leave out --erase and --give-to.",
+)
 
 # show
 PAGE_NAME = Code("page_name", "The page is '{name}'; expected a name that ends in .html.")

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from mrlab_ros.commands import output
-from mrlab_ros.commands.diagnostics import NO_USERS_HERE
+from mrlab_ros.commands.diagnostics import DATA_OF_ANOTHER_LAB, GIVEN_OR_ERASED, NO_USERS_HERE
 from mrlab_ros.commands.output import say
 from mrlab_ros.commands.up.web import qr_lines
 from mrlab_ros.core.base.diagnostic import Fix
@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     from mrlab_ros.gateway.people.sign_ins import Database
 
 DAY_S = 24 * 3600.0
+# A store far away takes its time.
+SETTLING_S = 70.0
 app = typer.Typer(no_args_is_help=True, help="Who signs in to the pages of a lab with keys.")
 
 Folder = Annotated[
@@ -149,23 +151,63 @@ def token(
 @app.command()
 def remove(
     names: Annotated[list[str], typer.Argument(help="Who may no longer sign in.")],
+    give_to: Annotated[
+        str, typer.Option(help="Who gets their trajectories; what was not published is erased.")
+    ] = "",
+    erase: Annotated[
+        bool, typer.Option("--erase", help="Erase all that they uploaded and published, for good.")
+    ] = False,
     folder: Folder = None,
     as_json: AsJson = False,
 ) -> None:
-    """Remove people; their browsers and headsets are signed out within a second."""
-    with opened(folder, "") as users:
-        for name in names:
-            users.accounts.get(name)
-        for name in dict.fromkeys(names):
-            users.accounts.remove(name)
+    """Remove people; their browsers, headsets and programs are signed out within a second.
+
+    Without --give-to or --erase, which need the running lab, their trajectories stay for
+    instructors.
+    """
+    if erase and give_to:
+        raise BadInput(GIVEN_OR_ERASED())
     removed = list(dict.fromkeys(names))
+    with opened(folder, "") as users:
+        leaving = [users.accounts.check_leaves(name) for name in removed]
+        if erase or give_to:
+            settle(users, [each.id for each in leaving], give_to)
+        for name in removed:
+            users.accounts.remove(name)
+    data = "erased" if erase else "handed_over" if give_to else "kept"
     if as_json:
-        print(json.dumps({"removed": removed}))
+        print(json.dumps({"removed": removed, "data": data}))
         return
+    fate = {
+        "erased": "all that was uploaded and published is erased",
+        "handed_over": f"the trajectories belong to {give_to}",
+        "kept": "the trajectories stay for instructors",
+    }
     for name in removed:
-        print(
-            f"{name} is removed and signed out everywhere; the trajectories stay for instructors"
-        )
+        print(f"{name} is removed and signed out everywhere; {fate[data]}")
+
+
+def settle(users: Users, owners: list[str], heir: str) -> None:
+    """Give the data of people, by id, to the person called `heir`; empty: erase it.
+
+    Raises Misuse where the lab of these people does not run: another lab has another store.
+    """
+    from mrlab_msgs import srv
+
+    from mrlab_ros.client.connect import open_graph
+    from mrlab_ros.commands.open import running_web
+
+    to = users.accounts.get(heir).id if heir else ""
+    if Path(running_web()["users"]).resolve() != users.database.path.resolve():
+        raise Misuse(DATA_OF_ANOTHER_LAB())
+    with open_graph() as graph:
+        for owner in owners:
+            if to:
+                given = srv.HandOver.Request(owner=owner, to=to)
+                graph.order(srv.HandOver, "/converter/hand_over", given, SETTLING_S)
+            else:
+                request = srv.Remove.Request(name=owner)
+                graph.order(srv.Remove, "/converter/erase", request, SETTLING_S)
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mrlab_ros.core.base.diagnostic import Code
+from mrlab_ros.core.base.diagnostic import WARNING, Code
 
 # A role in a sentence.
 ROLE = "display=a display|student=a student|operator=an operator|instructor=an instructor"
@@ -24,6 +24,12 @@ GATEWAY_FAULT = Code(
 )
 GATEWAY_WITHOUT_LAB = Code(
     "gateway_without_lab", "This gateway has no lab.", "Start it with the endpoint of a lab."
+)
+LAST_KNOWN = Code(
+    "last_known",
+    "This is what was last known, as the store does not answer. {why:problem}",
+    severity=WARNING,
+    meaning="The list of trajectories is from the gateway's memory.",
 )
 NOT_SIGNED_IN = Code(
     "not_signed_in", "Nobody is signed in, or the sign-in has ended.", "Sign in first."

@@ -125,6 +125,18 @@ class GetTrajectory(Service[GetTrajectory.Request, GetTrajectory.Response]):
         file: str
         def __init__(self, *, success: bool = ..., message: str = ..., code: str = ..., values: Sequence[diagnostic_msgs.msg.KeyValue] = ..., trajectory: mrlab_msgs.msg.Trajectory = ..., file: str = ...) -> None: ...
 
+class HandOver(Service[HandOver.Request, HandOver.Response]):
+    class Request:
+        owner: str
+        to: str
+        def __init__(self, *, owner: str = ..., to: str = ...) -> None: ...
+    class Response:
+        success: bool
+        message: str
+        code: str
+        values: list[diagnostic_msgs.msg.KeyValue]
+        def __init__(self, *, success: bool = ..., message: str = ..., code: str = ..., values: Sequence[diagnostic_msgs.msg.KeyValue] = ...) -> None: ...
+
 class ListBags(Service[ListBags.Request, ListBags.Response]):
     class Request:
         def __init__(self) -> None: ...

@@ -8,7 +8,9 @@ import type {
   Diagnostic,
   GradedClass,
   Invitation,
+  Listing,
   NewPerson,
+  NewToken,
   Pairing,
   PairingState,
   Person,
@@ -200,6 +202,7 @@ export class FakeApi implements Api {
       approved_by: 'ada',
       created: 1.79e9,
       last_seen: 1.79e9 + 600,
+      expires: 1.8e9,
       this: false,
     },
   ]
@@ -322,8 +325,8 @@ export class FakeApi implements Api {
       bump: url.includes('wave') ? 0.4 : 0,
     })
   }
-  async trajectories(): Promise<readonly TrajectoryInfo[]> {
-    return this.catalogue
+  async trajectories(): Promise<Listing> {
+    return { trajectories: this.catalogue, problem: null }
   }
   async publish(_draft: string, id: string, shared: boolean): Promise<TrajectoryInfo> {
     const info = trajectory({ id: `ada/${id}`, owner: 'ada', shared })
@@ -394,6 +397,12 @@ export class FakeApi implements Api {
   }
   async revokeDevice(id: string): Promise<void> {
     this.#devices = this.#devices.filter((each) => each.id !== id)
+  }
+  async makeToken({ program, role }: NewToken): Promise<string> {
+    const device = { id: program, name: program, role, approved_by: 'ada', created: 1.79e9 }
+    const times = { last_seen: 1.79e9, expires: 1.8e9, this: false }
+    this.#devices = [...this.#devices, { ...device, ...times }]
+    return 'mrlab_abc'
   }
   async startPairing(): Promise<Pairing> {
     return {

@@ -55,6 +55,11 @@ class Catalogue:
             self._epoch, self._number = epoch, number
             return True
 
+    @property
+    def known(self) -> bool:
+        """Whether it was read at least once."""
+        return self._number >= 0
+
     def records(self) -> list[Record]:
         """Return every record, ordered by id, the deleted ones too."""
         with self._table:

@@ -8,11 +8,14 @@ readers see the catalogue before the change or after it.
 from __future__ import annotations
 
 import contextlib
+import itertools
 import tempfile
 import threading
 import time
 from collections import deque
 from collections.abc import Callable, Collection, Mapping
+from dataclasses import replace
+from functools import partial
 from typing import Any, BinaryIO
 
 import orjson
@@ -25,7 +28,11 @@ from mrlab_ros.core.base.errors import BadInput, LabError
 from mrlab_ros.core.trajectory import catalogue as records
 from mrlab_ros.core.trajectory import document
 from mrlab_ros.core.trajectory.catalogue import Record, TrajectoryName, Version, checked_id, parse
-from mrlab_ros.core.trajectory.diagnostics import OVER_QUOTA, REMOVED_MEANWHILE
+from mrlab_ros.core.trajectory.diagnostics import (
+    NOBODYS_TRAJECTORIES,
+    OVER_QUOTA,
+    REMOVED_MEANWHILE,
+)
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 
 MOST_RECENT = 200  # changes that changes.json names
@@ -135,6 +142,45 @@ class CatalogueWriter(Catalogue):
             deleted=True,
         )
 
+    def hand_over(self, owner: str, to: str) -> int:
+        """Give all trajectories of `owner`, the deleted ones too, to `to`; return how many.
+
+        One whose name is taken gets a number behind it. What was never published is erased. Raises
+        BadInput where one of the two is nobody, StoreFailure; then some have changed hands.
+        """
+        if not owner or not to or owner == to:
+            raise BadInput(NOBODYS_TRAJECTORIES(owner=owner, to=to))
+        found = [record for record in self.records() if record.owner == owner]
+        for record in found:
+            taken = {each.name for each in self.records() if each.owner == to}
+            numbered = (f"{record.name}-{number}" for number in itertools.count(2))
+            name = next(n for n in itertools.chain([record.name], numbered) if n not in taken)
+            given = replace(record, owner=to, name=name)
+            self._change(TrajectoryName(to, name), partial(_becomes, given))
+            self._change(TrajectoryName(owner, record.name), lambda before: None)
+        self._erase(keys.user(owner))
+        return len(found)
+
+    def erase(self, owner: str) -> int:
+        """Remove all that somebody uploaded and published, for good; return how many trajectories.
+
+        Raises BadInput for the lab's own, StoreFailure; then some are gone.
+        """
+        if not owner:
+            raise BadInput(NOBODYS_TRAJECTORIES(owner=owner, to=""))
+        found = [record for record in self.records() if record.owner == owner]
+        for record in found:
+            self._change(TrajectoryName(owner, record.name), lambda before: None)
+        mine = [f"{place}/{keys.segment(owner)}" for place in (keys.RECORDS, keys.VERSIONS)]
+        with self._changing:
+            used = {key for record in self._records.values() for key in record.keys}
+        self._erase(keys.user(owner), *mine, *(f"{DAMAGED}/{each}" for each in mine), keep=used)
+        return len(found)
+
+    def _erase(self, *prefixes: str, keep: Collection[str] = ()) -> None:
+        entries = (entry.key for prefix in prefixes for entry in self.store.list(prefix))
+        self.store.delete([key for key in entries if key not in keep])
+
     def set_aside(self, record: Record, version: Version) -> str:
         """Take a damaged file and its versions out of the catalogue; return where it is then."""
         place = f"{DAMAGED}/{version.key}"
@@ -217,7 +263,10 @@ class CatalogueWriter(Catalogue):
             self._number += 1
             self._recent.append((self._number, *place))
             self._announce()
-        self._drop((before.keys if before else frozenset()) - (after.keys if after else set()))
+            dropped = (before.keys if before else frozenset()) - (after.keys if after else set())
+            # One that changes hands has two records for a moment.
+            dropped -= {key for r in self._records.values() if dropped for key in r.keys}
+        self._drop(dropped)
         return after
 
     def _certain(self, owner: str, name: str) -> None:
@@ -248,6 +297,11 @@ class CatalogueWriter(Catalogue):
         self.store.copy(key, place)
         self.store.delete([key])
         super()._unreadable(key, f"{why}; it is now {place}")
+
+
+def _becomes(record: Record, before: Record | None) -> Record:
+    """Return a record, whatever was there before."""
+    return record
 
 
 def _size(file: BinaryIO) -> int:

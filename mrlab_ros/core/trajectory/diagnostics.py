@@ -179,6 +179,21 @@ TRAJECTORY_PUBLISHED = Code(
 TRAJECTORY_DELETED = Code(
     "trajectory_deleted", "'{id}' was deleted.", "Restore it to bring it back.", severity=INFO
 )
+NOBODYS_TRAJECTORIES = Code(
+    "nobodys_trajectories",
+    "Trajectories of '{owner}' cannot be given to '{to}' or erased.",
+    "Expected the ids of two people; the lab's own trajectories stay.",
+)
+HANDED_OVER = Code(
+    "handed_over",
+    "{count:count trajectory|trajectories} of {owner} belong to {to} now.",
+    severity=INFO,
+)
+OWNER_ERASED = Code(
+    "owner_erased",
+    "{count:count trajectory|trajectories} of {owner} and all that {owner} uploaded were erased.",
+    severity=INFO,
+)
 TRAJECTORY_SHARED = Code("trajectory_shared", "'{id}' is seen by everybody.", severity=INFO)
 TRAJECTORY_HIDDEN = Code(
     "trajectory_hidden", "'{id}' is seen by {owner} and instructors.", severity=INFO

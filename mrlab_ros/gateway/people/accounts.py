@@ -129,6 +129,16 @@ class Accounts:
             raise _taken(name) from None
         return self.get(name)
 
+    def check_leaves(self, name: str) -> Account:
+        """Return a person who may be removed.
+
+        Raises NotFound where there is no such person, Misuse for the last instructor.
+        """
+        found = self.get(name)
+        with self._database.writing() as connection:
+            _keep_an_instructor(connection, name)
+        return found
+
     def remove(self, name: str) -> None:
         """Remove a person, the links and the sign-ins.
 

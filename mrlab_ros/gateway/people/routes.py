@@ -6,13 +6,17 @@ Routes that hash passwords or write the database are plain functions, so that th
 from __future__ import annotations
 
 import io
+from typing import Annotated, Literal
 
 import segno
-from fastapi import APIRouter, Request, Response
+from fastapi import APIRouter, Depends, Query, Request, Response
+from fastapi.concurrency import run_in_threadpool
 
-from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.diagnostic import heard
+from mrlab_ros.core.base.errors import BadInput, Unavailable
 from mrlab_ros.core.bridge.access import Policy, Verb
 from mrlab_ros.core.bridge.rules import Role
+from mrlab_ros.gateway.diagnostics import GATEWAY_WITHOUT_LAB
 from mrlab_ros.gateway.errors import NotAllowed, NotFound, NotSignedIn
 from mrlab_ros.gateway.people import answers
 from mrlab_ros.gateway.people.accounts import INVITATION_LIFETIME_S
@@ -26,6 +30,7 @@ from mrlab_ros.gateway.people.diagnostics import (
 )
 from mrlab_ros.gateway.people.people import People, ThePeople, address_of
 from mrlab_ros.gateway.people.person import CurrentPerson, KnownPerson, Person
+from mrlab_ros.gateway.ports import Ports, ports
 
 router = APIRouter(prefix="/api", tags=["people"])
 DAY_S = 24 * 3600.0
@@ -122,9 +127,39 @@ def change_role(people: ThePeople, name: str, body: answers.RoleChange) -> answe
 
 
 @router.delete("/people/{name}", status_code=204)
-def remove_person(people: ThePeople, name: str) -> None:
-    """Remove somebody; every sign-in of that person ends."""
-    people.accounts.remove(name)
+async def remove_person(
+    people: ThePeople,
+    there: Annotated[Ports, Depends(ports)],
+    name: str,
+    data: Annotated[Literal["keep", "erase", "hand_over"], Query()] = "keep",
+    to: Annotated[str, Query(description="who gets the trajectories")] = "",
+) -> None:
+    """Remove somebody; every sign-in of that person ends.
+
+    data: what happens to all that the person uploaded and published; instructors keep seeing what
+    is kept. Where that fails, the person stays.
+    """
+    account = await run_in_threadpool(people.accounts.check_leaves, name)
+    if data != "keep":
+        heir = await run_in_threadpool(people.accounts.get, to) if data == "hand_over" else None
+        service, kind, request = settling(account.id, heir.id if heir else "")
+        if there.lab is None:
+            raise Unavailable(GATEWAY_WITHOUT_LAB())
+        answer = await there.lab.call(service, kind, request)
+        if not answer.success:
+            raise BadInput(heard(answer))
+    await run_in_threadpool(people.accounts.remove, name)
+
+
+def settling(owner: str, heir: str) -> tuple[str, str, dict[str, str]]:
+    """Return the converter's service, its type and the request for a removed person's data.
+
+    heir: the id of who gets it; empty: it is erased.
+    """
+    if heir:
+        request = {"owner": owner, "to": heir}
+        return "converter/hand_over", "mrlab_msgs/srv/HandOver", request
+    return "converter/erase", "mrlab_msgs/srv/Remove", {"name": owner}
 
 
 @router.get("/devices")

@@ -63,9 +63,13 @@ class Trajectory(BaseModel):
 
 
 class Trajectories(BaseModel):
-    """Trajectories, ordered by id."""
+    """Trajectories, ordered by id.
+
+    problem: why they are what was last known; null: they are what the store has.
+    """
 
     trajectories: list[Trajectory]
+    problem: Finding | None = None
 
 
 class Version(BaseModel):

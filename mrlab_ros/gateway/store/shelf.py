@@ -13,7 +13,7 @@ import orjson
 from fastapi.requests import HTTPConnection
 
 from mrlab_ros.adapters import private_folder
-from mrlab_ros.adapters.store.port import ObjectStore
+from mrlab_ros.adapters.store.port import ObjectStore, StoreFailure
 from mrlab_ros.adapters.trajectories.catalogue import Catalogue, NoTrajectory
 from mrlab_ros.adapters.trajectories.files import TrajectoryFiles
 from mrlab_ros.app.show.document import findings
@@ -23,6 +23,7 @@ from mrlab_ros.core.bridge.access import Policy, Verb
 from mrlab_ros.core.trajectory.catalogue import Record, Version
 from mrlab_ros.core.trajectory.document import warnings_of
 from mrlab_ros.gateway.assets.routes import Robots
+from mrlab_ros.gateway.diagnostics import LAST_KNOWN
 from mrlab_ros.gateway.people.person import LOCAL, Person
 from mrlab_ros.gateway.store import downloads
 
@@ -60,7 +61,7 @@ class Shelf:
 
     def find(self, person: Person, text: str, *, deleted: bool = False) -> tuple[Record, Version]:
         """Return what an id names; raise NoTrajectory where the person may not see it."""
-        self.catalogue.refresh()
+        self._refresh()
         return self.catalogue.find(
             text, lambda record: self.may_see(person, record), deleted=deleted
         )
@@ -86,15 +87,29 @@ class Shelf:
         return self._policy.may(person.role, Verb.CALL, service, own=own)
 
     def listing(self, person: Person, *, deleted: bool = False) -> bytes:
-        """Return the JSON of all trajectories that a person may see, or of the deleted ones."""
-        self.catalogue.refresh()
+        """Return the JSON of all trajectories that a person may see, or of the deleted ones.
+
+        While the store does not answer they are those that were last known, and `problem` says so.
+        """
+        away = self._refresh()
         user, every = self.user(person), self._sees_all(person)
         texts = [
             self._text(record)
             for record in self.catalogue.records()
             if bool(record.deleted_ns) == deleted and (every or record.visible_to(user))
         ]
-        return b'{"trajectories":[' + b",".join(texts) + b"]}"
+        problem = orjson.dumps(finding_fields((away,))[0] if away else None)
+        return b'{"trajectories":[' + b",".join(texts) + b'],"problem":' + problem + b"}"
+
+    def _refresh(self) -> Diagnostic | None:
+        """Read what changed; return why that is impossible now, if the catalogue was ever read."""
+        try:
+            self.catalogue.refresh()
+        except StoreFailure as error:
+            if not self.catalogue.known:
+                raise
+            return LAST_KNOWN(why=error.diagnostic)
+        return None
 
     def _sees_all(self, person: Person) -> bool:
         return self._policy.may(person.role, Verb.CALL, "converter/get_any")

@@ -39,7 +39,9 @@ from mrlab_ros.core.trajectory.catalogue import (
 from mrlab_ros.core.trajectory.diagnostics import (
     DAMAGED_VERSION,
     DRAFT_OF_ANOTHER,
+    HANDED_OVER,
     NOT_A_NEW_NAME,
+    OWNER_ERASED,
     PUBLISHED_ALREADY,
     REPLACED_MEANWHILE,
     TRAJECTORY_DELETED,
@@ -160,6 +162,23 @@ class TrajectoryServices:
         self.catalogue.delete(request.name)
         self.announce()
         tell(response, True, TRAJECTORY_DELETED(id=request.name))
+
+    def erase(self, request: srv.Remove.Request, response: srv.Remove.Response) -> None:
+        """Erase all that somebody uploaded and published; the request's name is the owner's id."""
+        self.check_ready()
+        try:
+            count = self.catalogue.erase(request.name)
+        finally:
+            self.announce()
+        tell(response, True, OWNER_ERASED(owner=request.name, count=count))
+
+    def hand_over(self, request: srv.HandOver.Request, response: srv.HandOver.Response) -> None:
+        self.check_ready()
+        try:
+            count = self.catalogue.hand_over(request.owner, request.to)
+        finally:
+            self.announce()
+        tell(response, True, HANDED_OVER(owner=request.owner, to=request.to, count=count))
 
     def publish(
         self, request: srv.PublishTrajectory.Request, response: srv.PublishTrajectory.Response

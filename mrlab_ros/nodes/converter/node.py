@@ -94,6 +94,8 @@ class ConverterNode(
             (srv.ListTrajectories, "list", self.trajectories.list_fitting),
             (srv.ListTrajectories, "list_any", self.trajectories.list_any_fitting),
             (srv.Remove, "delete", self.trajectories.delete),
+            (srv.Remove, "erase", self.trajectories.erase),
+            (srv.HandOver, "hand_over", self.trajectories.hand_over),
             (srv.PublishTrajectory, "publish", self.trajectories.publish),
             (srv.ShareTrajectory, "share", self.trajectories.share),
             (srv.RestoreTrajectory, "restore", self.trajectories.restore),

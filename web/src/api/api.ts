@@ -5,10 +5,13 @@ import type {
   Conversion,
   ConversionRequest,
   Device,
+  Fate,
   GradedClass,
   Invitation,
   InvitationLink,
+  Listing,
   NewPerson,
+  NewToken,
   Pairing,
   PairingState,
   Person,
@@ -33,7 +36,7 @@ export interface Api {
   convert(request: ConversionRequest, signal: AbortSignal): Promise<Conversion>
   motion(url: string, signal?: AbortSignal): Promise<MotionDocument>
 
-  trajectories(): Promise<readonly TrajectoryInfo[]>
+  trajectories(): Promise<Listing>
   publish(draft: string, id: string, shared: boolean): Promise<TrajectoryInfo>
   versions(id: string): Promise<readonly Version[]>
   share(id: string, shared: boolean): Promise<void>
@@ -55,12 +58,14 @@ export interface Api {
   invite(person: NewPerson): Promise<InvitationLink>
   /** A new link for a person who lost the password. */
   inviteAgain(name: string): Promise<InvitationLink>
-  removePerson(name: string): Promise<void>
+  removePerson(name: string, fate: Fate): Promise<void>
   invitation(token: string): Promise<Invitation>
   acceptInvitation(token: string, password: string): Promise<Session>
 
   devices(): Promise<readonly Device[]>
   revokeDevice(id: string): Promise<void>
+  /** Return a token for a program; it is told once. */
+  makeToken(program: NewToken): Promise<string>
   startPairing(): Promise<Pairing>
   pairing(secret: string): Promise<PairingState>
   /** Return the name of the device. */

@@ -6,10 +6,13 @@ import type {
   Conversion,
   ConversionRequest,
   Device,
+  Fate,
   GradedClass,
   Invitation,
   InvitationLink,
+  Listing,
   NewPerson,
+  NewToken,
   Pairing,
   PairingState,
   Person,
@@ -125,9 +128,8 @@ export class HttpApi implements Api {
     return this.#ask('GET', url, undefined, signal)
   }
 
-  async trajectories(): Promise<readonly TrajectoryInfo[]> {
-    const answer = await this.#ask<{ trajectories: TrajectoryInfo[] }>('GET', '/api/trajectories')
-    return answer.trajectories
+  trajectories(): Promise<Listing> {
+    return this.#ask('GET', '/api/trajectories')
   }
   publish(draft: string, id: string, shared: boolean): Promise<TrajectoryInfo> {
     return this.#ask('POST', '/api/trajectories', { draft, id, shared })
@@ -174,8 +176,9 @@ export class HttpApi implements Api {
   inviteAgain(name: string): Promise<InvitationLink> {
     return this.#ask('POST', `/api/people/${encodeURIComponent(name)}/invitation`)
   }
-  async removePerson(name: string): Promise<void> {
-    await this.#ask('DELETE', `/api/people/${encodeURIComponent(name)}`)
+  async removePerson(name: string, fate: Fate): Promise<void> {
+    const query = new URLSearchParams({ ...fate })
+    await this.#ask('DELETE', `/api/people/${encodeURIComponent(name)}?${query}`)
   }
   invitation(token: string): Promise<Invitation> {
     return this.#ask('GET', `/api/invitations/${encodeURIComponent(token)}`)
@@ -190,6 +193,9 @@ export class HttpApi implements Api {
   }
   async revokeDevice(id: string): Promise<void> {
     await this.#ask('DELETE', `/api/devices/${encodeURIComponent(id)}`)
+  }
+  async makeToken(program: NewToken): Promise<string> {
+    return (await this.#ask<{ token: string }>('POST', '/api/tokens', program)).token
   }
   startPairing(): Promise<Pairing> {
     return this.#ask('POST', '/api/pairings', { device: deviceName() })

@@ -100,6 +100,12 @@ export interface Candidate {
   readonly preview: Preview
 }
 
+/** problem: why they are what was last known; null: they are what the store has. */
+export interface Listing {
+  readonly trajectories: readonly TrajectoryInfo[]
+  readonly problem: Diagnostic | null
+}
+
 export interface TrajectoryInfo {
   readonly id: string
   readonly robot_model: string
@@ -163,6 +169,18 @@ export interface InvitationLink {
   readonly expires_in: number
 }
 
+/** A program that acts for whoever makes its token. days: how long the token is good. */
+export interface NewToken {
+  readonly program: string
+  readonly role: Role
+  readonly days: number
+}
+
+/** What happens to all that a removed person uploaded and published. to: who gets it. */
+export type Fate =
+  | { readonly data: 'keep' | 'erase' }
+  | { readonly data: 'hand_over'; readonly to: string }
+
 export interface Device {
   readonly id: string
   readonly name: string
@@ -172,6 +190,7 @@ export interface Device {
   /** s since the epoch */
   readonly created: number
   readonly last_seen: number
+  readonly expires: number
   /** The device of this session. */
   readonly this: boolean
 }

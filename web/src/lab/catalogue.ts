@@ -1,7 +1,7 @@
 import { signal } from '@preact/signals'
 import type { Api } from '../api/api'
 import type { TrajectoryInfo } from '../api/types'
-import { sentence, ToldError } from '../words/diagnostic'
+import { sentence, spoken, ToldError } from '../words/diagnostic'
 
 interface Carrier {
   readonly model: string
@@ -52,8 +52,9 @@ export class LabCatalogue {
     try {
       do {
         this.#again = false
-        this.all.value = await this.api.trajectories()
-        this.error.value = ''
+        const { trajectories, problem } = await this.api.trajectories()
+        this.all.value = trajectories
+        this.error.value = problem ? spoken(problem) : ''
       } while (this.#again)
     } catch (error) {
       this.error.value = sentence(error)

@@ -457,7 +457,14 @@ export const words: Words = {
     newLink: 'Neuen Link machen',
     remove: 'Entfernen',
     removeTitle: (name) => `${name} entfernen?`,
-    removeExplanation: 'Alle Anmeldungen dieser Person enden sofort. Trajektorien bleiben.',
+    removeExplanation: 'Alle Anmeldungen dieser Person, ihrer Geräte und Programme enden sofort.',
+    fate: 'Trajektorien und Uploads',
+    fates: {
+      keep: 'bleiben für die Lehrenden',
+      hand_over: 'gehen an jemand anderen; Unveröffentlichtes wird gelöscht',
+      erase: 'werden endgültig gelöscht',
+    },
+    heir: 'Wer sie bekommt',
     removed: (name) => `${name} wurde entfernt`,
     local:
       'Dieses Labor läuft nur für dich auf diesem Rechner. Mit Schlüsseln nimmt es weitere Personen auf: mrlab keys init.',
@@ -473,6 +480,15 @@ export const words: Words = {
     browser: 'Browser',
     thisOne: 'dieses hier',
     lastSeen: (when) => `zuletzt gesehen ${when}`,
+    until: (when) => `bis ${when}`,
+    addProgram: 'Programm hinzufügen',
+    program: 'Name des Programms',
+    goodFor: 'Es gilt',
+    days: (count) => (count === 1 ? 'einen Tag' : `${count} Tage`),
+    makeToken: 'Token machen',
+    tokenFor: (name) => `Token für ${name}`,
+    tokenExplanation:
+      'Das Programm sendet ihn im Header „Authorization: Bearer …“. Er wird nur dieses eine Mal gezeigt: Wer ihn hat, darf, was diese Rolle darf.',
     revoke: 'Beenden',
     revoked: (name) => `${name} ist abgemeldet`,
   },
@@ -1676,6 +1692,7 @@ export const diagnostics: Templates = {
   hand_mimics: [
     "{file}: Das Gelenk '{joint}' folgt '{other}' (mimic), das zu keinem angetriebenen Gelenk der Hand führt; erwartet wird eines, das selbst keinem folgt.",
   ],
+  handed_over: ['{count:count Trajektorie|Trajektorien} von {owner} gehören jetzt {to}.'],
   hand_of_its_own: [
     "Der Roboter '{robot}' hat eine eigene Hand.",
     'Lass den Endeffektor leer, oder importiere den Roboter noch einmal ohne seine Hand.',
@@ -2627,6 +2644,10 @@ export const diagnostics: Templates = {
   no_zip: [
     '{file} ist kein lesbares ZIP-Archiv ({why:problem}); erwartet wird der Export, wie das System ihn geschrieben hat, oder sein Ordner.',
   ],
+  nobodys_trajectories: [
+    "Trajektorien von '{owner}' können nicht an '{to}' gehen und nicht gelöscht werden.",
+    'Erwartet: die Kennungen zweier Personen; die Trajektorien des Labors bleiben.',
+  ],
   nobody_answers: [
     'Niemand antwortet auf {key}: Sein Knoten läuft nicht, der Roboter ist nicht da, oder der Schlüssel des Gateways darf ihn nicht aufrufen.',
   ],
@@ -2912,6 +2933,9 @@ export const diagnostics: Templates = {
     '{joint} bewegt sich mit {value:measure}; seine Grenze ist {limit:measure}.',
     'Lass die Bewegung mindestens {times:number}-mal so lange dauern.',
   ],
+  owner_erased: [
+    '{count:count Trajektorie|Trajektorien} von {owner} und alles, was {owner} hochgeladen hat, wurden gelöscht.',
+  ],
   own_pages_only: ['Das dürfen nur die eigenen Seiten dieses Gateways anfragen.'],
   package_descriptions: [
     "Das Paket '{package}' hat {count:count Beschreibung|Beschreibungen}[: {known:list}].",
@@ -2973,6 +2997,9 @@ export const diagnostics: Templates = {
   last_instructor: [
     '{name} ist die einzige Lehrperson dieses Labors.',
     'Mach zuerst jemand anderen zur Lehrperson.',
+  ],
+  last_known: [
+    'Das ist der letzte bekannte Stand, denn der Speicher antwortet nicht. {why:problem}',
   ],
   device_lets_in: [
     'Ein gekoppeltes Gerät kann kein anderes Gerät einlassen.',

@@ -6,7 +6,7 @@ import { reachable } from '../../src/pages/lab/join'
 import { FakeApi } from '../fake_api'
 
 test('a robot plays what is for its model, and for what it carries or for nothing', async () => {
-  const [made] = await new FakeApi().trajectories()
+  const [made] = (await new FakeApi().trajectories()).trajectories
   if (made === undefined) throw new Error('the fake has trajectories')
   const plain = { ...made, id: 'plain', robot_model: 'ur5e', end_effector: '', created: 1 }
   const gripping = { ...plain, id: 'gripping', end_effector: 'hand', created: 2 }

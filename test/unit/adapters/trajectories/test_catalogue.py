@@ -20,7 +20,11 @@ from mrlab_ros.adapters.trajectories.files import TrajectoryFiles
 from mrlab_ros.adapters.trajectories.npz_file import Damaged
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.trajectory.catalogue import TrajectoryName
-from mrlab_ros.core.trajectory.diagnostics import NO_TRAJECTORY_OF_NAME, OVER_QUOTA
+from mrlab_ros.core.trajectory.diagnostics import (
+    NO_TRAJECTORY_OF_NAME,
+    NOBODYS_TRAJECTORIES,
+    OVER_QUOTA,
+)
 
 DAY_NS = 86_400 * 10**9
 
@@ -345,3 +349,54 @@ def test_changes_that_cannot_be_read_are_read_anew(store, writer):
     assert orjson.loads(store.get(keys.CHANGES))["number"] == 2
     assert reader.refresh()
     assert ids(reader) == ["a@1", "b@1"]
+
+
+def sent(store, owner):
+    """Put an upload and a draft of somebody's into the store."""
+    number = keys.unique()
+    for key in (keys.upload(owner, number, "a.mat"), keys.draft(owner, number)):
+        store.put(key, b"x")
+
+
+def test_trajectories_change_hands_with_their_versions(store, writer, tmp_path):
+    reader = reader_of(store)
+    for name in ("anna/pick", "anna/pick", "anna/lift", "ben/pick", "annabel/pick"):
+        writer.save(make(name))
+    writer.delete("anna/lift")
+    for owner in ("anna", "annabel"):
+        sent(store, owner)
+    assert writer.hand_over("anna", "ben") == 2
+    assert ids(writer) == ["annabel/pick@1", "ben/pick@1", "ben/pick-2@2"]
+    assert writer.restore("ben/lift", 0).owner == "ben"
+    reader.refresh()
+    assert ids(reader) == ids(writer)
+    record, version = reader.find("ben/pick-2@1")
+    assert TrajectoryFiles(store, tmp_path).load(record, version).owner == "ben"
+    assert not store.list(keys.user("anna"))
+    assert len(store.list(keys.user("annabel"))) == 2
+    # What one has got is erased with all else, whoever made it.
+    assert writer.erase("ben") == 3
+    assert ids(writer) == ["annabel/pick@1"]
+    assert len(store.list(keys.VERSIONS)) == 1
+
+
+def test_erasing_leaves_nothing_of_somebody_and_all_of_the_others(store, writer, tmp_path):
+    for name in ("anna/pick", "anna/lift", "ben/pick", "quintic"):
+        record, version = writer.save(make(name))
+    writer.hand_over("ben", "carla")
+    (damaged, version) = writer.find("anna/lift")
+    writer.set_aside(damaged, version)
+    sent(store, "anna")
+    assert writer.erase("anna") == 1
+    assert ids(writer) == ["carla/pick@1", "quintic@1"]
+    # Its file is still where ben published it.
+    assert writer.erase("ben") == 0
+    record, version = writer.find("carla/pick")
+    assert TrajectoryFiles(store, tmp_path).load(record, version).frame_count == 4
+    assert not [key for key in store.objects if "anna" in key and key != keys.CHANGES]
+
+
+def test_the_labs_own_trajectories_belong_to_nobody(writer):
+    for act in (lambda: writer.erase(""), lambda: writer.hand_over("", "ben")):
+        with refused(NOBODYS_TRAJECTORIES, BadInput):
+            act()

@@ -5,8 +5,11 @@ from __future__ import annotations
 import asyncio
 import sqlite3
 import threading
+from pathlib import Path
+from typing import Any
 
 import pytest
+from fake_lab import FakeLab
 from fastapi.requests import HTTPConnection
 from gateway_side import Gateway, code_of
 
@@ -173,3 +176,35 @@ def test_the_last_instructor_stays_one(class_lab: Gateway) -> None:
 )
 def test_limits_count_an_ipv6_network_as_one_client(host: str, counted: str) -> None:
     assert address_of(HTTPConnection({"type": "http", "client": (host, 1)})) == counted
+
+
+def test_what_a_removed_person_owned_is_kept_given_or_erased(tmp_path: Path) -> None:
+    lab, refuse = FakeLab(), True
+
+    def answer(request: Any) -> dict[str, Any]:
+        return {"success": not refuse, "code": "handed_over"}
+
+    lab.serve("converter/hand_over", "mrlab_msgs/srv/HandOver", answer)
+    lab.serve("converter/erase", "mrlab_msgs/srv/Remove", answer)
+    with Gateway(tmp_path, public_url="https://lab.example.org", lab=lab) as gateway:
+        teacher = gateway.browser("teacher", Role.INSTRUCTOR)
+        for name in ("anna", "ben", "carla", "dora"):
+            gateway.people.accounts.add(name, Role.STUDENT)
+
+        def remove(path: str) -> tuple[int, str]:
+            response = teacher.send("DELETE", f"/api/people/{path}")
+            return (204, "") if response.status_code == 204 else code_of(response)
+
+        assert remove("anna?data=hand_over&to=nobody-here") == (404, "no_person")
+        assert remove("teacher?data=erase") == (409, "last_instructor")
+        assert not lab.calls
+        # Where the store does not do it the person stays, to try it again.
+        assert remove("anna?data=hand_over&to=dora") == (400, "handed_over")
+        assert gateway.people.accounts.get("anna")
+        refuse = False
+        assert remove("anna?data=hand_over&to=dora") == (204, "")
+        assert remove("ben?data=erase") == (204, "")
+        assert remove("carla") == (204, "")
+        assert [each.name for each in gateway.people.accounts.all()] == ["dora", "teacher"]
+        given, erased = (request for _, request in lab.calls[-2:])
+        assert (given.owner, given.to, erased.name) == ("anna", "dora", "ben")

@@ -272,12 +272,16 @@ def test_too_many_uploads_are_refused_with_a_time(school, anna):
 def test_a_store_that_fails_is_a_sentence_and_loses_nothing(school, anna):
     anna.publish("pick")
     school.store.broken = "it is away"
-    for answer in (anna.upload(), anna.get("/api/trajectories"),
-                   anna.get("/api/trajectories/anna/pick/motion")):  # fmt: skip
+    for answer in (anna.upload(), anna.get("/api/trajectories/anna/pick/motion")):
         assert code_of(answer) == (503, "store_failed")
         assert values_of(answer)["why"] == "it is away"
+    # What was read before is in memory, and is said to be that.
+    listed = anna.get("/api/trajectories").json()
+    assert [each["id"] for each in listed["trajectories"]] == ["anna/pick"]
+    assert listed["problem"]["code"] == "last_known"
     school.store.broken = ""
     assert anna.ids() == ["anna/pick@1"]
+    assert anna.get("/api/trajectories").json()["problem"] is None
     assert anna.get("/api/trajectories/anna/pick/motion").status_code == 200
 
 

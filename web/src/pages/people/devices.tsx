@@ -7,12 +7,14 @@ import { showToast } from '../../design/toast'
 import { session, useApi } from '../../shell/session'
 import { sentence } from '../../words/diagnostic'
 import { dateTime, words } from '../../words/words'
+import { TokenDialog } from './token_dialog'
 
-/** Headsets and browsers that are signed in; ending one closes its connection at once. */
+/** Headsets, programs and browsers that are signed in; ending one closes its connection at once. */
 export function Devices() {
   const api = useApi()
   const [devices, setDevices] = useState<readonly Device[] | null>(null)
   const [error, setError] = useState('')
+  const [adding, setAdding] = useState(false)
   const w = words.value.people
   const load = () => {
     api
@@ -36,12 +38,23 @@ export function Devices() {
         <h2 id="devices" class="grow">
           {w.devices}
         </h2>
+        <Button icon="link" onClick={() => setAdding(true)}>
+          {w.addProgram}
+        </Button>
         {session.value?.ways.pairing && (
           <ButtonLink icon="headset" href="/pair">
             {words.value.nav.pair}
           </ButtonLink>
         )}
       </div>
+      {adding && (
+        <TokenDialog
+          onClose={() => {
+            setAdding(false)
+            load()
+          }}
+        />
+      )}
       {error && (
         <Notice severity="error">
           <p>{error}</p>
@@ -57,7 +70,7 @@ export function Devices() {
               {device.this && <span class="chip chip-plain device-this">{w.thisOne}</span>}
               <p class="second small">
                 {device.approved_by}, {words.value.roles[device.role]} ·{' '}
-                {w.lastSeen(dateTime(device.last_seen))}
+                {w.lastSeen(dateTime(device.last_seen))} · {w.until(dateTime(device.expires))}
               </p>
             </div>
             {!device.this && (

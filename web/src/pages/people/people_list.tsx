@@ -1,5 +1,5 @@
 import { useEffect, useState } from 'preact/hooks'
-import type { InvitationLink, Person, Role } from '../../api/types'
+import type { Fate, InvitationLink, Person, Role } from '../../api/types'
 import { Button } from '../../design/button'
 import { Dialog } from '../../design/dialog'
 import { Field, Select } from '../../design/field'
@@ -64,16 +64,48 @@ function AddDialog(props: { onClose: () => void; onAdded: (link: InvitationLink)
   )
 }
 
-function RemoveDialog(props: { name: string; onClose: () => void; onRemove: () => void }) {
+interface RemoveProps {
+  name: string
+  others: readonly string[]
+  onClose: () => void
+  onRemove: (fate: Fate) => void
+}
+
+function RemoveDialog({ name, others, onClose, onRemove }: RemoveProps) {
+  const [data, setData] = useState<Fate['data']>('keep')
+  const [to, setTo] = useState(others[0] ?? '')
   const w = words.value.people
+  const fates = (['keep', 'hand_over', 'erase'] as const).filter(
+    (each) => each !== 'hand_over' || others.length > 0,
+  )
   return (
-    <Dialog title={w.removeTitle(props.name)} onClose={props.onClose}>
-      <p>{w.removeExplanation}</p>
-      <div class="dialog-actions">
-        <Button onClick={props.onClose}>{words.value.cancel}</Button>
-        <Button look="danger" icon="trash" onClick={props.onRemove}>
-          {w.remove}
-        </Button>
+    <Dialog title={w.removeTitle(name)} onClose={onClose}>
+      <div class="stack">
+        <p>{w.removeExplanation}</p>
+        <Select
+          label={w.fate}
+          value={data}
+          onChange={(value) => setData(value as Fate['data'])}
+          options={fates.map((each) => [each, w.fates[each]] as const)}
+        />
+        {data === 'hand_over' && (
+          <Select
+            label={w.heir}
+            value={to}
+            onChange={setTo}
+            options={others.map((each) => [each, each] as const)}
+          />
+        )}
+        <div class="dialog-actions">
+          <Button onClick={onClose}>{words.value.cancel}</Button>
+          <Button
+            look="danger"
+            icon="trash"
+            onClick={() => onRemove(data === 'hand_over' ? { data, to } : { data })}
+          >
+            {w.remove}
+          </Button>
+        </div>
       </div>
     </Dialog>
   )
@@ -102,10 +134,10 @@ export function PeopleList() {
     setShown({ kind: 'link', link })
     load()
   }
-  const remove = async (name: string) => {
+  const remove = async (name: string, fate: Fate) => {
     setShown(null)
     try {
-      await api.removePerson(name)
+      await api.removePerson(name, fate)
       showToast(w.removed(name))
     } catch (problem) {
       showToast(sentence(problem))
@@ -191,7 +223,12 @@ export function PeopleList() {
         <LinkDialog key={shown.link.url} link={shown.link} onClose={close} />
       )}
       {shown?.kind === 'remove' && (
-        <RemoveDialog name={shown.name} onClose={close} onRemove={() => void remove(shown.name)} />
+        <RemoveDialog
+          name={shown.name}
+          others={(people ?? []).map(({ name }) => name).filter((name) => name !== shown.name)}
+          onClose={close}
+          onRemove={(fate) => void remove(shown.name, fate)}
+        />
       )}
     </section>
   )

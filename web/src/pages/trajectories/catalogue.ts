@@ -1,7 +1,7 @@
 import { computed, signal } from '@preact/signals'
 import type { Api } from '../../api/api'
 import type { TrajectoryInfo } from '../../api/types'
-import { sentence } from '../../words/diagnostic'
+import { sentence, spoken } from '../../words/diagnostic'
 
 /** A list that others change is read this often. */
 const EVERY_MS = 5000
@@ -73,9 +73,9 @@ export class Catalogue {
   async load(): Promise<void> {
     const changes = this.#changes
     try {
-      const all = await this.api.trajectories()
+      const { trajectories: all, problem } = await this.api.trajectories()
       if (changes === this.#changes && !same(all, this.all.value)) this.all.value = all
-      this.error.value = ''
+      this.error.value = problem ? spoken(problem) : ''
     } catch (error) {
       this.error.value = sentence(error)
     }

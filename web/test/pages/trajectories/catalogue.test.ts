@@ -1,6 +1,6 @@
 // @vitest-environment jsdom
 import { expect, test, vi } from 'vitest'
-import type { TrajectoryInfo } from '../../../src/api/types'
+import type { Listing } from '../../../src/api/types'
 import {
   Catalogue,
   found,
@@ -79,14 +79,14 @@ test('a list that was asked for before something was deleted here does not bring
   const catalogue = new Catalogue(api, 'ada')
   await catalogue.load()
   const before = catalogue.all.value ?? []
-  let answer = (_all: readonly TrajectoryInfo[]) => {}
+  let answer = (_all: Listing) => {}
   api.trajectories = () =>
     new Promise((resolve) => {
       answer = resolve
     })
   const loading = catalogue.load()
   await catalogue.remove('ada/wave')
-  answer(before)
+  answer({ trajectories: before, problem: null })
   await loading
   expect(catalogue.all.value?.some((each) => each.id === 'ada/wave')).toBe(false)
 })
@@ -101,7 +101,7 @@ test('what others delete goes within seconds, and the list stays itself where no
   expect(first?.length).toBeGreaterThan(1)
   await vi.advanceTimersByTimeAsync(10_000)
   expect(catalogue.all.value).toBe(first)
-  api.trajectories = () => Promise.resolve((first ?? []).slice(1))
+  api.trajectories = () => Promise.resolve({ trajectories: (first ?? []).slice(1), problem: null })
   await vi.advanceTimersByTimeAsync(6000)
   expect(catalogue.all.value?.length).toBe((first?.length ?? 0) - 1)
   stop()
