@@ -31,6 +31,7 @@ from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.foreign_text import for_shell
 
 if TYPE_CHECKING:
+    from mrlab_ros.adapters.robots.importing import Face
     from mrlab_ros.adapters.robots.library import RobotLibrary
 
 app = typer.Typer(
@@ -267,6 +268,18 @@ def import_robot(
     speed: Annotated[
         float, typer.Option(min=0.0, help="rad/s or m/s of the arm's joints that state none.")
     ] = 0.0,
+    tool: Annotated[
+        str,
+        typer.Option(
+            help="What it holds with in place of fingers, along z of its tip: cup or magnet."
+        ),
+    ] = "",
+    lip: Annotated[
+        str, typer.Option(help="With --tool: radius of the lip or the face, such as 20mm.")
+    ] = "20mm",
+    force: Annotated[
+        float, typer.Option(min=0.1, help="With --tool: N with which it holds.")
+    ] = 45.0,
     sheet: Annotated[
         Path | None,
         typer.Option(help="A .png or .html for the sheet with picture, axes, limits and hand."),
@@ -306,6 +319,7 @@ def import_robot(
             tip=tip,
             srdf=srdf,
             speed=speed,
+            face=_face(tool, lip, force),
         )
     except BadInput as error:
         found = error.diagnostic
@@ -348,6 +362,22 @@ def import_robot(
         print(f"with a picture of it: mrlab robots sheet {wanted} --out {wanted}.html")
     else:
         print(sheet.resolve())
+
+
+def _face(tool: str, lip: str, force: float) -> Face | None:
+    """Return what --tool, --lip and --force say; None without --tool."""
+    from mrlab_ros.adapters.robots.importing import Face
+    from mrlab_ros.commands.check.command import metres
+    from mrlab_ros.core.base.checks import bad_value
+    from mrlab_ros.core.base.diagnostics import ONE_OF
+    from mrlab_ros.core.physics.grasp.kinds import KINDS
+
+    if not tool:
+        return None
+    pulling = [kind.name for kind in KINDS.values() if kind.pulls]
+    if tool not in pulling:
+        raise bad_value("--tool", tool, ONE_OF(choices=pulling))
+    return Face(tool, force, metres(lip, "--lip"))
 
 
 @app.command()

@@ -141,7 +141,7 @@ class Fingers:
                 way = add(way, moved)
             size = math.hypot(*way)
             return -dot(way, normal) / size if size > 0 else 0.0
-        if arm.links[link] not in arm.facts.tool_links:
+        if arm.links[link] not in arm.facts.face_links:
             return 0.0
         tool = self._tool(arm)
         return -dot(rotate(tool, (0.0, 0.0, 1.0)), normal)

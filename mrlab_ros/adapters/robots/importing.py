@@ -7,7 +7,7 @@ import shutil
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import degrees
 from pathlib import Path
 from typing import Any
@@ -26,7 +26,7 @@ from mrlab_ros.adapters.robots.diagnostics import (
     ROBOT_STILL,
 )
 from mrlab_ros.adapters.robots.drawing import Assembly
-from mrlab_ros.adapters.robots.library import MESH_PREFIX, RobotLibrary
+from mrlab_ros.adapters.robots.library import MESH_PREFIX, TIP, RobotLibrary
 from mrlab_ros.adapters.robots.source import MeshFinder, description_text, packages_around
 from mrlab_ros.core.base.diagnostic import Diagnostic, Severity
 from mrlab_ros.core.base.errors import BadInput
@@ -39,6 +39,16 @@ ASSUMED_SPEED = np.pi
 # Share of a joint's range by which its home is away from the ends at least.
 HOME_MARGIN = 0.05
 ID = re.compile(r"[a-z][a-z0-9_]{0,47}")
+
+
+@dataclass(frozen=True)
+class Face:
+    """A face that pulls what it touches. kind: of `core.physics.grasp.kinds`; force: N; radius: m,
+    of its lip."""
+
+    kind: str
+    force: float
+    radius: float
 
 
 @dataclass(frozen=True)
@@ -63,16 +73,18 @@ def import_robot(
     tip: str = "",
     srdf: Path | None = None,
     speed: float = 0.0,
+    face: Face | None = None,
 ) -> Imported:
     """Read a URDF or a xacro, tell the arm from the hand, and install it under `robot_id`.
 
     packages: folders of package:// URIs and of xacro's $(find), before those in whose source tree
-    the file lies and the installed ones. arguments: of the xacro, NAME:=VALUE. tip: the last
-    link of the arm; empty: found. srdf: a file whose planning groups name the arm; None: the one
+    the file lies and the installed ones. arguments: of the xacro, NAME:=VALUE. tip: the last link
+    of the arm; empty: found. srdf: a file whose planning groups name the arm; None: the one
     beside the description, if any. speed: rad/s or m/s, of the arm's joints that state none; 0:
-    only a continuous joint may leave it out. With a finding that is an error nothing is
-    installed. Raises BadInput for an id that is malformed or already used, and where the file
-    cannot be understood.
+    only a continuous joint may leave it out. face: what it holds with in place of fingers, at its
+    tip and along the axis z of that; None: with its fingers, if any. With a finding that is an
+    error nothing is installed. Raises BadInput for an id that is malformed or already used, and
+    where the file cannot be understood.
     """
     if not ID.fullmatch(robot_id):
         raise BadInput(BAD_ROBOT_ID(robot=robot_id))
@@ -89,6 +101,12 @@ def import_robot(
     if checks.errors(tree):
         return Imported(tree)
     parts = split(root, source.name, tip, _groups(source, srdf, root))
+    if face is not None and not any(link.get("name") == TIP for link in root.iterfind("link")):
+        ET.SubElement(root, "link", name=TIP)
+        frame = ET.SubElement(root, "joint", name=f"{parts.tip}-{TIP}", type="fixed")
+        ET.SubElement(frame, "parent", link=parts.tip)
+        ET.SubElement(frame, "child", link=TIP)
+        parts = replace(parts, tip=TIP)
     assumed = _keep_still(root, parts) + _state_speeds(root, parts, speed)
     hand = frozenset(joint.name for joint in parts.hand)
     with _new_folder(library.imported / robot_id) as folder:
@@ -110,6 +128,8 @@ def import_robot(
         body = ET.tostring(root, encoding="unicode")
         (folder / "robot.urdf").write_text(f'<?xml version="1.0"?>\n{body}\n', encoding="utf-8")
         facts = _facts(root, robot_id, parts, source)
+        if face is not None:
+            facts |= {"gripper": face.kind, "force": face.force, "lip_radius": face.radius}
         facts["notes"] += [one.message for one in found if one.severity is not Severity.INFO]
         (folder / "robot.yaml").write_text(
             yaml.safe_dump(facts, sort_keys=False, allow_unicode=True), encoding="utf-8"

@@ -71,7 +71,10 @@ class RobotLibrary:
 
     def end_effectors(self) -> tuple[str, ...]:
         """Return the ids of the end effectors, sorted."""
-        return _folders_with(self.folder / END_EFFECTORS, "end_effector.yaml")
+        places = (folder / END_EFFECTORS for folder in (self.folder, self.imported))
+        return tuple(
+            sorted({i for place in places for i in _folders_with(place, "end_effector.yaml")})
+        )
 
     def model(self, robot_id: str) -> RobotModel:
         """Return a robot model; raise BadInput that names the known ids."""
@@ -99,7 +102,7 @@ class RobotLibrary:
         if facts.get("hand"):
             raise BadInput(HAND_OF_ITS_OWN(robot=robot_id))
         place = f"{END_EFFECTORS}/{end_effector}"
-        beside += levels(self.folder / place, f"{MESH_PREFIX}{place}")
+        beside += levels(self._end_effector_folder(end_effector), f"{MESH_PREFIX}{place}")
         return added(_composed(robot, tool, facts, end_effector), beside)
 
     def own_description(self, robot_id: str) -> str:
@@ -127,27 +130,30 @@ class RobotLibrary:
         """Return the content of end_effector.yaml."""
         return read_yaml(self._end_effector_folder(end_effector) / "end_effector.yaml")
 
-    def gripper(self, end_effector: str) -> Gripper:
-        """Return how an end effector holds; empty: the fingers of the robot's own, if any.
+    def gripper(self, robot_id: str, end_effector: str) -> Gripper:
+        """Return how an end effector holds; empty: what the robot has of its own, if any.
 
-        Raises BadInput for an unknown id, and where its file does not say a way that there is.
+        Raises BadInput for an unknown id, and where a file does not say a way that there is.
         """
-        if not end_effector:
-            return kinds.FINGERS
-        said = self.end_effector_facts(end_effector).get("gripper")
-        if said not in KINDS:
+        if end_effector:
+            said = self.end_effector_facts(end_effector).get("gripper")
             file = f"{END_EFFECTORS}/{end_effector}/end_effector.yaml"
+        else:
+            said = self.facts(robot_id).get("gripper", kinds.FINGERS.name)
+            file = f"{robot_id}/robot.yaml"
+        if said not in KINDS:
             raise bad_value(FIELD(place=file, key="gripper"), said, ONE_OF(choices=[*KINDS]))
         return KINDS[said]
 
     def hand_facts(self, robot_id: str, end_effector: str) -> Tool:
         """Return what is stated of a robot's hand; raise BadInput for an unknown id."""
-        facts = self.end_effector_facts(end_effector) if end_effector else {}
+        robot = self.facts(robot_id)
+        facts = self.end_effector_facts(end_effector) if end_effector else robot
         return Tool(
-            float(self.facts(robot_id).get("payload") or 0.0),
+            float(robot.get("payload") or 0.0),
             float(facts.get("force", 0.0)),
             float(facts.get("lip_radius", 0.0)),
-            str(self.facts(robot_id).get("tip_link", "")),
+            str(robot.get("tip_link", "")),
         )
 
     def collision_description(self, robot_id: str, end_effector: str | None = None) -> str:
@@ -205,7 +211,8 @@ class RobotLibrary:
         if end_effector not in known:
             close = close_to(end_effector, known)
             raise BadInput(NO_END_EFFECTOR(end_effector=end_effector, known=[*known], close=close))
-        return self.folder / END_EFFECTORS / end_effector
+        own = self.folder / END_EFFECTORS / end_effector
+        return own if own.is_dir() else self.imported / END_EFFECTORS / end_effector
 
     def _read_model(self, robot_id: str) -> RobotModel:
         folder = self._robot_folder(robot_id)

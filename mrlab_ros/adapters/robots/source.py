@@ -30,6 +30,7 @@ from mrlab_ros.adapters.sandbox import calls, restrictions
 from mrlab_ros.core.base.errors import BadInput
 
 SUFFIXES = (".urdf", ".xacro")
+XACRO_ELEMENT = "<xacro:"
 MOST_BYTES = 64 << 20  # of a URDF
 OTHERS = 0o077  # what the mode of a file or folder gives to others than its owner
 
@@ -92,23 +93,26 @@ def _package_name(manifest: Path) -> str:
 def description_text(
     path: Path, packages: Mapping[str, Path], arguments: Sequence[str] = ()
 ) -> str:
-    """Return the URDF's text; a file that ends in .xacro is expanded with NAME:=VALUE arguments.
+    """Return the URDF's text; a xacro is expanded with NAME:=VALUE arguments.
 
-    packages: folders that $(find NAME) means, before installed ones. Raises BadInput where the
-    file cannot be read, or xacro refuses it.
+    A file that ends in .xacro is one, and any that holds elements of it. packages: folders that
+    $(find NAME) means, before installed ones. Raises BadInput where the file cannot be read, or
+    xacro refuses it.
     """
     if path.suffix != ".xacro":
-        if arguments:
-            raise BadInput(NO_XACRO(file=path.name, arguments=[*arguments]))
         try:
             if path.stat().st_size > MOST_BYTES:
                 raise BadInput(URDF_TOO_LARGE(file=str(path), most=MOST_BYTES))
-            return path.read_text(encoding="utf-8")
+            plain_text = path.read_text(encoding="utf-8")
         except OSError as error:
             why = error.strerror or str(error)
             raise BadInput(FILE_UNREADABLE(file=str(path), why=why)) from None
         except UnicodeDecodeError:
             raise BadInput(NOT_UTF8(file=str(path))) from None
+        if XACRO_ELEMENT not in plain_text:
+            if arguments:
+                raise BadInput(NO_XACRO(file=path.name, arguments=[*arguments]))
+            return plain_text
     given = dict(_argument(text) for text in arguments)
     if not all(restrictions.layers().values()):
         plain = f"{path.stem.removesuffix('.urdf')}.urdf"

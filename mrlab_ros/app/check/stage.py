@@ -175,7 +175,7 @@ class Stage:
             self.library.description(model, tool or None),
             robot.model.joint_names,
             robot.pose,
-            self.library.gripper(tool),
+            self.library.gripper(model, tool),
             self.library.never_touch(model),
             self.library.hand_facts(model, tool),
         )

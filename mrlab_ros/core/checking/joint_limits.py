@@ -250,10 +250,13 @@ def _of_joint(one: JointFigures, robot: str, end: float) -> Iterator[Diagnostic]
     ):
         if speed > REST_SHARE * most:
             yield code(**at, time=time, value=speed, limit=REST_SHARE * most, unit="rad/s")
-    for code, times, value in ((ZIGZAG, one.backs, one.back), (SMALL_JUMPS, one.jumps, one.jump)):
-        if times:
-            yield code(**at, time=times[0], value=value, unit="rad/s", count=len(times))
-            return
+    # A row that goes back is either; one of the two says it.
+    zigzags = len(one.backs) >= len(one.jumps)
+    times, value = (one.backs, one.back) if zigzags else (one.jumps, one.jump)
+    if times:
+        code = ZIGZAG if zigzags else SMALL_JUMPS
+        yield code(**at, time=times[0], value=value, unit="rad/s", count=len(times))
+        return
     if one.jolts:
         yield SPEED_STEP(
             **at,

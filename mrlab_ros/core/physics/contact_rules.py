@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from mrlab_ros.core.base.geometry import dot, rotate
 from mrlab_ros.core.physics.engine import Kind, Touch
-from mrlab_ros.core.physics.grasp.states import INWARDS
+from mrlab_ros.core.physics.grasp.states import INWARDS, opposed
 from mrlab_ros.core.physics.simulated_robot import Pressed, Robot
 from mrlab_ros.core.physics.world_state import WorldState
 
@@ -47,8 +47,23 @@ def may_touch(robot: Robot, touch: Touch, name: str, link: str = "") -> bool:
     if name in robot.leaving and link in robot.arm.grip_links | robot.arm.tool_links:
         return True
     if robot.gripper.closes:
-        return link in robot.finger_links and robot.closed and touch.grip >= INWARDS
-    return robot.gripper.pulls and link in robot.arm.tool_links and touch.grip >= INWARDS
+        return robot.closed and (
+            touch.grip >= INWARDS
+            if link in robot.finger_links
+            else link in robot.arm.grip_links and _against(robot, touch)
+        )
+    return robot.gripper.pulls and link in robot.arm.face_links and touch.grip >= INWARDS
+
+
+def _against(robot: Robot, touch: Touch) -> bool:
+    """Return whether a finger presses what is touched against this link of the hand."""
+    return any(
+        finger.other == touch.other
+        and finger.link in robot.finger_links
+        and finger.grip >= INWARDS
+        and opposed(finger, touch)
+        for finger in robot.touches
+    )
 
 
 def _held_counts(state: WorldState, robot: Robot, touch: Touch) -> bool:

@@ -18,6 +18,12 @@ SIDE_OF_CUP = Code(
     severity=WARNING,
     meaning="A vacuum cup reached an object, but not with its lip.",
 )
+SIDE_OF_MAGNET = Code(
+    "side_of_magnet",
+    "The magnet touches {object} with its side.",
+    severity=WARNING,
+    meaning="A magnet reached an object, but not with its face.",
+)
 NO_SEAL_AT_EDGE = Code(
     "no_seal_at_edge",
     "The cup does not seal: {share:share} of its lip is on {object}; an edge, a hole or a rim "
@@ -58,6 +64,13 @@ CAME_OFF_CUP = Code(
     "{friction_needed:number}.",
     severity=WARNING,
     meaning="Suction did not hold an object any longer.",
+)
+CAME_OFF_MAGNET = Code(
+    "came_off_magnet",
+    "{object} came off the magnet: {mass:mass}, friction {friction:number}, needed "
+    "{friction_needed:number}.",
+    severity=WARNING,
+    meaning="A magnet did not hold an object any longer.",
 )
 SLIPPED_OUT = Code(
     "slipped_out",

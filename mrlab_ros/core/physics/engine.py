@@ -118,6 +118,11 @@ class Arm:
     tool_mass: float = 0.0
     moving_mass: float = 0.0
 
+    @property
+    def face_links(self) -> frozenset[str]:
+        """The links of a face that pulls: of the tool, or what is rigid with an arm's end."""
+        return self.tool_links or self.grip_links
+
 
 @dataclass(frozen=True)
 class FingerState:

@@ -244,7 +244,8 @@ class Grippers:
             )
             for touches in pinched[1]
         ]
-        return (thing, fingers_grip(contacts)), None
+        backed = any(touches[0].link not in robot.finger_links for touches in pinched[1])
+        return (thing, fingers_grip(contacts, backed=backed)), None
 
     @staticmethod
     def _in_hand(hand: Pose, way: Vector) -> Vector:
@@ -272,7 +273,7 @@ class Grippers:
         for touch in robot.touches:
             if (
                 touch.kind is Kind.OBJECT
-                and touch.link in robot.arm.tool_links
+                and touch.link in robot.arm.face_links
                 and touch.other != robot.lost
                 and touch.other in objects
                 and objects[touch.other].graspable

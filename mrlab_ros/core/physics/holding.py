@@ -155,8 +155,15 @@ class Holding:
             mass,
             robot.payload,
             thing.type.body.friction,
-            robot.tool.force if held.grip.kind.pulls else robot.arm.grip_force,
+            self._force(robot, held.grip),
         )
+
+    @staticmethod
+    def _force(robot: Robot, grip: Grip) -> float:
+        """Return what presses on an object from all sides together, N, or pulls at it."""
+        if grip.kind.pulls:
+            return robot.tool.force
+        return robot.arm.grip_force * (2.0 if grip.backed else 1.0)
 
     @staticmethod
     def _stands(robot: Robot) -> bool:

@@ -177,7 +177,9 @@ class Robot:
             len(self.joints), round(s.max_silence * SECOND), round(s.max_catch_up * SECOND)
         )
         self.clearance = Clearance(s.clear_margin, round(s.clear_time * SECOND))
-        self.watch = StallWatch(self.arm.fingers, s.stall_share, round(s.stall_time * SECOND))
+        self.watch = StallWatch(
+            self.arm.fingers, self.arm.grip_links, s.stall_share, round(s.stall_time * SECOND)
+        )
         self.snapshots = Snapshots(s.snapshot_rate, s.snapshot_count)
         self.finger_links = frozenset(f.link for f in self.arm.fingers)
 

@@ -84,6 +84,24 @@ GANTRY = "\n".join([
 ])  # fmt: skip
 
 
+def _box(size: str, at: str) -> str:
+    return f"""<collision><origin xyz="{at}"/><geometry><box size="{size}"/></geometry>
+      </collision>"""
+
+
+# A gantry with a hand of one jaw: it closes on what is fixed to the palm.
+JAWED = GANTRY.replace("</robot>", "".join([
+    _link("palm", 0.2, _box("0.02 0.09 0.03", "0 0 0.035")),
+    _link("fixed_jaw", 0.1, _box("0.02 0.01 0.06", "0 -0.035 0.08")),
+    _link("jaw", 0.1, _box("0.02 0.01 0.06", "0 0 0.03")),
+    _joint("hand", "fixed", "tool0", "palm", "0 0 1"),
+    _joint("beside", "fixed", "palm", "fixed_jaw", "0 0 1"),
+    '<joint name="jaw" type="revolute"><parent link="palm"/><child link="jaw"/>'
+    '<origin xyz="0 0.035 0.05"/><axis xyz="1 0 0"/>'
+    '<limit lower="-0.6" upper="0.9" velocity="1.5" effort="3"/></joint></robot>',
+]))  # fmt: skip
+
+
 def gantry(folder: Path) -> RobotLibrary:
     """Return a library with a gantry, made below `folder`."""
     place = folder / "gantry"

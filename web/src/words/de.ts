@@ -1240,6 +1240,9 @@ export const diagnostics: Templates = {
   came_off_cup: [
     '{object} hat sich vom Sauger gelöst: {mass:mass}, Reibung {friction:number}, nötig {friction_needed:number}.',
   ],
+  came_off_magnet: [
+    '{object} hat sich vom Magneten gelöst: {mass:mass}, Reibung {friction:number}, nötig {friction_needed:number}.',
+  ],
   candidate: ["'{variable}' ({size}): {reasons:reasons}"],
   cannot_hold_fixed: ['{robot} kann {object} nicht halten: Es steht fest im Raum.'],
   capped: ['{found:problem}; deshalb gibt es insgesamt höchstens {most:number} Punkte.'],
@@ -3551,6 +3554,7 @@ export const diagnostics: Templates = {
     'Punkt {point:integer} hat {count:count Position|Positionen} für {joints:count Gelenk|Gelenke}',
   ],
   side_of_cup: ['Der Sauger berührt {object} mit der Seite.'],
+  side_of_magnet: ['Der Magnet berührt {object} mit der Seite.'],
   sign_in_ended: [
     'Deine Anmeldung ist beendet, oder deine Rolle hat sich geändert.',
     'Melde dich an.',

@@ -9,10 +9,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from mrlab_ros.core.base.diagnostic import Code
-from mrlab_ros.core.physics.diagnostics import CAME_OFF_CUP, SIDE_OF_CUP
+from mrlab_ros.core.physics.diagnostics import (
+    CAME_OFF_CUP,
+    CAME_OFF_MAGNET,
+    SIDE_OF_CUP,
+    SIDE_OF_MAGNET,
+)
 
 # Coefficient of a rubber pad; an object's own coefficient is multiplied with it, as in the engine.
 PAD_FRICTION = 1.5
+# The same of a bare steel face.
+FACE_FRICTION = 0.5
 # The same of a dry cup: suppliers reckon with 0.5 on metal, glass, wood (VDI 2259 tables).
 CUP_FRICTION = 1.0
 
@@ -42,4 +49,11 @@ class Gripper:
 NONE = Gripper("none")
 FINGERS = Gripper("fingers", closes=True)
 CUP = Gripper("cup", pulls=True, seals=True, friction=CUP_FRICTION, yields=0.005)
-KINDS = {kind.name: kind for kind in (NONE, FINGERS, CUP)}
+MAGNET = Gripper(
+    "magnet",
+    pulls=True,
+    friction=FACE_FRICTION,
+    beside=SIDE_OF_MAGNET,
+    came_off=CAME_OFF_MAGNET,
+)
+KINDS = {kind.name: kind for kind in (NONE, FINGERS, CUP, MAGNET)}

@@ -57,12 +57,14 @@ class Tool:
 class Grip:
     """How an object is gripped, in the frame of the hand. point: m, the middle of the contacts;
     axes: unit, their normals, or one, out of a face that pulls; spread: m, from the contacts to
-    the point, or the radius of the face."""
+    the point, or the radius of the face. backed: a finger presses against the hand itself, which
+    presses back as much."""
 
     point: Vector
     axes: tuple[Vector, ...]
     spread: float
     kind: Gripper = FINGERS
+    backed: bool = False
 
 
 @dataclass(frozen=True)
@@ -96,11 +98,14 @@ class Load:
         )
 
 
-def fingers_grip(contacts: Sequence[tuple[Vector, Vector]]) -> Grip:
-    """Return the grip of fingers at `contacts`: (point, normal) each, in the frame of the hand."""
+def fingers_grip(contacts: Sequence[tuple[Vector, Vector]], *, backed: bool = False) -> Grip:
+    """Return the grip of fingers at `contacts`: (point, normal) each, in the frame of the hand.
+
+    backed: see Grip.
+    """
     between = middle([point for point, _ in contacts])
     spread = sum(math.dist(point, between) for point, _ in contacts) / len(contacts)
-    return Grip(between, tuple(normal for _, normal in contacts), spread)
+    return Grip(between, tuple(normal for _, normal in contacts), spread, backed=backed)
 
 
 def attached(tool0: Vector, centre: Vector, mass: float, payload: float) -> Load:

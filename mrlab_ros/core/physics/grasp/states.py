@@ -64,19 +64,31 @@ TABLE: Table[Grasp, GraspEvent] = Table(
 del G, E
 
 
+def opposed(a: Touch, b: Touch) -> bool:
+    """Return whether two contacts of an object press against each other."""
+    return dot(a.normal, b.normal) < OPPOSED
+
+
+def _oppose(some: Sequence[Sequence[Touch]], others: Sequence[Sequence[Touch]]) -> bool:
+    return any(opposed(a[0], b[0]) for a in some for b in others)
+
+
 class StallWatch:
     """Detects fingers that make no progress, and records what they touched.
 
     A finger is stalled when it closed by less than `share` of what it would have covered freely
     in `span_ns`. Contacts count for the same span: a finger pressed against something hard loses
-    touch with it every few steps.
+    touch with it every few steps. palm: the links of the hand itself, which a jaw closes against.
     """
 
-    def __init__(self, fingers: Sequence[Finger], share: float, span_ns: int) -> None:
+    def __init__(
+        self, fingers: Sequence[Finger], palm: frozenset[str], share: float, span_ns: int
+    ) -> None:
         self._fingers = tuple(fingers)
         self._least = [share * f.max_velocity * span_ns / SECOND for f in self._fingers]
         self._span_ns = span_ns
         self._links = frozenset(finger.link for finger in self._fingers)
+        self._palm = palm - self._links
         self.reset()
 
     def reset(self) -> None:
@@ -90,8 +102,9 @@ class StallWatch:
     ) -> frozenset[str]:
         """Return the links of the fingers that are stalled at `now_ns`."""
         for touch in touches:
-            inwards = touch.kind is Kind.OBJECT and touch.grip >= INWARDS
-            if inwards and touch.link in self._links and not touch.held:
+            if touch.kind is not Kind.OBJECT or touch.held:
+                continue
+            if touch.link in self._palm or (touch.link in self._links and touch.grip >= INWARDS):
                 key = (touch.link, touch.other)
                 if self._touched.get(key, (0, []))[0] != now_ns:
                     self._touched[key] = (now_ns, [])
@@ -124,16 +137,20 @@ class StallWatch:
         )
 
     def pinched(self, now_ns: int) -> tuple[str, tuple[Sequence[Touch], ...]] | None:
-        """Return the first object, by name, that two opposing stalled fingers touch inwards, and
-        the newest touches of each of its fingers."""
+        """Return the first object, by name, between two opposing stalled fingers, or one and the
+        hand itself, and the newest touches of each of these."""
         by_object: dict[str, list[Sequence[Touch]]] = {}
         for (link, other), (seen_ns, touches) in self._touched.items():
-            if link in self._stalled and now_ns - seen_ns <= self._span_ns:
+            stalled = link in self._stalled or link in self._palm
+            if stalled and now_ns - seen_ns <= self._span_ns:
                 by_object.setdefault(other, []).append(touches)
         for name in sorted(by_object):
-            normals = [touches[0].normal for touches in by_object[name]]
-            if any(dot(a, b) < OPPOSED for i, a in enumerate(normals) for b in normals[i + 1 :]):
-                return name, tuple(by_object[name])
+            pressed = [of for of in by_object[name] if of[0].link in self._links]
+            palm = [of for of in by_object[name] if of not in pressed]
+            if _oppose(pressed, pressed):
+                return name, tuple(pressed)
+            if _oppose(pressed, palm):
+                return name, tuple(pressed + palm)
         return None
 
     def wedged(self, states: Sequence[FingerState]) -> bool:

@@ -7,7 +7,7 @@ import random
 
 import numpy as np
 import pytest
-from physics_cell import LIP, PADS, TYPES, Cell, gantry
+from physics_cell import JAWED, JOINTS, LIP, PADS, TYPES, Cell, gantry
 
 from mrlab_ros.adapters.bullet.objects import LOOKED_AT
 from mrlab_ros.core.base.geometry import Pose
@@ -21,6 +21,8 @@ from mrlab_ros.core.physics.diagnostics import (
     TOO_WIDE,
 )
 from mrlab_ros.core.physics.engine import Kind
+from mrlab_ros.core.physics.grasp.kinds import FINGERS
+from mrlab_ros.core.physics.grasp.load import Tool
 from mrlab_ros.core.physics.grasp.states import Grasp
 from mrlab_ros.core.physics.simulated_robot import GripperProgram
 from mrlab_ros.core.scene.surfaces import Surface
@@ -317,6 +319,24 @@ def a_bar_that_one_robot_holds_meets_the_other_robot(cell):
     cell.add("b", at=(0.6, 0.0, 0.32))
     cell.go("a", (0.3, 0.0, 0.32 + PADS), 0.6)
     assert ("a", "gripper_base_link", bar, "b") in cell.hits()
+
+
+@scene
+def one_jaw_holds_against_the_hand(cell):
+    for kind, beside in (("cube", 0.003), ("round", -0.003)):
+        name, height = f"a_{kind}", TYPES.get(kind).size[2]
+        at = (0.5 * len(cell.at), beside, max(0.116, height + 0.055), 0.0, 0.0)
+        cell.put(kind, (at[0], 0.0, height / 2), name=kind)
+        cell.join(name, JAWED, JOINTS, (*at[:2], at[2] + ABOVE, 0.0, 0.0), FINGERS, Tool(5.0))
+        cell.go(name, at, 0.4)
+        cell.close(name, 2.0)
+        cell.go(name, (*at[:2], at[2] + 0.2), 0.6)
+        assert cell.grasps(name) == HELD
+        assert cell.place(kind)[2] > 0.2
+        # The torque of 3 N m on the jaw's 0.15 m, and as much from the hand.
+        load = cell.world.robot(name).holding.load
+        assert load.friction_needed < 1.03 * load.mass * G / 40
+    assert not cell.hits()
 
 
 @scene

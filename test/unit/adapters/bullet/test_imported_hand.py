@@ -6,11 +6,12 @@ import math
 from pathlib import Path
 
 import pytest
-from physics_cell import ROOT, Cell
+from physics_cell import JOINTS, ROOT, Cell, gantry
 
 from mrlab_ros.adapters.robots import checks
-from mrlab_ros.adapters.robots.importing import import_robot
+from mrlab_ros.adapters.robots.importing import Face, import_robot
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.physics.grasp import kinds
 from mrlab_ros.core.physics.grasp.states import Grasp
 
@@ -55,6 +56,64 @@ def reach(x: float, y: float, z: float) -> tuple[float, ...]:
     bend = math.acos((across**2 + up**2 - 2 * ARM**2) / (2 * ARM**2))
     lift = math.atan2(across, up) - math.atan2(ARM * math.sin(bend), ARM + ARM * math.cos(bend))
     return (math.atan2(y, x), lift, bend, math.pi - lift - bend)
+
+
+def blocks(language: str) -> list[str]:
+    """Return the blocks of the docs' section on a tool of one's own."""
+    text = (ROOT / "docs" / "robots.md").read_text(encoding="utf-8")
+    section = text.partition("### A tool of your own")[2].partition("\n## ")[0]
+    return [part.partition("```")[0] for part in section.split(f"```{language}\n")[1:]]
+
+
+def test_a_magnet_made_by_the_docs_lifts_a_carton(tmp_path: Path):
+    folder = tmp_path / "end_effectors" / "magnet"
+    folder.mkdir(parents=True)
+    (folder / "end_effector.yaml").write_text(*blocks("yaml"))
+    (folder / "end_effector.urdf").write_text(*blocks("xml"))
+    library = gantry(tmp_path)
+    assert "magnet" in library.end_effectors()
+    cell = Cell(library)
+    carton = cell.put("carton", (0.0, 0.0, 0.1))
+    text, tool = library.description("gantry", "magnet"), library.hand_facts("gantry", "magnet")
+    top = cell.world.object(carton).type.size[2] + 0.012 + 0.06
+    at = (0.0, 0.0, top + 0.05, 0.0, 0.0)
+    cell.join("a", text, JOINTS, at, library.gripper("gantry", "magnet"), tool)
+    cell.go("a", (0.0, 0.0, top - 0.001), 0.4)
+    cell.close("a", 0.8)
+    cell.go("a", (0.0, 0.0, top + 0.3), 0.6)
+    assert cell.grasps("a") == [Grasp.OPEN, Grasp.CLOSING, Grasp.HOLDING]
+    assert cell.place(carton)[2] > 0.3
+    assert not cell.hits()
+
+
+def test_an_imported_arm_says_that_it_holds_with_a_cup(tmp_path: Path):
+    source = tmp_path / "own.urdf"
+    source.write_text(ROBOT.partition('<joint name="finger_1"')[0] + "</robot>")
+    text = source.read_text()
+    for link_name in ("left", "right"):
+        start = text.index(f'<link name="{link_name}"')
+        text = text[:start] + text[text.index("</link>", start) + len("</link>") :]
+    source.write_text(text)
+    library = RobotLibrary(ROOT / "robots", tmp_path / "imported")
+    found = import_robot(source, "own", library, {}, face=Face("cup", 40.0, 0.01)).findings
+    assert checks.errors(found) == ()
+    assert library.gripper("own", "") is kinds.CUP
+    cell = Cell(library)
+    carton = cell.put("carton", (0.5, 0.0, 0.0))
+    height = cell.world.object(carton).type.size[2]
+    cell.world.move(
+        carton, Pose((0.5, 0.0, height / 2)), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), held=False
+    )
+    # The pads' place is 55 mm ahead of the palm's face.
+    above = reach(0.5, 0.0, height - 0.055 + 0.05)
+    names = library.model("own").joint_names
+    tool = library.hand_facts("own", "")
+    cell.join("a", library.description("own"), names, above, library.gripper("own", ""), tool)
+    cell.go("a", reach(0.5, 0.0, height - 0.055 - 0.001), 0.5)
+    cell.close("a", 0.8)
+    cell.go("a", above, 0.5)
+    assert cell.grasps("a") == [Grasp.OPEN, Grasp.CLOSING, Grasp.HOLDING]
+    assert cell.place(carton)[2] > height / 2 + 0.04
 
 
 def test_an_imported_hand_picks_a_cube_and_sets_it_down(tmp_path: Path):

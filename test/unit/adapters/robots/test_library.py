@@ -14,7 +14,7 @@ from mrlab_ros.adapters.robots.diagnostics import NO_END_EFFECTOR, NO_ROBOT_MODE
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.core.base.diagnostics import ONE_OF
 from mrlab_ros.core.base.errors import BadInput
-from mrlab_ros.core.physics.grasp.kinds import KINDS, Gripper
+from mrlab_ros.core.physics.grasp.kinds import KINDS
 
 ROBOTS = Path(__file__).resolve().parents[4] / "robots"
 LIBRARY = RobotLibrary(ROBOTS, ROBOTS / "none imported")
@@ -92,7 +92,7 @@ def test_unknown_ids_are_answered_with_the_known_ones() -> None:
 
 
 def test_how_an_end_effector_holds_is_stated_in_its_file(tmp_path: Path) -> None:
-    held = {tool: LIBRARY.gripper(tool).name for tool in LIBRARY.end_effectors()}
+    held = {tool: LIBRARY.gripper("ur5e", tool).name for tool in LIBRARY.end_effectors()}
     assert held == {
         "centric_gripper": "fingers",
         "parallel_gripper": "fingers",
@@ -100,19 +100,7 @@ def test_how_an_end_effector_holds_is_stated_in_its_file(tmp_path: Path) -> None
     }
     folder = tmp_path / "end_effectors" / "magnet"
     folder.mkdir(parents=True)
-    for said in ("", "gripper: magnet\n"):
+    for said in ("", "gripper: glue\n"):
         (folder / "end_effector.yaml").write_text(f"id: magnet\nclass: vacuum magnet\n{said}")
-        with refused(ONE_OF, BadInput, choices=["none", "fingers", "cup"]):
-            RobotLibrary(tmp_path, tmp_path).gripper("magnet")
-
-
-def test_an_end_effector_names_its_kind_of_gripper(tmp_path, monkeypatch) -> None:
-    file = tmp_path / "end_effectors" / "magnet" / "end_effector.yaml"
-    file.parent.mkdir(parents=True)
-    file.write_text("id: magnet\ngripper: magnet\nforce: 80.0\nlip_radius: 0.02\n")
-    library = RobotLibrary(tmp_path)
-    with pytest.raises(BadInput):
-        library.gripper("magnet")
-    magnet = Gripper("magnet", pulls=True, friction=0.4)
-    monkeypatch.setitem(KINDS, "magnet", magnet)
-    assert library.gripper("magnet") is magnet
+        with refused(ONE_OF, BadInput, choices=[*KINDS]):
+            RobotLibrary(tmp_path, tmp_path).gripper("ur5e", "magnet")

@@ -183,3 +183,9 @@ def test_without_a_wall_no_xacro_is_expanded(
     monkeypatch.setattr(restrictions, "layers", lambda: {"landlock": False, "seccomp": True})
     with refused(XACRO_NO_WALL, BadInput, file="r.urdf.xacro", plain="r.urdf"):
         expanded(folder, LINK.format("a"))
+
+
+def test_a_xacro_is_known_by_what_it_holds(folder: Path) -> None:
+    path = folder / "r.urdf"
+    path.write_text(XACRO.format('<xacro:arg name="n" default="a"/><link name="$(arg n)"/>'))
+    assert '<link name="b"/>' in description_text(path, {}, ("n:=b",))
