@@ -1,5 +1,6 @@
 // A WebGL 2 that draws nothing, for browser tests of what a 3D page does rather than shows: software
-// draws a frame in a second on few cores. Every call succeeds at once. `blindCalls` counts them.
+// draws a frame in a second on few cores. Every call succeeds at once. `blindCalls` counts them, and
+// `blindBytes` what they would send to the graphics card.
 ;(() => {
   const NUMBERS = { MAX_TEXTURE_IMAGE_UNITS: 16, MAX_VERTEX_TEXTURE_IMAGE_UNITS: 16, MAX_SAMPLES: 4,
     MAX_TEXTURE_SIZE: 4096, MAX_CUBE_MAP_TEXTURE_SIZE: 4096, MAX_VERTEX_ATTRIBS: 16,
@@ -9,6 +10,17 @@
   const named = (value) => Object.keys(NUMBERS).find((name) => constants[name] === value)
   const canvasSize = (size) => Math.max(size, 1)
   window.blindCalls = 0
+  window.blindBytes = 0
+  const TEXEL = 4
+
+  // the data of a call: an array, of it a part where the call says so, or a picture
+  function bytesOf(name, values) {
+    const data = values.find((value) => ArrayBuffer.isView(value) || value?.width !== undefined)
+    if (data === undefined) return 0
+    if (!ArrayBuffer.isView(data)) return data.width * data.height * TEXEL
+    const length = name === 'bufferSubData' ? (values[4] ?? 0) : 0
+    return length > 0 ? length * data.BYTES_PER_ELEMENT : data.byteLength
+  }
 
   function answers(canvas, attributes) {
     const precision = { precision: 23, rangeMin: 127, rangeMax: 127 }
@@ -54,10 +66,15 @@
     const nothing = () => {
       window.blindCalls++
     }
+    const sends = (name) => (...values) => {
+      window.blindCalls++
+      window.blindBytes += bytesOf(name, values)
+    }
     for (const name of Object.getOwnPropertyNames(constants.prototype)) {
       if (name in context || name === 'constructor') continue
       if (name in constants) context[name] = constants[name]
-      else context[name] = name.startsWith('create') ? () => ({}) : nothing
+      else if (name.startsWith('create')) context[name] = () => ({})
+      else context[name] = /^(tex|buffer)(Sub)?(Image|Data|Storage)/.test(name) ? sends(name) : nothing
     }
     return context
   }

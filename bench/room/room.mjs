@@ -6,7 +6,7 @@
 import { parseArgs } from 'node:util'
 import { bytesOf, openRoom } from './page.mjs'
 import { measureCpu, measureProfile } from './profile.mjs'
-import { fillScene, measureFrames, measureMemory, measureScrub } from './scene.mjs'
+import { fillScene, measureFrames, measureMemory, measureScrub, measureTelemetry } from './scene.mjs'
 
 const { values: options, positionals } = parseArgs({
   allowPositionals: true,
@@ -41,6 +41,10 @@ try {
   note('draw calls, both eyes and shadow', plain.calls, '', 200)
   note('triangles, both eyes and shadow', plain.triangles, '', 600_000)
   note('WebGL calls a frame', plain.glCalls, '')
+  const telemetry = await measureTelemetry(page)
+  note('sent to the graphics card, four telemetry panels', telemetry.sent, 'MB/s', 2)
+  note('JavaScript a frame, four telemetry panels, p95', telemetry.p95, 'ms', 2)
+  note('draw calls, both eyes and shadow, four telemetry panels', telemetry.calls, '', 110)
   const scrub = await measureScrub(page)
   note('scrub to pose change, p50', scrub.p50, 'ms', 50)
   note('scrub to pose change, p95', scrub.p95, 'ms')

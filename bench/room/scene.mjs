@@ -14,7 +14,11 @@ export async function fillScene(page) {
   const choose = (name, list, id) =>
     page.evaluate(
       ([name, list, id]) => {
-        const { panel } = window.room.panels.of(name)
+        const { room } = window
+        room.opened.open(name)
+        room.opened.keep(room.panels.names)
+        const { panel } = room.panels.of(name)
+        panel.group.visible = true
         return panel.act(list) && panel.act(`choose ${id}`)
       },
       [name, list, id],
@@ -33,22 +37,19 @@ export async function fillScene(page) {
   )
   for (const name of names.slice(1)) await choose(name, 'motions', motion)
   await page.evaluate(async (count) => {
-    const { board } = window.room
-    board.open('objects')
+    const { spawning } = window.room
     for (let i = 0; i < count; i++) {
-      board.panel.update()
-      const ids = board.panel.ids.filter((id) => id.startsWith('object '))
-      board.panel.act(ids[i % 5])
-      await new Promise((resolve) => setTimeout(resolve, 100))
+      const position = { x: -1 + 0.2 * (i % 10), y: -1.5 - 0.2 * Math.floor(i / 10), z: 0.1 }
+      const pose = { position, orientation: { x: 0, y: 0, z: 0, w: 1 } }
+      await spawning.spawnObject(spawning.types[i % 5].id, pose)
     }
-    board.open('robots')
   }, OBJECTS)
   await page.evaluate(() => {
     // what has ended plays again
     window.again = setInterval(() => {
       for (const { robot, state } of window.room.follower.robots.value) {
-        const panel = window.room.panels.of(robot.name)?.panel
-        if (['READY', 'PAUSED', 'COMPLETE'].includes(state)) panel?.act('play')
+        const panel = window.room.panels.of(robot.name)
+        if (['READY', 'PAUSED', 'COMPLETE'].includes(state)) panel?.play()
       }
     }, 500)
   })
@@ -95,6 +96,28 @@ export async function measureFrames(page) {
   return { ...found[0], ...scene }
 }
 
+/** Show the telemetry of all robots, and measure what is sent to the graphics card, MB/s, and what a
+ * frame then costs, ms. */
+export async function measureTelemetry(page) {
+  await page.evaluate(() => {
+    for (const name of window.room.panels.names) window.room.panels.of(name).telemetry = true
+  })
+  await page.waitForTimeout(TOUCH ? 200 : 2000)
+  const found = await page.evaluate(async (ms) => {
+    window.samples.js.length = 0
+    const began = performance.now()
+    const bytes = window.blindBytes
+    await new Promise((resolve) => setTimeout(resolve, ms))
+    const seconds = (performance.now() - began) / 1000
+    return { sent: (window.blindBytes - bytes) / seconds / 1e6, js: window.samples.js }
+  }, TOUCH ? 300 : 5000)
+  const { calls } = await page.evaluate(() => window.room.stage.renderer.info.render)
+  await page.evaluate(() => {
+    for (const name of window.room.panels.names) window.room.panels.of(name).telemetry = false
+  })
+  return { sent: found.sent, p95: quantile(found.js, 0.95), calls }
+}
+
 /** Measure from moving the knob of a paused robot until its pose changes in a frame, ms. */
 export async function measureScrub(page) {
   const times = await page.evaluate(async (count) => {
@@ -102,7 +125,7 @@ export async function measureScrub(page) {
     const { room } = window
     const view = () => room.follower.robots.value.find(({ robot }) => robot.name === 'ur5e_1')
     const wait = (ms) => new Promise((resolve) => setTimeout(resolve, ms))
-    room.panels.of('ur5e_1').panel.act('play')
+    room.panels.of('ur5e_1').play()
     for (let i = 0; i < 200 && view().state !== 'PAUSED'; i++) await wait(20)
     const times = []
     for (let i = 0; i < count; i++) {
@@ -132,8 +155,8 @@ export async function measureMemory(page, client, minutes) {
   await page.evaluate(() => {
     window.again = setInterval(() => {
       for (const { robot, state } of window.room.follower.robots.value) {
-        const panel = window.room.panels.of(robot.name)?.panel
-        if (['READY', 'PAUSED', 'COMPLETE'].includes(state)) panel?.act('play')
+        const panel = window.room.panels.of(robot.name)
+        if (['READY', 'PAUSED', 'COMPLETE'].includes(state)) panel?.play()
       }
     }, 500)
   })

@@ -55,6 +55,8 @@ export interface Preferences {
   readonly still: boolean
   /** Distance at which text is read, m. */
   readonly readAt: number
+  /** Size of panels and their text; 1: the usual one. */
+  readonly textScale: number
   /** Camera of a screen; null: a headset is in the room. */
   readonly screen: PerspectiveCamera | null
 }

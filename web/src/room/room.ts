@@ -15,6 +15,8 @@ import { Mouse } from './input/mouse'
 import type { Pointer } from './input/pointer'
 import { Targets } from './input/targets'
 import { Stats } from './latency'
+import { Arrangement } from './layout/arrangement'
+import { Opened } from './layout/opened'
 import { soundFeedback } from './panels/feedback'
 import { pauseNews } from './people/pausing'
 import { People } from './people/people'
@@ -59,6 +61,8 @@ export class Room {
   readonly board: Board
   readonly panels: RobotPanels
   readonly systems: SystemPanels
+  readonly opened = new Opened()
+  private readonly arrangement: Arrangement
   readonly stage: RoomStage
   readonly scan: RoomScan
   readonly anchor: SceneAnchor
@@ -124,15 +128,41 @@ export class Room {
     this.placing = new Placing(ports, targets, stick, repaint)
     this.stage.panels.add(this.board.panel.group)
     targets.add(this.board.panel)
+    const arrangement = new Arrangement(ports, {
+      robots: () => this.robots.links(),
+      people: () => this.people.heads(),
+      board: this.board.panel,
+    })
+    this.arrangement = arrangement
+    const shelf = this.stage.panels
+    const away = () => this.creation.on || this.placing.active
     this.panels = new RobotPanels(
       ports,
-      this.stage.panels,
+      shelf,
       this.scene,
       targets,
-      () => this.creation.on || this.placing.active,
-      (robot) => new ControlPanel(ports, robot, this.drawings, (name) => this.objectAt(name)),
+      arrangement,
+      this.opened,
+      away,
+      (name) => this.handles.get(name)?.carried ?? false,
+      (robot) =>
+        new ControlPanel(
+          ports,
+          robot,
+          this.drawings,
+          (name) => this.objectAt(name),
+          () => this.opened.close(),
+        ),
     )
-    this.systems = new SystemPanels(ports, this.stage.panels, this.scene, targets)
+    this.systems = new SystemPanels(
+      ports,
+      shelf,
+      this.scene,
+      targets,
+      arrangement,
+      this.opened,
+      away,
+    )
     this.anchor = new SceneAnchor(this.stage.anchor, anchorNews(ports))
     this.objects = new ObjectHandles(
       this.scene,
@@ -165,7 +195,7 @@ export class Room {
     this.common = new CommonPlace(ports, device, this.people, this.scan, this.touching)
     const bases = () => this.robots.bases()
     this.alignment = new Alignment(this.stage, this.anchor, this.scan, bases)
-    this.spawning = new Spawning(ports, repaint)
+    this.spawning = new Spawning(ports, repaint, (name) => this.opened.open(name))
     this.follower = roomFollower(ports, parts.courseOf)
     this.follower.attach(
       followedScene({
@@ -327,8 +357,10 @@ export class Room {
     this.board.update(now)
     this.guide.update(this.visit.inputs)
     if (this.people.update(now, step)) this.stage.invalidate()
-    this.panels.update(now, step)
-    this.systems.update(now, step)
+    this.opened.keep([...this.systems.names, ...this.panels.names])
+    this.arrangement.update(now, step)
+    this.panels.update(now)
+    this.systems.update(now)
     if (this.stage.draw(now)) this.frames++
     this.frameMs = performance.now() - began
     this.stats.frame(now, this.frameMs)

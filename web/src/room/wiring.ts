@@ -32,6 +32,8 @@ import type { Guide } from './tour/guide'
 
 /** m: distance at which text is read. */
 const READ_AT = 0.9
+/** Size of panels of who wants large text. */
+const LARGE_TEXT = 1.35
 
 /** Everything that a room is made from. */
 export interface RoomParts extends Checks {
@@ -92,6 +94,9 @@ export function portsOf(
     head: room.head,
     look: room.look,
     readAt: READ_AT,
+    get textScale() {
+      return room.settings.largeText.value ? LARGE_TEXT : 1
+    },
     get trajectories() {
       return room.trajectories
     },

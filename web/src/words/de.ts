@@ -795,6 +795,8 @@ export const words: Words = {
     seated: 'Im Sitzen',
     seatedAbout:
       'Tafeln kommen tiefer, in virtueller Realität auch der Boden. Roboter trägt der Strahl.',
+    largeText: 'Große Schrift',
+    largeTextAbout: 'Tafeln und ihre Schrift sind um ein Drittel größer.',
     contrast: 'Hoher Kontrast',
     contrastAbout: 'Tafeln in Schwarz, Weiß und Gelb.',
     still: 'Weniger Bewegung',

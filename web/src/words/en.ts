@@ -739,6 +739,8 @@ export const en = {
     seated: 'Seated',
     seatedAbout:
       'Panels come lower; in virtual reality the floor does too. Carry robots by the ray.',
+    largeText: 'Large text',
+    largeTextAbout: 'Panels and their text are a third larger.',
     contrast: 'High contrast',
     contrastAbout: 'Panels in black, white and yellow.',
     still: 'Reduced motion',

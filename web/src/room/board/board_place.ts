@@ -1,5 +1,5 @@
 import { type Quaternion, Vector3 } from 'three'
-import { Stand } from '../panels/stand'
+import { Stand } from '../layout/stand'
 import type { Preferences, Viewer } from '../ports'
 import type { Board } from './board'
 

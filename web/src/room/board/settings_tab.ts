@@ -14,6 +14,7 @@ export function settingsTab(ports: Speech, settings: Settings, tour: () => void)
   const rows: readonly (readonly [string, Switch, string, string])[] = [
     ['left_handed', settings.leftHanded, w.leftHanded, w.leftHandedAbout],
     ['seated', settings.seated, w.seated, w.seatedAbout],
+    ['large_text', settings.largeText, w.largeText, w.largeTextAbout],
     ['contrast', settings.contrast, w.contrast, w.contrastAbout],
     ['still', settings.still, w.still, w.stillAbout],
     ['occlusion', settings.occlusion, w.occlusion, w.occlusionAbout],

@@ -9,11 +9,14 @@ type Theme = {
 export const FONT = 'system-ui, -apple-system, "Segoe UI", Roboto, "Liberation Sans", sans-serif'
 /** Texels a mm: 1 mm is 3.8 arc minutes at 0.9 m, more than a headset shows. */
 export const TEXELS = 2
-/** Heights of text, mm: for reading at 0.9 m. */
-export const TEXT = { head: 30, body: 22, small: 18 } as const
+/** Heights of text, mm. read: a sentence on a panel of the scene, which is shrunk to 0.6: it is 1.0
+ * degree there, and small is 0.7. */
+export const TEXT = { head: 30, read: 27, body: 22, small: 19 } as const
 /** Height of a button, and the gap between two, mm. */
 export const HIT = 60
 export const GAP = 12
+/** Side of the button that closes a panel, mm. */
+export const CLOSE = 44
 /** Share of its size that a line too long for its place keeps. */
 const SMALLEST = 0.8
 
@@ -193,6 +196,15 @@ export class Pen {
     })
   }
 
+  /** A zone over a whole height from the left: the hover frames it. */
+  whole(id: string, width: number, height: number, act: () => void): void {
+    if (id === this.hovered || id === this.pressed) {
+      this.face(id, 4, 4, width - 8, height - 8, { enabled: true })
+    }
+    const press = (_: number, final: boolean) => final && act()
+    this.zone({ id, x: 0, y: 0, width, height, enabled: true, drags: false, press })
+  }
+
   /** A card with a picture above its words. */
   card(
     id: string,
@@ -232,6 +244,11 @@ export class Pen {
       drags: false,
       press: (_, final) => final && act(),
     })
+  }
+
+  /** The button at the right top corner that makes a chip of a panel. right: its right edge, mm. */
+  close(right: number, act: () => void): void {
+    this.button('close', right - CLOSE, 36 - CLOSE / 2, CLOSE, '–', act, {}, CLOSE)
   }
 
   /** A pill with a word; filled for a warning. */

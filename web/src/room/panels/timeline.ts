@@ -1,8 +1,8 @@
 import { CircleGeometry, type Group, Mesh, MeshBasicMaterial, PlaneGeometry } from 'three'
 import type { RemotePlayer } from '../../playback/player'
 import { fixed } from '../../words/words'
+import { GlyphText } from './glyphs'
 import { PANEL_THEME, type Pen, TEXT } from './pen'
-import { Readout } from './readout'
 
 const MM = 0.001
 const THICK = 8
@@ -11,9 +11,10 @@ const KNOB = 30
 const SEEK_PERIOD = 0.05
 /** s between two paintings of the running time. */
 const READ_PERIOD = 0.1
-/** mm, of the row below the track that says the time; its middle is so far below the track. */
-const ROW = 26
+/** mm from the track to the middle of the row below it that says the time. */
 const BELOW = 10
+/** Letters of the row. */
+const MOST = 64
 
 /** The rectangle of a timeline in its panel, mm from the left top corner. */
 export interface Track {
@@ -36,7 +37,8 @@ export class Timeline {
   private readonly flat = new MeshBasicMaterial({ toneMapped: false })
   private readonly bar = new Mesh(new PlaneGeometry(1, 1), this.flat)
   private readonly knob = new Mesh(new CircleGeometry(0.5, 24), this.flat)
-  private readonly readout: Readout
+  private readonly readout: GlyphText
+  private said = ''
   /** Number of completed drags. */
   scrubs = 0
   private scrub: number | null = null
@@ -58,9 +60,7 @@ export class Timeline {
     group.add(this.bar, this.knob)
     this.bar.position.z = this.knob.position.z = 1.5 * MM
     this.knob.scale.setScalar(KNOB * MM)
-    const middle = track.x + track.width / 2 - width / 2
-    const row = height / 2 - track.y - track.height - BELOW
-    this.readout = new Readout(group, track.width, ROW, middle, row)
+    this.readout = new GlyphText(group, MOST, width, height)
   }
 
   /** Return its position, s: of a drag, else of the lab. */
@@ -124,7 +124,18 @@ export class Timeline {
     this.readAt = this.now
     const position = this.position(player)
     const time = `${fixed(position, 1)} / ${fixed(player.duration, 1)} s`
-    if (this.readout.set(time, this.noteAt(position))) this.stir()
+    const note = this.noteAt(position)
+    const { ink, second } = PANEL_THEME.colours
+    const said = `${time} ${note} ${ink}`
+    if (said === this.said) return
+    this.said = said
+    const { x, y, width, height } = this.track
+    const row = y + height + BELOW
+    this.readout.begin()
+    this.readout.put(time, x, row, ink)
+    this.readout.put(note, x + width, row, second, 'right')
+    this.readout.end()
+    this.stir()
   }
 
   private seek(player: RemotePlayer, position: number, final: boolean): void {

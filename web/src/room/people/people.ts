@@ -95,6 +95,13 @@ export class People {
     }
   }
 
+  /** The heads of the others that are drawn, in the scene. */
+  *heads(): Iterable<Vector3> {
+    for (const { avatar } of this.people.values()) {
+      if (avatar.group.visible) yield this.world.localToWorld(eyes.copy(avatar.place))
+    }
+  }
+
   /** True if nobody else is in the common place, and nobody with a lower id waits for it. */
   get isFirst(): boolean {
     for (const [id, { aligned }] of this.people) if (aligned || id < this.id) return false

@@ -17,10 +17,11 @@ export class Spawning {
   most = 0
   private readonly undo: Unsubscribe
 
-  /** listed: called once the types of objects are known. */
+  /** listed: called once the types of objects are known. placed: with each new robot. */
   constructor(
     private readonly ports: Speech & Lab,
     private readonly listed: () => void,
+    private readonly placed: (robot: string) => void,
   ) {
     this.undo = ports.link.onOffer(() => this.list())
     this.list()
@@ -31,7 +32,9 @@ export class Spawning {
     const { ports } = this
     const request = { ...createSpawnRobotRequest(), model, pose, surface: support }
     const answer = await order(ports, 'lab/spawn_robot', spawnRobotType, request)
-    if (answer !== null) ports.say(ports.words.room.placed(answer.robot.name), false)
+    if (answer === null) return
+    ports.say(ports.words.room.placed(answer.robot.name), false)
+    this.placed(answer.robot.name)
   }
 
   /** Put an object there; pose: of its middle. */

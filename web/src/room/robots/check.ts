@@ -48,7 +48,7 @@ export function findingChoices(
   return choices
 }
 
-const TOP = 108
+const TOP = 92
 /** mm, of the line below the verdict that has its colour. */
 const LINE = 5
 

@@ -16,7 +16,7 @@ import { Notice } from '../panels/notice'
 import { type Choice, PagedList } from '../panels/paged_list'
 import type { Surroundings } from '../panels/panel'
 import { Panel } from '../panels/panel'
-import { HIT, PANEL_THEME, type Pen, TEXT } from '../panels/pen'
+import { CLOSE, HIT, PANEL_THEME, type Pen, TEXT } from '../panels/pen'
 import { type Mark, Timeline, type Track } from '../panels/timeline'
 import type { Catalogue, Lab, Speech } from '../ports'
 import type { Drawings } from '../scene/drawings'
@@ -25,9 +25,9 @@ import { type ControlActions, drawButtons, drawStatus } from './control_view'
 import { comparable, drawShow } from './show_view'
 
 const WIDTH = 640
-const HEIGHT = 516
+const HEIGHT = 480
 const EDGE = 26
-const TRACK: Track = { x: EDGE, y: 200, width: WIDTH - 2 * EDGE, height: HIT }
+const TRACK: Track = { x: EDGE, y: 164, width: WIDTH - 2 * EDGE, height: HIT }
 /** s between two paintings of a robot's deviation from its ghost. */
 const COMPARE_PERIOD = 0.5
 
@@ -43,7 +43,7 @@ export class ControlPanel {
   telemetry = false
   /** Places on the timeline, s, at which it collided. */
   readonly collisions: number[] = []
-  private view: View = 'control'
+  private page: View = 'control'
   private readonly notice = new Notice(() => this.panel.repaint())
   private readonly asking = new Asking(this.notice.say)
   private readonly lab: Lab
@@ -63,12 +63,14 @@ export class ControlPanel {
     remove: () => this.remove(),
   }
 
-  /** objectAt: the object nearest to a robot's fingers; empty: none is near. */
+  /** objectAt: the object nearest to a robot's fingers; empty: none is near. close: make a chip of
+   * the panel. */
   constructor(
     private readonly ports: ControlPorts,
     robot: RobotView,
     private readonly drawings: Drawings,
     private readonly objectAt: (robot: string) => string,
+    private readonly close: () => void,
   ) {
     this.robot = robot
     this.panel = new Panel(WIDTH, HEIGHT, (pen) => this.draw(pen), ports)
@@ -82,6 +84,16 @@ export class ControlPanel {
 
   get name(): string {
     return this.robot.robot.name
+  }
+
+  get view(): RobotView {
+    return this.robot
+  }
+
+  /** Play, or pause. */
+  play(): void {
+    const { state } = this.robot
+    this.trigger(state === 'PLAYING' || state === 'ADJUSTING' ? 'pause' : 'play')
   }
 
   get scrubs(): number {
@@ -98,7 +110,7 @@ export class ControlPanel {
     this.robot = robot
     const halted = robot.state === 'COLLISION_HALT' && before.state !== 'COLLISION_HALT'
     if (halted) {
-      this.view = 'control'
+      this.page = 'control'
       this.collisions.push(robot.player.position())
     }
     if (robot.playback?.trajectory_id !== before.playback?.trajectory_id) {
@@ -112,7 +124,7 @@ export class ControlPanel {
   update(now: number): void {
     this.notice.update(now)
     const { player } = this.robot
-    const shown = this.view === 'control' && this.loaded
+    const shown = this.page === 'control' && this.loaded
     this.timeline.update(shown ? player : null, now)
     if (this.compares && now - this.paintedAt > COMPARE_PERIOD) {
       this.paintedAt = now
@@ -129,7 +141,7 @@ export class ControlPanel {
 
   /** True while it shows the deviation of the robot from its ghost. */
   private get compares(): boolean {
-    return this.view === 'show' && this.drawings.reference(this.name) !== null
+    return this.page === 'show' && this.drawings.reference(this.name) !== null
   }
 
   private get loaded(): boolean {
@@ -149,14 +161,15 @@ export class ControlPanel {
   private draw(pen: Pen): void {
     const { state } = this.robot
     const w = this.ports.words
-    pen.text(EDGE, 42, this.name, TEXT.head, 330, 'ink', 700)
+    pen.text(EDGE, 36, this.name, TEXT.head, 330, 'ink', 700)
     const halted = state === 'COLLISION_HALT'
-    pen.chip(WIDTH - EDGE, 42, w.states[state], PANEL_THEME.states[state], halted)
-    if (this.view === 'motions') this.drawMotions(pen)
-    else if (this.view === 'end_effectors') this.drawEndEffectors(pen)
-    else if (this.view === 'show') this.drawShow(pen)
-    else if (this.view === 'compare') this.drawCompare(pen)
-    else if (this.view === 'check') {
+    pen.close(WIDTH - EDGE, this.close)
+    pen.chip(WIDTH - EDGE - CLOSE - 12, 36, w.states[state], PANEL_THEME.states[state], halted)
+    if (this.page === 'motions') this.drawMotions(pen)
+    else if (this.page === 'end_effectors') this.drawEndEffectors(pen)
+    else if (this.page === 'show') this.drawShow(pen)
+    else if (this.page === 'compare') this.drawCompare(pen)
+    else if (this.page === 'check') {
       this.check.drawFindings(pen, EDGE, this.list, this.robot.player, () => this.open('control'))
     } else this.drawControl(pen)
   }
@@ -230,7 +243,7 @@ export class ControlPanel {
   }
 
   private open(view: View): void {
-    this.view = view
+    this.page = view
     this.list.page = 0
     this.panel.repaint()
   }

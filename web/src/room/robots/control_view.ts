@@ -4,7 +4,7 @@ import { named } from '../../words/words'
 import { GAP, HIT, PANEL_THEME, type Pen, TEXT } from '../panels/pen'
 import type { Speech } from '../ports'
 
-const TOP = 290
+const TOP = 254
 
 /** The actions of a robot's controls. */
 export interface ControlActions {
@@ -41,24 +41,24 @@ export function drawStatus(
   const motion = playback?.trajectory_id ?? ''
   const hand = robot.end_effector === '' ? '' : ` + ${named(robot.end_effector)}`
   const parts = [`${robot.model}${hand}`, motion || w.noMotion]
-  pen.text(edge, 82, parts.join(' · '), TEXT.small, undefined, 'second')
+  pen.text(edge, 76, parts.join(' · '), TEXT.small, undefined, 'second')
   const width = pen.width - 2 * edge - beside
   if (state === 'COLLISION_HALT') {
-    pen.box(edge, 100, pen.width - 2 * edge, 84, PANEL_THEME.states.COLLISION_HALT)
+    pen.box(edge, 92, pen.width - 2 * edge, 68, PANEL_THEME.states.COLLISION_HALT)
     const ink = PANEL_THEME.colours.on_halt
-    pen.text(edge + 16, 125, touching || w.cleared, TEXT.body, 550, ink, 700)
+    pen.text(edge + 16, 112, touching || w.cleared, TEXT.read, 550, ink, 700)
     const next = touching ? w.moveClear : w.playOn
-    pen.text(edge + 16, 159, next, TEXT.small, 550, ink, 600)
+    pen.text(edge + 16, 143, next, TEXT.small, 550, ink, 600)
   } else if (down) {
-    pen.lines(edge, 122, words.lab.outages.robot, TEXT.small, width, PANEL_THEME.states.PAUSED, 3)
+    pen.lines(edge, 108, words.lab.outages.robot, TEXT.read, width, PANEL_THEME.states.PAUSED, 2)
   } else if (notice !== '') {
-    pen.lines(edge, 122, notice, TEXT.small, width, PANEL_THEME.states.PAUSED, 3)
+    pen.lines(edge, 108, notice, TEXT.read, width, PANEL_THEME.states.PAUSED, 2)
   } else if (playback?.message) {
-    pen.lines(edge, 122, spoken(playback), TEXT.small, width, 'second', 3)
+    pen.lines(edge, 108, spoken(playback), TEXT.read, width, 'second', 2)
   } else if (holding) {
-    pen.text(edge, 122, words.lab.holds(holding), TEXT.small, width)
+    pen.text(edge, 112, words.lab.holds(holding), TEXT.read, width)
   }
-  if (!loaded) pen.text(edge, 238, w.chooseMotion, TEXT.body)
+  if (!loaded) pen.text(edge, 200, w.chooseMotion, TEXT.read)
 }
 
 /** Draw the buttons of a robot: play, rate, motions, end effector and drawings. */

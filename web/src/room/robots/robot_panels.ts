@@ -4,52 +4,49 @@ import type { Unsubscribe } from '../../link/link'
 import { telemetryReader } from '../../protocol/mrlab_msgs'
 import type { LabScene } from '../../scene/lab/lab_scene'
 import type { Targets } from '../input/targets'
-import type { Surroundings } from '../panels/panel'
-import { Stand } from '../panels/stand'
-import type { Frames, Lab, Preferences, Speech } from '../ports'
+import type { Arrangement, Shown } from '../layout/arrangement'
+import type { Opened } from '../layout/opened'
+import { Chip } from '../panels/chip'
+import type { Panel, Surroundings } from '../panels/panel'
+import type { Catalogue, Frames, Lab, Preferences, Speech } from '../ports'
 import type { ControlPanel } from './control'
 import { TelemetryPanel } from './telemetry'
 
-/** m */
-const LEAST_SIDE = 0.72
-const TOWARDS = 0.3
-const BELOW_EYES = 0.32
-const LOWEST = 0.75
-const LOWEST_SEATED = 0.5
-const BETWEEN = 0.66
-
-const UP = new Vector3(0, 1, 0)
-const toHead = new Vector3()
-const side = new Vector3()
-const at = new Vector3()
-const base = new Vector3()
+const tip = new Vector3()
 
 interface Entry {
   readonly control: ControlPanel
-  readonly stand: Stand
+  readonly chip: Chip
+  /** Those that have a place in the scene. */
+  readonly shown: Shown[]
   telemetry: { readonly panel: TelemetryPanel; readonly undo: Unsubscribe } | null
-  /** m: the largest reach of the arm so far. */
-  reach: number
 }
 
-/** The control panels of all robots, each at its robot on the person's side. */
+/** The panels of all robots: the open one has controls, the others are chips. */
 export class RobotPanels {
   private readonly entries = new Map<string, Entry>()
 
-  /** away: true while robots are chosen or placed, and panels are in the way. make: the panel of a
-   * robot. */
+  /** away: true while robots are chosen or placed, and panels are in the way. carried: a robot is
+   * carried now. make: the panel of a robot. */
   constructor(
-    private readonly ports: Speech & Lab & Frames & Preferences & Surroundings,
+    private readonly ports: Speech & Lab & Catalogue & Frames & Preferences & Surroundings,
     private readonly parent: Object3D,
     private readonly scene: LabScene,
     private readonly targets: Targets,
+    private readonly arrangement: Arrangement,
+    private readonly opened: Opened,
     private readonly away: () => boolean,
+    private readonly carried: (robot: string) => boolean,
     private readonly make: (robot: RobotView) => ControlPanel,
   ) {}
 
   /** Return the panel of a robot. */
   of(name: string): ControlPanel | undefined {
     return this.entries.get(name)?.control
+  }
+
+  get names(): string[] {
+    return [...this.entries.keys()]
   }
 
   /** Take over the present robots; return whether one has begun to halt. Members of a system have
@@ -61,13 +58,11 @@ export class RobotPanels {
       const { name } = view.robot
       if (view.playback?.system) continue
       wanted.add(name)
-      const entry = this.entries.get(name)
-      if (entry === undefined) this.add(view)
-      else {
-        const before = entry.control.collisions.length
-        entry.control.show(view)
-        halts ||= entry.control.collisions.length > before
-      }
+      const entry = this.entries.get(name) ?? this.add(view)
+      const before = entry.control.collisions.length
+      entry.control.show(view)
+      halts ||= entry.control.collisions.length > before
+      this.showChip(entry.chip, view)
     }
     for (const [name, entry] of this.entries) if (!wanted.has(name)) this.remove(name, entry)
     return halts
@@ -81,14 +76,16 @@ export class RobotPanels {
   }
 
   repaint(): void {
-    for (const { control } of this.entries.values()) control.panel.repaint()
+    for (const { control, chip, telemetry } of this.entries.values()) {
+      for (const each of [control, chip, telemetry?.panel]) each?.panel.repaint()
+    }
   }
 
-  /** Before each picture. now, step: s. */
-  update(now: number, step: number): void {
+  /** Before each picture. now: s. */
+  update(now: number): void {
     for (const [name, entry] of this.entries) {
-      this.place(name, entry, now, step)
       entry.control.update(now)
+      entry.chip.panel.update()
       this.updateTelemetry(name, entry, now)
     }
   }
@@ -97,42 +94,70 @@ export class RobotPanels {
     for (const [name, entry] of this.entries) this.remove(name, entry)
   }
 
-  private add(view: RobotView): void {
+  private showChip(chip: Chip, { robot, state, playback }: RobotView): void {
+    chip.show({
+      name: robot.name,
+      state,
+      word: this.ports.words.states[state],
+      picture: this.ports.robots.find(({ id }) => id === robot.model)?.picture ?? null,
+      playable: (playback?.frame_count ?? 0) > 0,
+    })
+  }
+
+  private add(view: RobotView): Entry {
     const { name } = view.robot
     const control = this.make(view)
-    this.parent.add(control.panel.group)
-    this.targets.add(control.panel)
-    const stand = new Stand(control.panel.group)
-    this.entries.set(name, { control, stand, telemetry: null, reach: 0 })
+    const chip = new Chip(
+      this.ports,
+      () => this.opened.open(name),
+      () => control.play(),
+    )
+    const entry: Entry = { control, chip, shown: [], telemetry: null }
+    this.entries.set(name, entry)
+    this.place(name, entry, control.panel, () => this.opened.name === name)
+    this.place(name, entry, chip.panel, () => this.opened.name !== name)
+    return entry
+  }
+
+  /** Give a panel of a robot a place in the scene. */
+  private place(robot: string, entry: Entry, panel: Panel, visible: () => boolean): Shown {
+    const { scene, away, carried } = this
+    const shown: Shown = {
+      panel,
+      get visible() {
+        return visible() && !away()
+      },
+      get carried() {
+        return carried(robot)
+      },
+      about: (into) => {
+        const drawn = scene.robot(robot)
+        const base = scene.base(robot)
+        if (drawn === undefined || base === undefined) return false
+        into.setFromMatrixPosition(base.matrixWorld)
+        into.lerp(tip.setFromMatrixPosition(drawn.tip.matrixWorld), 0.5)
+        return true
+      },
+    }
+    this.parent.add(panel.group)
+    this.targets.add(panel)
+    this.arrangement.add(shown)
+    entry.shown.push(shown)
+    return shown
   }
 
   private remove(name: string, entry: Entry): void {
     this.entries.delete(name)
-    this.targets.remove(entry.control.panel)
-    entry.control.dispose()
     entry.telemetry?.undo()
+    for (const shown of entry.shown) this.leave(shown)
+    entry.control.dispose()
+    entry.chip.panel.dispose()
     entry.telemetry?.panel.dispose()
   }
 
-  private place(name: string, entry: Entry, now: number, step: number): void {
-    const frame = this.scene.base(name)
-    const robot = this.scene.robot(name)
-    entry.control.panel.group.visible = frame !== undefined && !this.away()
-    if (frame === undefined || robot === undefined) return
-    const { head, leftHanded, seated } = this.ports
-    base.setFromMatrixPosition(frame.matrixWorld)
-    at.setFromMatrixPosition(robot.tip.matrixWorld)
-    entry.reach = Math.max(entry.reach, 0.8 * at.distanceTo(base))
-    toHead.subVectors(head, base).setY(0)
-    if (toHead.lengthSq() < 1e-4) toHead.set(0, 0, 1)
-    toHead.normalize()
-    side.crossVectors(UP, toHead).multiplyScalar(leftHanded ? -1 : 1)
-    at.copy(base)
-      .addScaledVector(side, Math.max(entry.reach, LEAST_SIDE))
-      .addScaledVector(toHead, TOWARDS)
-    at.y = Math.max(head.y - BELOW_EYES, seated ? LOWEST_SEATED : LOWEST)
-    const held = entry.control.panel.pointers > 0
-    if (entry.stand.update(at, head, now, step, held, this.ports)) this.ports.stir()
+  private leave(shown: Shown): void {
+    this.arrangement.remove(shown)
+    this.targets.remove(shown.panel)
   }
 
   private updateTelemetry(name: string, entry: Entry, now: number): void {
@@ -140,17 +165,18 @@ export class RobotPanels {
     const { control } = entry
     if (control.telemetry && entry.telemetry === null && robot !== undefined) {
       const panel = new TelemetryPanel(this.ports, control.joints)
-      panel.panel.group.position.x = BETWEEN
-      control.panel.group.add(panel.panel.group)
-      this.targets.add(panel.panel)
-      const undo = this.ports.link.subscribe(`${name}/telemetry`, telemetryReader, (message) =>
-        panel.take(message),
+      const shown = this.place(name, entry, panel.panel, () => true)
+      const unsubscribe = this.ports.link.subscribe(
+        `${name}/telemetry`,
+        telemetryReader,
+        (message) => panel.take(message),
       )
-      const gone = () => {
-        undo()
-        this.targets.remove(panel.panel)
+      const undo = () => {
+        unsubscribe()
+        this.leave(shown)
+        entry.shown.splice(entry.shown.indexOf(shown), 1)
       }
-      entry.telemetry = { panel, undo: gone }
+      entry.telemetry = { panel, undo }
     } else if (!control.telemetry && entry.telemetry !== null) {
       entry.telemetry.undo()
       entry.telemetry.panel.dispose()

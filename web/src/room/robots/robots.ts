@@ -1,4 +1,4 @@
-import { Vector3 } from 'three'
+import { type Object3D, Vector3 } from 'three'
 import type { LabScene, ShownRobot } from '../../scene/lab/lab_scene'
 import { type HandlePorts, RobotHandle } from '../handles/robot_handle'
 import type { Pointer } from '../input/pointer'
@@ -35,6 +35,14 @@ export class RoomRobots {
       if (base === undefined) continue
       const { x, y, z } = base.position
       yield { x, y, z, support: name }
+    }
+  }
+
+  /** The frames of each robot's links, from its base to its tip. */
+  *links(): Iterable<readonly Object3D[]> {
+    for (const name of this.handles.keys()) {
+      const robot = this.scene.robot(name)
+      if (robot !== undefined) yield Object.values(robot.root.links)
     }
   }
 

@@ -1,39 +1,54 @@
 import type { Telemetry } from '../../protocol/mrlab_msgs'
 import { fixed } from '../../words/words'
+import { GlyphText } from '../panels/glyphs'
+import { Graphs } from '../panels/graphs'
 import type { Surroundings } from '../panels/panel'
 import { Panel } from '../panels/panel'
 import { PANEL_THEME, type Pen, TEXT } from '../panels/pen'
 import type { Speech } from '../ports'
 
 const WIDTH = 640
-const ROW = 62
-const TOP = 96
+const ROW = 48
+const TOP = 90
 const EDGE = 26
 /** Height of the lines of the gripper's load. */
-const GRASP = 62
+const GRASP = 58
+/** mm, of a curve; and its middle below the top of its row. */
+const CURVE = 18
+const CURVE_AT = 36
+/** Right edges of the columns. */
+const COLUMNS = [330, 470, 614] as const
 /** Samples of a graph: 12 s. */
 const SAMPLES = 120
-/** s between two samples and two paintings. */
+/** s between two samples and two readings. */
 const PERIOD = 0.1
+/** Letters of all values of a joint. */
+const LETTERS = 26
 const DEG = 180 / Math.PI
 
 /** Angles, velocities and torque proxies of a robot's joints, live. */
 export class TelemetryPanel {
   readonly panel: Panel
-  private readonly angles: Float64Array
   private readonly graph: Float64Array
+  private readonly text: GlyphText
+  private readonly curves: Graphs
   private written = 0
   private takenAt = Number.NEGATIVE_INFINITY
   private newest: Telemetry | null = null
+  /** The lines of the gripper's load when they were painted. */
+  private load = ''
+  private theme: typeof PANEL_THEME | null = null
 
   constructor(
     private readonly ports: Speech & Surroundings,
     private readonly joints: readonly string[],
   ) {
-    this.angles = new Float64Array(joints.length)
     this.graph = new Float64Array(joints.length * SAMPLES).fill(Number.NaN)
-    const height = TOP + joints.length * ROW + 46 + GRASP
+    const height = TOP + joints.length * ROW + 40 + GRASP
     this.panel = new Panel(WIDTH, height, (pen) => this.draw(pen), ports)
+    const { group } = this.panel
+    this.text = new GlyphText(group, joints.length * LETTERS, WIDTH, height)
+    this.curves = new Graphs(group, joints.length, SAMPLES)
   }
 
   take(message: Telemetry): void {
@@ -42,52 +57,67 @@ export class TelemetryPanel {
 
   /** Before each picture; angleOf: of the drawn robot, rad. now: s. */
   update(now: number, angleOf: (joint: string) => number): void {
-    if (now - this.takenAt > PERIOD) {
-      this.takenAt = now
-      const place = this.written++ % SAMPLES
-      this.joints.forEach((joint, i) => {
-        this.angles[i] = angleOf(joint)
-        this.graph[i * SAMPLES + place] = this.angles[i] as number
-      })
-      this.panel.repaint()
+    if (now - this.takenAt > PERIOD && this.panel.group.visible) {
+      // not in the same picture as other panels
+      const first = this.takenAt === Number.NEGATIVE_INFINITY
+      this.takenAt = first ? now - PERIOD * Math.random() : now
+      this.read(angleOf)
+      this.ports.stir()
     }
     this.panel.update()
   }
 
   dispose(): void {
+    this.text.dispose()
+    this.curves.dispose()
     this.panel.dispose()
+  }
+
+  /** Take a sample, and show it. */
+  private read(angleOf: (joint: string) => number): void {
+    const place = this.written++ % SAMPLES
+    const { text, newest, joints } = this
+    const { ink } = PANEL_THEME.colours
+    if (this.theme !== PANEL_THEME) {
+      this.theme = PANEL_THEME
+      this.curves.paint(PANEL_THEME.joints)
+    }
+    text.begin()
+    for (let i = 0; i < joints.length; i++) {
+      const joint = joints[i] as string
+      const angle = angleOf(joint)
+      this.graph[i * SAMPLES + place] = angle
+      const index = newest?.joint_names.indexOf(joint) ?? -1
+      const speed = index < 0 ? 0 : (newest?.velocities[index] ?? 0) * DEG
+      const proxy = index < 0 ? 0 : (newest?.effort_proxy[index] ?? 0)
+      const y = TOP + i * ROW + 14
+      text.put(`${tenths(angle * DEG)}°`, COLUMNS[0], y, ink, 'right')
+      text.put(`${tenths(speed)}°/s`, COLUMNS[1], y, ink, 'right')
+      text.put(tenths(proxy), COLUMNS[2], y, ink, 'right')
+      this.drawGraph(i)
+    }
+    text.end()
+    this.curves.end()
+    const load = newest === null ? '' : loadOf(newest)
+    if (load !== this.load) this.panel.repaint()
+    this.load = load
   }
 
   private draw(pen: Pen): void {
     const w = this.ports.words
-    pen.text(EDGE, 40, w.room.telemetry, TEXT.head, 300, 'ink', 700)
+    pen.text(EDGE, 36, w.room.telemetry, TEXT.head, 300, 'ink', 700)
     const { angles, velocities, proxies } = w.plots.channels
     const heads = [angles, velocities, proxies]
     heads.forEach((head, i) => {
-      const x = [300, 430, 614][i] as number
-      pen.text(x, 82, head, TEXT.small, 170, 'second', 400, 'right')
+      pen.text(COLUMNS[i] as number, 74, head, TEXT.small, 150, 'second', 400, 'right')
     })
     this.joints.forEach((joint, i) => {
-      const y = TOP + i * ROW + ROW / 2
       const colour = PANEL_THEME.joints[i % PANEL_THEME.joints.length] as string
-      pen.text(EDGE, y - 14, joint, TEXT.small, 170, colour, 600)
-      this.drawGraph(pen, i, y, colour)
-      const index = this.newest?.joint_names.indexOf(joint) ?? -1
-      const speed = index < 0 ? 0 : (this.newest?.velocities[index] ?? 0) * DEG
-      const proxy = index < 0 ? 0 : (this.newest?.effort_proxy[index] ?? 0)
-      const values = [
-        `${tenths((this.angles[i] ?? 0) * DEG)}°`,
-        `${tenths(speed)}°/s`,
-        tenths(proxy),
-      ]
-      values.forEach((value, column) => {
-        const x = [300, 430, 614][column] as number
-        pen.text(x, y - 12, value, TEXT.small, 160, 'ink', 600, 'right')
-      })
+      pen.text(EDGE, TOP + i * ROW + 14, joint, TEXT.small, 200, colour, 600)
     })
     const y = TOP + this.joints.length * ROW + 20
     pen.text(EDGE, y, `${proxies}: ${w.room.proxyNote}`, TEXT.small, undefined, 'second')
-    if (this.newest !== null) this.drawGrasp(pen, this.newest, y + 34)
+    if (this.newest !== null) this.drawGrasp(pen, this.newest, y + 30)
   }
 
   /** Draw the load of the gripper; nothing if it holds nothing. */
@@ -102,11 +132,10 @@ export class TelemetryPanel {
     const moment = fixed(grasp.wrist_moment, 1)
     const slips = grasp.slip_margin < 0
     const bears = slips ? w.slips(moment) : w.bears(fixed(grasp.slip_margin, 1), moment)
-    pen.text(EDGE, y + 28, bears, TEXT.small, undefined, slips ? warning : 'second')
+    pen.text(EDGE, y + 26, bears, TEXT.small, undefined, slips ? warning : 'second')
   }
 
-  private drawGraph(pen: Pen, joint: number, y: number, colour: string): void {
-    const { context } = pen
+  private drawGraph(joint: number): void {
     const begin = joint * SAMPLES
     let low = Number.POSITIVE_INFINITY
     let high = Number.NEGATIVE_INFINITY
@@ -117,19 +146,30 @@ export class TelemetryPanel {
       high = Math.max(high, value)
     }
     const span = Math.max(high - low, 0.02)
-    const left = EDGE
+    const left = EDGE - WIDTH / 2
     const width = WIDTH - 2 * EDGE
-    context.beginPath()
+    const middle = this.panel.height / 2 - TOP - joint * ROW - CURVE_AT
     for (let i = 0; i < SAMPLES; i++) {
       const value = this.graph[begin + ((this.written + i) % SAMPLES)] as number
-      if (Number.isNaN(value)) continue
-      const at = y + 26 - ((value - (low + high - span) / 2) / span) * 22
-      context.lineTo(left + (i / (SAMPLES - 1)) * width, at)
+      // before the first sample there is none: the curve begins at the right edge
+      const at = Number.isNaN(value) ? SAMPLES - 1 : i
+      const up = Number.isNaN(value) ? 0 : ((value - (low + high) / 2) / span) * CURVE
+      this.curves.set(joint, i, left + (at / (SAMPLES - 1)) * width, middle + up)
     }
-    context.strokeStyle = colour
-    context.lineWidth = 3
-    context.stroke()
   }
+}
+
+/** Return a text that differs where the load of a gripper is another one as it is shown. */
+function loadOf({
+  held_object,
+  held_mass,
+  payload,
+  slip_margin,
+  wrist_moment,
+}: Telemetry): string {
+  if (held_object === '') return ''
+  const numbers = [fixed(held_mass, 2), fixed(payload, 1), fixed(slip_margin, 1)]
+  return [held_object, ...numbers, fixed(wrist_moment, 1)].join(' ')
 }
 
 /** Return a value with one decimal; 0 has no sign. */

@@ -35,6 +35,7 @@ export class Switch {
 export class Settings {
   readonly leftHanded = new Switch('left')
   readonly seated = new Switch('seated')
+  readonly largeText = new Switch('large_text')
   readonly contrast = new Switch('contrast', matchMedia('(prefers-contrast: more)').matches)
   readonly still = new Switch('still', matchMedia('(prefers-reduced-motion: reduce)').matches)
   /** True if real things hide robots and objects behind them. */

@@ -8,21 +8,21 @@ import { Notice } from '../panels/notice'
 import { PagedList } from '../panels/paged_list'
 import type { Surroundings } from '../panels/panel'
 import { Panel } from '../panels/panel'
-import { GAP, HIT, PANEL_THEME, type Pen, TEXT } from '../panels/pen'
+import { CLOSE, GAP, HIT, PANEL_THEME, type Pen, TEXT } from '../panels/pen'
 import { Timeline, type Track } from '../panels/timeline'
 import type { Lab, Speech } from '../ports'
 import { type Segment, segmentsOf } from './segments'
 
 const WIDTH = 640
-const HEIGHT = 560
+const HEIGHT = 490
 const EDGE = 26
 const WIDE = WIDTH - 2 * EDGE
-const SEGMENTS = { top: 118, height: 126 } as const
+const SEGMENTS = { top: 102, height: 72 } as const
 /** mm: a segment's bar, and the least row that has room for its words. */
 const BAR = 10
-const LABELLED = 30
-const TRACK: Track = { x: EDGE, y: 248, width: WIDE, height: HIT }
-const ROW = 340
+const LABELLED = 28
+const TRACK: Track = { x: EDGE, y: 178, width: WIDE, height: HIT }
+const ROW = 266
 const MOVING: ReadonlySet<number> = new Set([RobotSystem.STAGING, RobotSystem.PLAYING])
 
 /** The ports of a system's panel. */
@@ -31,7 +31,7 @@ export type SystemPorts = Speech & Lab & Surroundings
 type View = 'control' | 'members' | 'confirm'
 
 /** Return the state of a playback whose colour a system has. */
-function stateOf({ label }: RobotSystem): StateName {
+export function stateOf({ label }: RobotSystem): StateName {
   if (label === 'STAGING') return 'ADJUSTING'
   return STATE_NAMES.find((name) => name === label) ?? 'READY'
 }
@@ -51,6 +51,7 @@ export class SystemPanel {
   constructor(
     private readonly ports: SystemPorts,
     shown: SystemView,
+    private readonly close: () => void,
   ) {
     this.shown = shown
     this.panel = new Panel(WIDTH, HEIGHT, (pen) => this.draw(pen), ports)
@@ -62,6 +63,10 @@ export class SystemPanel {
 
   get name(): string {
     return this.shown.system.name
+  }
+
+  get system(): RobotSystem {
+    return this.shown.system
   }
 
   get members(): readonly { readonly robot: string }[] {
@@ -88,6 +93,15 @@ export class SystemPanel {
     this.timeline.dispose()
   }
 
+  get moving(): boolean {
+    return MOVING.has(this.shown.system.state)
+  }
+
+  /** Play, or pause. */
+  play(): void {
+    this.trigger(this.moving ? 'pause' : 'play')
+  }
+
   private trigger(verb: string): void {
     order(this.lab, `${this.name}/${verb}`, triggerType, {})
   }
@@ -101,9 +115,10 @@ export class SystemPanel {
     const { system } = this.shown
     const { states } = this.ports.words
     const state = stateOf(system)
-    pen.text(EDGE, 42, system.name, TEXT.head, 330, 'ink', 700)
+    pen.text(EDGE, 36, system.name, TEXT.head, 330, 'ink', 700)
     const halted = state === 'COLLISION_HALT'
-    pen.chip(WIDTH - EDGE, 42, states[state], PANEL_THEME.states[state], halted)
+    pen.close(WIDTH - EDGE, this.close)
+    pen.chip(WIDTH - EDGE - CLOSE - 12, 36, states[state], PANEL_THEME.states[state], halted)
     if (this.view === 'members') this.drawMembers(pen)
     else if (this.view === 'confirm') this.drawConfirm(pen)
     else this.drawControl(pen, system)
@@ -116,20 +131,13 @@ export class SystemPanel {
     const sequence = system.mode === RobotSystem.SEQUENTIAL
     const about = this.notice.text || spoken(system) || w.members(system.members.length)
     const ink = this.notice.text ? PANEL_THEME.states.PAUSED : 'second'
-    pen.lines(EDGE, 80, about, TEXT.small, undefined, ink, 2)
+    pen.text(EDGE, 78, about, TEXT.read, undefined, ink)
     for (const segment of segmentsOf(system.members, system.duration))
       this.drawSegment(pen, segment)
     this.timeline.draw(pen, player, [])
-    const moving = MOVING.has(system.state)
-    pen.button(
-      'play',
-      EDGE,
-      ROW,
-      206,
-      moving ? w.pause : w.play,
-      () => this.trigger(moving ? 'pause' : 'play'),
-      { primary: true },
-    )
+    pen.button('play', EDGE, ROW, 206, this.moving ? w.pause : w.play, () => this.play(), {
+      primary: true,
+    })
     pen.button('stop', EDGE + 206 + GAP, ROW, 116, w.stop, () => this.trigger('stop'))
     const rates = EDGE + 206 + 116 + 2 * GAP
     pen.button('slower', rates, ROW, HIT, '−', () => this.changeRate(-1))

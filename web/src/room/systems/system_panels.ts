@@ -2,37 +2,35 @@ import { type Object3D, Vector3 } from 'three'
 import type { SystemView } from '../../lab/follower'
 import type { LabScene } from '../../scene/lab/lab_scene'
 import type { Targets } from '../input/targets'
-import { Stand } from '../panels/stand'
-import type { Frames, Preferences } from '../ports'
-import { SystemPanel, type SystemPorts } from './system_panel'
+import type { Arrangement, Shown } from '../layout/arrangement'
+import type { Opened } from '../layout/opened'
+import { Chip } from '../panels/chip'
+import type { Panel } from '../panels/panel'
+import { SystemPanel, type SystemPorts, stateOf } from './system_panel'
 
-/** m: the place of the panel, beside the members, on the person's side, below their eyes. */
-const BESIDE = 0.72
-const TOWARDS = 0.35
-const BELOW_EYES = 0.28
-const LOWEST = 0.75
-const LOWEST_SEATED = 0.5
+/** m above the bases: about where the arms are. */
+const HIGH = 0.4
 
-const UP = new Vector3(0, 1, 0)
-const middle = new Vector3()
-const toHead = new Vector3()
-const side = new Vector3()
 const at = new Vector3()
 
 interface Entry {
   readonly panel: SystemPanel
-  readonly stand: Stand
+  readonly chip: Chip
+  readonly shown: readonly Shown[]
 }
 
-/** One panel for each robot system, beside its members. */
+/** The panels of all robot systems: the open one has controls, the others are chips. */
 export class SystemPanels {
   private readonly entries = new Map<string, Entry>()
 
   constructor(
-    private readonly ports: SystemPorts & Frames & Preferences,
+    private readonly ports: SystemPorts,
     private readonly parent: Object3D,
     private readonly scene: LabScene,
     private readonly targets: Targets,
+    private readonly arrangement: Arrangement,
+    private readonly opened: Opened,
+    private readonly away: () => boolean,
   ) {}
 
   /** Return the panel of a system. */
@@ -40,12 +38,19 @@ export class SystemPanels {
     return this.entries.get(name)?.panel
   }
 
+  get names(): string[] {
+    return [...this.entries.keys()]
+  }
+
   /** Take over the systems that there are. */
   show(views: readonly SystemView[]): void {
     for (const view of views) {
-      const entry = this.entries.get(view.system.name)
-      if (entry !== undefined) entry.panel.show(view)
-      else this.add(view)
+      const { system } = view
+      const entry = this.entries.get(system.name) ?? this.add(view)
+      entry.panel.show(view)
+      const state = stateOf(system)
+      const word = this.ports.words.states[state]
+      entry.chip.show({ name: system.name, state, word, picture: null, playable: true })
     }
     for (const name of this.entries.keys()) {
       if (!views.some(({ system }) => system.name === name)) this.remove(name)
@@ -53,14 +58,17 @@ export class SystemPanels {
   }
 
   repaint(): void {
-    for (const { panel } of this.entries.values()) panel.panel.repaint()
+    for (const { panel, chip } of this.entries.values()) {
+      panel.panel.repaint()
+      chip.panel.repaint()
+    }
   }
 
-  /** Before each picture. now, step: s. */
-  update(now: number, step: number): void {
-    for (const { panel, stand } of this.entries.values()) {
-      this.place(panel, stand, now, step)
+  /** Before each picture. now: s. */
+  update(now: number): void {
+    for (const { panel, chip } of this.entries.values()) {
       panel.update(now)
+      chip.panel.update()
     }
   }
 
@@ -68,51 +76,60 @@ export class SystemPanels {
     for (const name of [...this.entries.keys()]) this.remove(name)
   }
 
-  private add(view: SystemView): void {
-    const panel = new SystemPanel(this.ports, view)
-    this.parent.add(panel.panel.group)
-    this.targets.add(panel.panel)
-    this.entries.set(view.system.name, { panel, stand: new Stand(panel.panel.group) })
+  private add(view: SystemView): Entry {
+    const { name } = view.system
+    const panel = new SystemPanel(this.ports, view, () => this.opened.close())
+    const chip = new Chip(
+      this.ports,
+      () => this.opened.open(name),
+      () => panel.play(),
+    )
+    const shown = [
+      this.place(panel, panel.panel, () => this.opened.name === name),
+      this.place(panel, chip.panel, () => this.opened.name !== name),
+    ]
+    const entry = { panel, chip, shown }
+    this.entries.set(name, entry)
+    return entry
   }
 
   private remove(name: string): void {
     const entry = this.entries.get(name)
     if (entry === undefined) return
     this.entries.delete(name)
-    this.targets.remove(entry.panel.panel)
+    for (const shown of entry.shown) {
+      this.arrangement.remove(shown)
+      this.targets.remove(shown.panel)
+    }
     entry.panel.dispose()
+    entry.chip.panel.dispose()
   }
 
-  private place(panel: SystemPanel, stand: Stand, now: number, step: number): void {
-    const { head, leftHanded, seated } = this.ports
-    middle.set(0, 0, 0)
-    let count = 0
-    for (const { robot } of panel.members) {
-      const base = this.scene.base(robot)
-      if (base === undefined) continue
-      middle.add(at.setFromMatrixPosition(base.matrixWorld))
-      count++
+  /** Give a panel of a system a place in the scene, beside the middle of its members. */
+  private place(system: SystemPanel, panel: Panel, visible: () => boolean): Shown {
+    const { scene, away } = this
+    const shown: Shown = {
+      panel,
+      carried: false,
+      get visible() {
+        return visible() && !away()
+      },
+      about: (into) => {
+        into.set(0, 0, 0)
+        let count = 0
+        for (const { robot } of system.members) {
+          const base = scene.base(robot)
+          if (base === undefined) continue
+          into.add(at.setFromMatrixPosition(base.matrixWorld))
+          count++
+        }
+        if (count > 0) into.divideScalar(count).setY(into.y + HIGH)
+        return count > 0
+      },
     }
-    panel.panel.group.visible = count > 0
-    if (count === 0) return
-    middle.divideScalar(count)
-    toHead.subVectors(head, middle).setY(0)
-    if (toHead.lengthSq() < 1e-4) toHead.set(0, 0, 1)
-    toHead.normalize()
-    side.crossVectors(UP, toHead).multiplyScalar(leftHanded ? -1 : 1)
-    // beside the member that is farthest to that side
-    let out = 0
-    for (const { robot } of panel.members) {
-      const base = this.scene.base(robot)
-      if (base === undefined) continue
-      at.setFromMatrixPosition(base.matrixWorld).sub(middle)
-      out = Math.max(out, at.dot(side))
-    }
-    at.copy(middle)
-      .addScaledVector(side, out + BESIDE)
-      .addScaledVector(toHead, TOWARDS)
-    at.y = Math.max(head.y - BELOW_EYES, seated ? LOWEST_SEATED : LOWEST)
-    const held = panel.panel.pointers > 0
-    if (stand.update(at, head, now, step, held, this.ports)) this.ports.stir()
+    this.parent.add(panel.group)
+    this.targets.add(panel)
+    this.arrangement.add(shown)
+    return shown
   }
 }

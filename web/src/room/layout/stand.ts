@@ -28,10 +28,13 @@ export class Stand {
   private movedAt = Number.NEGATIVE_INFINITY
   private here = false
 
-  /** edge: of a screen that is taller than wide, at which it stands. */
+  /** edge: of a screen that is taller than wide, at which it stands. size: of 1 m at `readAt`.
+   * exact: its wanted place is where it is to be, without slack. */
   constructor(
     private readonly panel: Object3D,
     private readonly edge: Edge = 'bottom',
+    private readonly size = 1,
+    private readonly exact = false,
   ) {}
 
   /** at: its wanted place in the floor space, m. now, step: s. held: a pointer is over it. Beyond
@@ -43,7 +46,12 @@ export class Stand {
     now: number,
     step: number,
     held: boolean,
-    { readAt, still, screen }: Pick<Preferences, 'readAt' | 'still' | 'screen'>,
+    {
+      readAt,
+      still,
+      screen,
+      textScale,
+    }: Pick<Preferences, 'readAt' | 'still' | 'screen' | 'textScale'>,
   ): boolean {
     if (screen !== null) {
       this.here = false
@@ -67,11 +75,12 @@ export class Stand {
       this.panel.position.copy(wanted)
       this.panel.quaternion.copy(turned)
     }
-    const wrong =
-      this.place.distanceTo(wanted) > SLACK_WAY || this.turn.angleTo(turned) > SLACK_TURN
+    const { exact } = this
+    const slack = exact ? 0.01 : SLACK_WAY
+    const wrong = this.place.distanceTo(wanted) > slack || this.turn.angleTo(turned) > SLACK_TURN
     if (!wrong || held) this.wrongSince = Number.NaN
-    else if (Number.isNaN(this.wrongSince)) this.wrongSince = now
-    else if (now - this.wrongSince > WAIT) {
+    else if (Number.isNaN(this.wrongSince) && !exact) this.wrongSince = now
+    else if (exact || now - this.wrongSince > WAIT) {
       this.wrongSince = Number.NaN
       this.movedAt = now
       this.place.copy(wanted)
@@ -84,9 +93,10 @@ export class Stand {
       this.panel.quaternion.slerp(this.turn, share)
     }
     const far = this.panel.position.distanceTo(head) / readAt
-    const scale = MathUtils.clamp(far, 0.85, LARGEST)
+    const scale = MathUtils.clamp(far, 0.85, LARGEST) * this.size * textScale
     // small changes of the distance do not make text swim
-    if (Math.abs(this.panel.scale.x - scale) > 0.08) this.panel.scale.setScalar(scale)
+    const swims = Math.abs(this.panel.scale.x - scale) < 0.08 * this.size
+    if (!swims) this.panel.scale.setScalar(scale)
     return moves
   }
 }

@@ -1,6 +1,6 @@
 import { Group, Mesh, type Object3D, PerspectiveCamera, PlaneGeometry, Vector3 } from 'three'
 import { describe, expect, test } from 'vitest'
-import { dock, type Edge } from '../../../src/room/panels/dock'
+import { dock, type Edge } from '../../../src/room/layout/dock'
 
 const SCREENS = [
   [1280, 740],
