@@ -14,7 +14,7 @@ from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.share import directory
 from mrlab_ros.adapters.store.objects import open_store
 from mrlab_ros.extensions import extensions, named
-from mrlab_ros.gateway import certificate_authority, errors, pages
+from mrlab_ros.gateway import certificate_authority, errors, pages, robots
 from mrlab_ros.gateway.assets import routes as asset_routes
 from mrlab_ros.gateway.assets.cache import AssetCache
 from mrlab_ros.gateway.assets.routes import Robots
@@ -33,6 +33,7 @@ from mrlab_ros.gateway.ports import Ports
 from mrlab_ros.gateway.settings import Settings
 from mrlab_ros.gateway.store import routes as trajectory_routes
 from mrlab_ros.gateway.store.shelf import Shelf
+from mrlab_ros.gateway.uploads import live
 from mrlab_ros.gateway.uploads import routes as upload_routes
 from mrlab_ros.gateway.uploads.receive import Receiver
 
@@ -45,6 +46,8 @@ ROUTERS: tuple[APIRouter, ...] = (
     certificate_authority.router,
     asset_routes.router,
     upload_routes.router,
+    live.router,
+    robots.router,
     trajectory_routes.router,
     check_routes.router,
     *(named(router) for each in extensions() for router in each.ROUTERS),
@@ -65,8 +68,8 @@ def create_app(settings: Settings, ports: Ports) -> FastAPI:
     limits = read_limits(settings.limits)
     assets = None if ports.lab is None else AssetCache(ports.lab)
     store = ports.store or open_store(settings.store or str(settings.state_dir / "store"))
-    robots = Robots(RobotLibrary(directory() / "robots"), assets)
-    shelf = Shelf(store, settings.state_dir, policy, robots, signs_in=settings.signs_in)
+    library = Robots(RobotLibrary(directory() / "robots"), assets)
+    shelf = Shelf(store, settings.state_dir, policy, library, signs_in=settings.signs_in)
     link = None
     if ports.lab is not None:
         link = socket.link_port(ports.lab, policy, limits, shelf.why_not_load)
@@ -115,6 +118,7 @@ def create_app(settings: Settings, ports: Ports) -> FastAPI:
     app.state.checking = checking
     app.state.assets = assets
     app.state.shelf = shelf
+    app.state.live = live.LiveDesk()
     app.state.desk = upload_routes.Desk(Receiver(store, shelf.work))
     app.state.pages = settings.pages or pages.pages_folder()
     errors.install(app)

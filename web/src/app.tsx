@@ -32,7 +32,7 @@ const Room = lazy(async () => {
 
 const ROUTES: readonly Route[] = [
   {
-    path: /^\/$/,
+    path: /^\/(live)?$/,
     page: lazy(async () => (await import('./pages/upload/page')).UploadPage),
     members: true,
   },

@@ -9,6 +9,7 @@ import type {
   GradedClass,
   Invitation,
   Listing,
+  Live,
   NewPerson,
   NewToken,
   Pairing,
@@ -187,6 +188,9 @@ export class FakeApi implements Api {
       duration: 20,
     }),
   ]
+  /** The motion that a program shows, and who waits for the next. */
+  #live: Live | null = null
+  readonly #waiting = new Set<() => void>()
   readonly #deleted = new Map<string, TrajectoryInfo>()
   readonly checks = new Map<string, Check>()
   #people: Person[] = [
@@ -325,6 +329,23 @@ export class FakeApi implements Api {
       bump: url.includes('wave') ? 0.4 : 0,
     })
   }
+  async live(after: string | null, signal: AbortSignal): Promise<Live | null> {
+    while (after !== null && (this.#live?.live ?? '') === after) {
+      await new Promise<void>((resolve) => {
+        this.#waiting.add(resolve)
+        signal.addEventListener('abort', () => resolve())
+      })
+      if (signal.aborted) throw new DOMException('Cancelled', 'AbortError')
+    }
+    return this.#live
+  }
+  /** Have a program show a motion. */
+  show(live: Live): void {
+    this.#live = live
+    for (const resolve of this.#waiting) resolve()
+    this.#waiting.clear()
+  }
+
   async trajectories(): Promise<Listing> {
     return { trajectories: this.catalogue, problem: null }
   }

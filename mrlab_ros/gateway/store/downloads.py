@@ -7,6 +7,10 @@ from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import BinaryIO
+from urllib.parse import quote
+
+from fastapi.responses import StreamingResponse
+from starlette.background import BackgroundTask
 
 from mrlab_ros.adapters.store.port import StoreFailure
 from mrlab_ros.core.trajectory.trajectory import Trajectory
@@ -43,3 +47,17 @@ def pieces(file: BinaryIO) -> Iterator[bytes]:
     with file:
         while piece := file.read(BLOCK):
             yield piece
+
+
+def sent(opened: BinaryIO, size: int, name: str, form: str) -> StreamingResponse:
+    """Return the answer that delivers what `written` returned."""
+    headers = {
+        "Content-Disposition": f'attachment; filename="{quote(f"{name}.{form}")}"',
+        "Content-Length": str(size),
+    }
+    return StreamingResponse(
+        pieces(opened),
+        headers=headers,
+        media_type=MEDIA_TYPES[form],
+        background=BackgroundTask(opened.close),
+    )

@@ -7,13 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal
-from urllib.parse import quote
 
 import orjson
 from fastapi import APIRouter, Depends, Path, Query, Response
 from fastapi.concurrency import run_in_threadpool
 from fastapi.responses import StreamingResponse
-from starlette.background import BackgroundTask
 
 from mrlab_ros.adapters.store import keys
 from mrlab_ros.app.show import document
@@ -127,17 +125,7 @@ async def file(
         loaded = shelf.files.load(record, version)
         return *downloads.written(loaded, record.name, format, shelf.work), record.name
 
-    opened, size, name = await run_in_threadpool(made)
-    headers = {
-        "Content-Disposition": f'attachment; filename="{quote(f"{name}.{format}")}"',
-        "Content-Length": str(size),
-    }
-    return StreamingResponse(
-        downloads.pieces(opened),
-        headers=headers,
-        media_type=downloads.MEDIA_TYPES[format],
-        background=BackgroundTask(opened.close),
-    )
+    return downloads.sent(*await run_in_threadpool(made), format)
 
 
 @router.patch("/{trajectory:path}")

@@ -48,6 +48,11 @@ OTHER_ENDING = Code(
     "Expected a name that ends with {endings:either}.",
 )
 NO_UPLOAD = Code("no_upload", "The upload {upload} is not there.", "Send the file again.")
+NEWER_IS_SHOWN = Code(
+    "newer_is_shown",
+    "A newer motion of this program came while '{file}' waited.",
+    "The newer one is shown.",
+)
 NO_MOTION = Code(
     "no_such_motion",
     "That motion is not there any more.",

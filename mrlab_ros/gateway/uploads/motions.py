@@ -22,6 +22,7 @@ from mrlab_ros.core.base.diagnostic import Diagnostic, Severity, from_plain, of_
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.conversion.candidates import Preview
 from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE
+from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.gateway.errors import NotFound
 from mrlab_ros.gateway.store.shelf import Shelf, finding_fields
 from mrlab_ros.gateway.uploads.diagnostics import NO_MOTION
@@ -77,21 +78,25 @@ def motion(shelf: Shelf, user: str, number: str) -> bytes:
         note: dict[str, Any] = orjson.loads(text)
         if "schema" in note:
             return text
-        return _accepted(shelf, keys.draft(user, note["draft"]), note)
+        return _accepted(shelf, of_draft(shelf, user, note["draft"]), note)
     except (Missing, BadInput, orjson.JSONDecodeError):
         raise NotFound(NO_MOTION()) from None
 
 
-def _accepted(shelf: Shelf, draft: str, note: dict[str, Any]) -> bytes:
+def of_draft(shelf: Shelf, user: str, number: str) -> Trajectory:
+    """Return the trajectory of a draft of a user's; raise Missing."""
+    draft = keys.draft(user, number)
     path = shelf.store.path(draft)
     if path is not None:
         shelf.store.size(draft)
-        loaded = npz_file.read(path)
-    else:
-        with tempfile.NamedTemporaryFile(dir=shelf.work) as file:
-            shelf.store.get_file(draft, file)  # type: ignore[arg-type]
-            file.flush()
-            loaded = npz_file.read(Path(file.name))
+        return npz_file.read(path)
+    with tempfile.NamedTemporaryFile(dir=shelf.work) as file:
+        shelf.store.get_file(draft, file)  # type: ignore[arg-type]
+        file.flush()
+        return npz_file.read(Path(file.name))
+
+
+def _accepted(shelf: Shelf, loaded: Trajectory, note: dict[str, Any]) -> bytes:
     robot = shelf.robots.shown(loaded.robot_model, loaded.end_effector)
     found = [from_plain(fields) for fields in note["diagnostics"]]
     return orjson.dumps(document.motion(loaded, robot, message=note["message"], diagnostics=found))

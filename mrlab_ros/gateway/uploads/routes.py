@@ -39,10 +39,9 @@ class Upload(BaseModel):
     sha256: str
 
 
-class Conversion(Strict):
+class ConversionOptions(Strict):
     """Options of a conversion: those of mrlab_msgs/ConvertTrajectory."""
 
-    upload: Identifier
     robot_model: Words
     end_effector: Words = ""
     frame_rate: Annotated[float, Field(ge=0, le=1e9, allow_inf_nan=False)] = 0.0
@@ -57,6 +56,12 @@ class Conversion(Strict):
     invert: bool = False
     units: Words = ""
     id: Words = ""
+
+
+class Conversion(ConversionOptions):
+    """What shall become of an upload of one's own."""
+
+    upload: Identifier
 
 
 class Preview(BaseModel):
@@ -129,16 +134,16 @@ def desk_of(request: Request) -> Desk:
 TheDesk = Annotated[Desk, Depends(desk_of)]
 
 
-@router.put(
-    "/uploads/{file_name}",
-    status_code=201,
-    openapi_extra={
-        "requestBody": {
-            "required": True,
-            "content": {"application/octet-stream": {"schema": {"type": "string"}}},
-        }
-    },
-)
+# The description of a body that is the file itself.
+FILE_BODY: dict[str, Any] = {
+    "requestBody": {
+        "required": True,
+        "content": {"application/octet-stream": {"schema": {"type": "string"}}},
+    }
+}
+
+
+@router.put("/uploads/{file_name}", status_code=201, openapi_extra=FILE_BODY)
 async def upload(
     request: Request,
     person: CurrentPerson,
@@ -149,19 +154,26 @@ async def upload(
 ) -> Upload:
     """Receive a file, the raw body of the request; one that breaks off leaves nothing."""
     desk.count(person, UPLOADS)
+    return await received(request, shelf.user(person), desk, file_name, content_length)
+
+
+async def received(
+    request: Request, user: str, desk: Desk, file_name: str, announced: int | None
+) -> Upload:
+    """Store the body of a request; raise BadInput, TooLarge or StoreFailure."""
     if request.headers.get("content-type", "").startswith("multipart/"):
         raise NotTheFile(CAME_AS_FORM(file=file_name))
     try:
-        received = await desk.receiver.receive(
-            shelf.user(person), file_name, content_length, in_time(request.stream(), file_name)
+        found = await desk.receiver.receive(
+            user, file_name, announced, in_time(request.stream(), file_name)
         )
     except ClientDisconnect:
         raise BadInput(BROKE_OFF(file=file_name)) from None
     return Upload(
-        upload=received.number,
-        file_name=received.file_name,
-        size=received.size,
-        sha256=received.sha256,
+        upload=found.number,
+        file_name=found.file_name,
+        size=found.size,
+        sha256=found.sha256,
     )
 
 
@@ -181,12 +193,18 @@ async def convert(
 ) -> Converted:
     """Convert an upload of one's own into a draft, or say what is wrong with it."""
     desk.count(person, CONVERSIONS)
+    return await converted(shelf, there, shelf.user(person), asked.upload, asked)
+
+
+async def converted(
+    shelf: Shelf, there: Ports, user: str, upload: str, asked: ConversionOptions
+) -> Converted:
+    """Convert an upload of a user's; raise BadInput, NotFound or Unavailable."""
     if there.lab is None:
         raise Unavailable(GATEWAY_WITHOUT_LAB())
-    user = shelf.user(person)
-    key = await run_in_threadpool(_uploaded, shelf, user, asked.upload)
+    key = await run_in_threadpool(_uploaded, shelf, user, upload)
     draft = keys.unique()
-    request = asked.model_dump(exclude={"upload"})
+    request = asked.model_dump(include=set(ConversionOptions.model_fields))
     request |= {"upload": key, "owner": user, "draft": keys.draft(user, draft)}
     answer = await there.lab.call("converter/convert", "mrlab_msgs/srv/ConvertTrajectory", request)
     if not answer.success and not len(answer.diagnostics):
@@ -213,7 +231,7 @@ def _uploaded(shelf: Shelf, user: str, number: str) -> str:
 
 
 def _converted(
-    shelf: Shelf, user: str, key: str, draft: str, asked: Conversion, answer: Any
+    shelf: Shelf, user: str, key: str, draft: str, asked: ConversionOptions, answer: Any
 ) -> Converted:
     outcome = motions.OUTCOMES[answer.outcome]
     diagnostics = motions.diagnostics_of(answer)

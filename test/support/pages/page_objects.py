@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from browser_side import pixels
+from browser_side import difference, eventually, pixels
 from playwright.sync_api import Locator, Page, expect
 
 
@@ -36,7 +36,14 @@ class UploadPage:
         """Wait until every mesh of the robot is there: the picture is whole and stands still."""
         self.canvas.wait_for()
         expect(self.page.locator(".scene-note")).to_be_hidden()
-        self.page.wait_for_load_state("networkidle")
+        # not the network's silence: the page always waits for the next motion of a program
+        before = [self.picture()]
+
+        def stands() -> bool:
+            before.append(self.picture())
+            return difference(*before[-2:]) == 0.0 and len(np.unique(before[-1])) > 20
+
+        eventually(self.page, stands)
 
     def picture(self) -> np.ndarray:
         """Return the pixels of the 3D view, (height, width, 3)."""

@@ -10,6 +10,7 @@ import type {
   Invitation,
   InvitationLink,
   Listing,
+  Live,
   NewPerson,
   NewToken,
   Pairing,
@@ -35,6 +36,10 @@ export interface Api {
   upload(file: File, onProgress: (share: number) => void, signal: AbortSignal): Promise<Upload>
   convert(request: ConversionRequest, signal: AbortSignal): Promise<Conversion>
   motion(url: string, signal?: AbortSignal): Promise<MotionDocument>
+
+  /** Return the motion that a program of the person shows; null: none. after: wait some seconds for
+   * another one than that; null: answer at once. */
+  live(after: string | null, signal: AbortSignal): Promise<Live | null>
 
   trajectories(): Promise<Listing>
   publish(draft: string, id: string, shared: boolean): Promise<TrajectoryInfo>

@@ -11,6 +11,7 @@ import type {
   Invitation,
   InvitationLink,
   Listing,
+  Live,
   NewPerson,
   NewToken,
   Pairing,
@@ -126,6 +127,11 @@ export class HttpApi implements Api {
   }
   motion(url: string, signal?: AbortSignal): Promise<MotionDocument> {
     return this.#ask('GET', url, undefined, signal)
+  }
+
+  async live(after: string | null, signal: AbortSignal): Promise<Live | null> {
+    const url = after === null ? '/api/live' : `/api/live?after=${after}`
+    return (await this.#ask<{ now: Live | null }>('GET', url, undefined, signal)).now
   }
 
   trajectories(): Promise<Listing> {

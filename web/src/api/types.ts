@@ -135,6 +135,19 @@ export interface Conversion extends Told {
   readonly motion: string | null
 }
 
+/** A motion that a program of the person shows. live: names it. options: those of the conversion,
+ * with their defaults. */
+export interface Live {
+  readonly live: string
+  readonly upload: Upload
+  readonly options: ConvertOptions & {
+    readonly robot_model: string
+    readonly end_effector: string
+    readonly id: string
+  }
+  readonly conversion: Conversion
+}
+
 export interface Version {
   readonly version: number
   /** s since the epoch */

@@ -2187,6 +2187,10 @@ export const diagnostics: Templates = {
     "Die Trajektorie '{id}' hat das Format {found}; dieses MR-Lab liest Format {known:integer}.",
     'Aktualisiere das Labor, oder wandle den Workspace noch einmal um.',
   ],
+  newer_is_shown: [
+    'Eine neuere Bewegung dieses Programms kam, während „{file}“ wartete.',
+    'Die neuere wird gezeigt.',
+  ],
   newer_record: [
     'Ein Eintrag des Katalogs hat das Format {found}; dieses MR-Lab liest Format {known:integer}.',
     'Aktualisiere das Labor.',

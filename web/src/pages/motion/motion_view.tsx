@@ -1,4 +1,4 @@
-import { type Signal, useSignal, useSignalEffect } from '@preact/signals'
+import { type Signal, useSignal } from '@preact/signals'
 import { useEffect, useMemo, useRef, useState } from 'preact/hooks'
 import { Segments } from '../../design/field'
 import { Notice } from '../../design/notice'
@@ -38,10 +38,13 @@ export function MotionView({ motion, compared = null, note = '', selected }: Mot
   const time = useSignal(0)
   const host = useRef<HTMLDivElement>(null)
   const preview = useRef<MotionPreview | null>(null)
-  const [channel, setChannel] = useState<Channel>('angles')
+  const [wanted, setChannel] = useState<Channel>('angles')
   const [failed, setFailed] = useState(false)
   const course = useMemo(() => courseOf(motion), [motion])
   const channels = useMemo(() => channelsOf(motion), [motion])
+  const channel = channels.includes(wanted) ? wanted : 'angles'
+  const newest = useRef({ motion, selected })
+  newest.current = { motion, selected }
   const times = useMemo(() => timesOf(course), [course])
   const strips = useMemo(() => {
     const other =
@@ -62,18 +65,18 @@ export function MotionView({ motion, compared = null, note = '', selected }: Mot
       .then(async ({ createMotionPreview }) => {
         const element = host.current
         if (!here || element === null) return
-        const made = createMotionPreview(element, motion, {
+        const made = createMotionPreview(element, newest.current.motion, {
           words: words.value.scene,
         })
         const stopTime = made.onTime((now) => {
           time.value = now
         })
         const stopSelect = made.onSelect((number) => {
-          selected.value = number
+          newest.current.selected.value = number
         })
         preview.current = made
         made.compare(ghost.current)
-        made.select(selected.peek())
+        made.select(newest.current.selected.peek())
         dispose = () => {
           stopTime()
           stopSelect()
@@ -89,10 +92,12 @@ export function MotionView({ motion, compared = null, note = '', selected }: Mot
       here = false
       dispose()
     }
-  }, [motion, language.value])
+  }, [motion.robot.urdf, language.value])
   const ghost = useRef<MotionDocument | null>(null)
   ghost.current = comparable(motion, compared) ? compared : null
-  useEffect(() => preview.current?.compare(ghost.current), [ghost.current])
+  // Another motion of the same robot takes the place of the one before: the view stays.
+  useEffect(() => preview.current?.show(motion), [motion])
+  useEffect(() => preview.current?.compare(ghost.current), [motion, ghost.current])
 
   const focused = motion.findings[selected.value - 1]?.joint
   const focus = motion.robot.joints.findIndex(({ name }) => name === focused)
@@ -101,13 +106,13 @@ export function MotionView({ motion, compared = null, note = '', selected }: Mot
     if (preview.current) preview.current.seek(to)
     else time.value = to
   }
-  useSignalEffect(() => {
+  useEffect(() => {
     const number = selected.value
     const row = motion.findings[number - 1]?.first_row ?? 0
     if (row === 0) return
     if (preview.current) preview.current.select(number)
     else time.value = course.timeOfRow(row)
-  })
+  }, [motion, selected.value])
 
   return (
     <div class="motion-view">

@@ -1,9 +1,10 @@
-import { computed, signal } from '@preact/signals'
-import { type Api, isAbort } from '../../api/api'
+import { batch, computed, signal } from '@preact/signals'
+import { type Api, ApiError, isAbort } from '../../api/api'
 import type {
   Conversion,
   ConvertOptions,
   Fix,
+  Live,
   RobotLibrary,
   TrajectoryInfo,
   Upload,
@@ -36,6 +37,8 @@ export interface Result {
 const ROBOT_KEY = 'mrlab.robot'
 const EFFECTOR_KEY = 'mrlab.end_effector'
 const FIRST_ROBOT = 'ur5e'
+/** ms until a gateway that did not answer is asked again. */
+const AGAIN_MS = 2000
 
 /** The way of a file: chosen, sent, converted, mended, published. Errors keep file and choices. */
 export class UploadFlow {
@@ -83,6 +86,45 @@ export class UploadFlow {
     this.#before.value = []
     this.published.value = null
     await this.run()
+  }
+
+  /** Show each motion that a program of this person shows, in place of the one before, until
+   * `signal` aborts. current: begin with the one that was shown before this page came. */
+  async follow(signal: AbortSignal, current: boolean): Promise<void> {
+    let known: string | null = null
+    while (!signal.aborted) {
+      try {
+        const live: Live | null = await this.api.live(known, signal)
+        if (live !== null && live.live !== known && (known !== null || current))
+          await this.#take(live, signal)
+        known = live?.live ?? ''
+      } catch (error) {
+        if (signal.aborted) return
+        if (error instanceof ApiError && error.status === 401) return
+        await new Promise((resolve) => setTimeout(resolve, AGAIN_MS))
+      }
+    }
+  }
+
+  async #take(live: Live, signal: AbortSignal): Promise<void> {
+    const { conversion, upload } = live
+    const { robot_model: robot, end_effector: effector, id: _, ...given } = live.options
+    const motion =
+      conversion.motion === null ? null : await this.api.motion(conversion.motion, signal)
+    this.#running?.abort()
+    const chosen = Object.entries(given).filter(([, value]) => Boolean(value))
+    const options: ConvertOptions = Object.fromEntries(chosen)
+    batch(() => {
+      this.file.value = new File([], upload.file_name)
+      this.#upload = upload
+      this.robot.value = robot
+      this.effector.value = effector
+      this.options.value = options
+      this.published.value = null
+      this.error.value = ''
+      this.#before.value = []
+      this.result.value = { choice: { robot, effector, options }, conversion, motion }
+    })
   }
 
   /** Return to the drop zone. */

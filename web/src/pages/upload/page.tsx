@@ -1,6 +1,7 @@
 import { useEffect, useMemo } from 'preact/hooks'
 import { Button } from '../../design/button'
 import { Notice } from '../../design/notice'
+import { path } from '../../shell/router'
 import { useApi } from '../../shell/session'
 import { words } from '../../words/words'
 import { DropZone, useFileDrop } from './drop_zone'
@@ -16,8 +17,13 @@ export function UploadPage() {
   const api = useApi()
   const flow = useMemo(() => new UploadFlow(api), [api])
   useEffect(() => {
+    const left = new AbortController()
     void flow.loadLibrary()
-    return () => flow.cancel()
+    void flow.follow(left.signal, path.value === '/live')
+    return () => {
+      left.abort()
+      flow.cancel()
+    }
   }, [flow])
   const over = useFileDrop((file) => void flow.choose(file))
   const w = words.value.upload

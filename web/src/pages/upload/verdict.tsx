@@ -135,7 +135,6 @@ export function Verdict({ flow, result, file }: VerdictProps) {
               <p class="second small">{w.upload.drawn(motion.source.variable)}</p>
             )}
             <MotionView
-              key={conversion.motion}
               motion={motion}
               compared={tried?.motion ?? null}
               note={tried ? w.upload.wouldBe(fixLabel(tried.fix, w)) : ''}

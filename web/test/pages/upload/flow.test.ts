@@ -1,5 +1,5 @@
 // @vitest-environment jsdom
-import { beforeEach, expect, test } from 'vitest'
+import { beforeEach, expect, test, vi } from 'vitest'
 import { ApiError } from '../../../src/api/api'
 import { UploadFlow } from '../../../src/pages/upload/flow'
 import { own } from '../../../src/words/diagnostic'
@@ -130,4 +130,30 @@ test('a file that is faster than the list of robots waits for it', async () => {
   const eager = new UploadFlow(api)
   await eager.choose(new File(['x'], 'wave.mat'))
   expect(asked).toEqual(['ur5e'])
+})
+
+test('a motion of a program takes the place of what is shown, and its fixes convert it again', async () => {
+  const accepted = await api.convert({ upload: 'sent', robot_model: 'ur5e', end_effector: '' })
+  const live = (name: string) => ({
+    live: name,
+    upload: { upload: name, file_name: `${name}.mat`, size: 1, sha256: '' },
+    options: { robot_model: 'ur5e', end_effector: '', id: '', frame_rate: 100, unwrap: false },
+    conversion: accepted,
+  })
+  const shown = (name: string) =>
+    vi.waitFor(() => expect(flow.file.value?.name).toBe(`${name}.mat`))
+  api.show(live('before'))
+  const left = new AbortController()
+  const following = flow.follow(left.signal, false)
+  await Promise.resolve()
+  api.show(live('script_line_3'))
+  await shown('script_line_3')
+  expect(flow.options.value).toEqual({ frame_rate: 100 })
+  expect(flow.result.value?.motion?.robot.model).toBe('ur5e')
+  api.show(live('script_line_4'))
+  await shown('script_line_4')
+  await flow.apply(UNWRAP)
+  expect(api.requests.at(-1)).toMatchObject({ upload: 'script_line_4', unwrap: true })
+  left.abort()
+  await following
 })

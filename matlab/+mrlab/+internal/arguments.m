@@ -1,0 +1,50 @@
+function [lab, motion] = arguments(given, robot)
+%ARGUMENTS The lab and the motion of a call: [LAB,] [ROBOT,] Q, FS, NAME, VALUE, ...
+%   motion: q, rate (Hz, or s of each row; [] where not given), options, place (the number of the
+%   argument that is q), robot (empty where none is asked for), source ('' : the caller's line).
+motion = struct('q', [], 'rate', [], 'place', 1, 'robot', '', 'name', '', 'source', '');
+if ~isempty(given) && isstruct(given{1}) && isfield(given{1}, 'url')
+    lab = given{1};
+    given(1) = [];
+    motion.place = 2;
+else
+    lab = mrlab.internal.remembered();
+end
+if nargin > 1
+    if isempty(given) || ~ischar(given{1})
+        error('mrlab:badArguments', 'Name the robot: mrlab.play(lab, ''ur5e_1'', q, fs).');
+    end
+    motion.robot = given{1};
+    given(1) = [];
+    motion.place = motion.place + 1;
+end
+if isempty(given)
+    error('mrlab:badArguments', 'Give the motion: q, with a row a frame, and fs.');
+end
+motion.q = given{1};
+given(1) = [];
+if isnumeric(motion.q)
+    if ~isreal(motion.q) || ndims(motion.q) ~= 2
+        error('mrlab:badArguments', 'q is real, with a row a frame and a column a joint.');
+    end
+    motion.q = full(double(motion.q));
+elseif ~ischar(motion.q)
+    error('mrlab:badArguments', 'q is an array of numbers, not a %s.', class(motion.q));
+end
+if ~isempty(given) && isnumeric(given{1})
+    motion.rate = double(given{1});
+    given(1) = [];
+end
+motion.options = mrlab.internal.pairs(given);
+[own, motion] = mrlab.internal.take(motion, {'source', 'robot'});
+if isfield(own, 'source')
+    motion.source = own.source;
+end
+if isfield(own, 'robot')
+    motion.options.robot_model = own.robot;
+elseif isempty(lab.robot) && ~isfield(motion.options, 'robot_model') && isempty(motion.robot)
+    error('mrlab:noModel', 'Name the model: ''robot'', ''ur5e''.');
+elseif ~isfield(motion.options, 'robot_model')
+    motion.options.robot_model = lab.robot;
+end
+end

@@ -1,0 +1,46 @@
+function played = play(varargin)
+%PLAY Play a motion on a robot of the lab.
+%   mrlab.play(LAB, 'ur5e_1', Q, FS) publishes a motion and plays it on that robot: the robot goes to
+%   the first row, then along the motion. Everybody in the room and on the pages sees it. LAB may be
+%   left out. Further arguments are those of mrlab.check and mrlab.publish, and
+%     'rate', 0.5       at half speed; negative: backwards
+%     'replace', true   where the robot moves, pause it and blend to this motion from there
+%
+%   mrlab.play(LAB, 'ur5e_1', 'pick') plays a trajectory of the catalogue.
+%
+%   Errors: the first finding's, such as mrlab:jointLimit, where the lab refuses the motion;
+%   mrlab:illegalEvent where the robot moves; mrlab:roleTooLow where your role may not play.
+%
+%   See also mrlab.state, mrlab.publish.
+
+[lab, motion] = mrlab.internal.arguments(varargin, 'robot first');
+motion.name = inputname(motion.place);
+[playing, motion] = mrlab.internal.take(motion, {'rate', 'replace'});
+if ischar(motion.q)
+    playing.trajectory = motion.q;
+else
+    robots = mrlab.state(lab);
+    robot = robots(strcmp({robots.name}, motion.robot));
+    if isempty(robot)
+        error('mrlab:noRobot', 'The lab has no robot %s. It has: %s.', motion.robot, ...
+            strjoin({robots.name}, ', '));
+    end
+    motion.options.robot_model = robot.model;
+    motion.options.end_effector = robot.end_effector;
+    made = mrlab.internal.publish(lab, motion, true);
+    playing.trajectory = sprintf('%s@%d', made.id, made.version);
+end
+try
+    found = mrlab.internal.request(lab, 'POST', ['/api/robots/' motion.robot '/play'], playing);
+catch problem
+    if strcmp(problem.identifier, 'mrlab:illegalEvent')
+        error(problem.identifier, '%s\n  mend: mrlab.play(..., ''replace'', true)', problem.message);
+    end
+    rethrow(problem);
+end
+if nargout > 0
+    played = found;
+else
+    mrlab.internal.say('%s plays %s.\n', found.robot, found.trajectory);
+end
+end
