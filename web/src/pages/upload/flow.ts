@@ -123,6 +123,7 @@ export class UploadFlow {
       this.published.value = null
       this.error.value = ''
       this.#before.value = []
+      this.tried.value = null
       this.result.value = { choice: { robot, effector, options }, conversion, motion }
     })
   }
