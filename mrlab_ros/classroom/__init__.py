@@ -17,6 +17,15 @@ ROUTERS = ("mrlab_ros.classroom.routes:router",)
 # Names and marks of a class are its teachers'.
 POLICY = {
     ("GET", "/api/class"): "instructor",
+    ("PUT", "/api/class/sources/{name}"): "instructor",
+    ("POST", "/api/class/run"): "instructor",
+    ("DELETE", "/api/class/run"): "instructor",
+    ("POST", "/api/class/proposed"): "instructor",
+    ("DELETE", "/api/class/proposed"): "instructor",
+    ("POST", "/api/class/acts"): "instructor",
+    ("POST", "/api/class/release"): "instructor",
+    ("GET", "/api/class/feedback.zip"): "instructor",
+    ("GET", "/api/class/{table}.csv"): "instructor",
     ("GET", "/api/class/{key}/motion"): "instructor",
     ("GET", "/api/class/{key}/file"): "instructor",
 }

@@ -125,6 +125,34 @@ NO_CLASS_FOLDER = Code(
     "no_class_folder",
     "{folder} holds {found} and is no folder of an earlier class; give an empty or a new folder.",
 )
+CLASS_RUNS = Code(
+    "class_runs", "Another run writes the results in {folder}; wait until it has ended."
+)
+SOURCE_NAME = Code(
+    "source_name", "'{file}' is no name of a file beside a rubric; expected one without folders."
+)
+SOURCE_TOO_LARGE = Code("source_too_large", "{file} is larger than {most:bytes}.")
+REFERENCE_BESIDE = Code(
+    "reference_beside",
+    "The rubric names {file}; a rubric that is handed in here names files beside it, without "
+    "folders.",
+)
+SOURCES_MISSING = Code(
+    "sources_missing",
+    "There is no {what:choice export=export|rubric=rubric} yet; hand it in first.",
+)
+NOTHING_PROPOSED = Code("nothing_proposed", "No marks are proposed; run the class first.")
+CLASS_RUN_ENDED = Code(
+    "class_run_ended", "The run ended before it was done ({why:problem}); start it again."
+)
+NOT_RELEASED = Code(
+    "not_released", "The marks are not released; release them, then download what students get."
+)
+NO_WORKSHEET_GIVEN = Code(
+    "no_worksheet_given",
+    "Moodle's grading worksheet was not handed in; hand it in, undo the release, and release "
+    "again.",
+)
 NOT_WRITABLE = Code("not_writable", "{file} cannot be written: {why:problem}.")
 # processes that check
 UNKNOWN_BACKEND = Code("unknown_backend", "The backend is '{backend}'; expected {known:either}.")

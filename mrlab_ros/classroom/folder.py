@@ -2,29 +2,48 @@
 
 from __future__ import annotations
 
+import fcntl
 import json
 import shutil
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import orjson
 
 from mrlab_ros.adapters.whole_file import replaced
-from mrlab_ros.classroom.diagnostics import NO_CLASS_FILE, NO_CLASS_FOLDER, NOT_WRITABLE
+from mrlab_ros.classroom.diagnostics import (
+    CLASS_RUNS,
+    NO_CLASS_FILE,
+    NO_CLASS_FOLDER,
+    NOT_WRITABLE,
+)
 from mrlab_ros.core.base.diagnostic import Fix
 from mrlab_ros.core.base.errors import BadInput, Misuse
 
 CLASS, INDEX, TABLE, CHANGES = "class.json", "index.html", "grades.csv", "changes.json"
-KEPT, PAGES, FEEDBACK, RESULTS, TRAJECTORIES = (
-    "kept", "pages", "feedback", "results", "trajectories",
+JOURNAL, WORKSHEET = "journal.jsonl", "worksheet.csv"
+KEPT, PAGES, FEEDBACK, RESULTS, TRAJECTORIES, EVIDENCE = FOLDERS = (
+    "kept", "pages", "feedback", "results", "trajectories", "evidence",
 )  # fmt: skip
-OWN = (CLASS, INDEX, TABLE, CHANGES, KEPT, PAGES, FEEDBACK, RESULTS, TRAJECTORIES)
+# What the next run reads, what the last one read, and the marks that a run proposes.
+SOURCES, HELD, PROPOSED = "sources", "held", "proposed"
+RUNNING = ".running"  # locked while a run writes
+OWN = (
+    CLASS, INDEX, TABLE, CHANGES, JOURNAL, WORKSHEET, *FOLDERS, SOURCES, HELD, PROPOSED, RUNNING,
+)  # fmt: skip
 
 
 def check(folder: Path) -> None:
-    """Raise BadInput where a folder holds no class that `mrlab class` has marked."""
-    if not (folder / CLASS).is_file():
+    """Raise BadInput where a folder holds what is not of a class; an empty or a new one is one."""
+    try:
+        strange = [p.name for p in folder.iterdir() if p.name not in OWN]
+    except FileNotFoundError:
+        return
+    except OSError as error:
+        raise BadInput(NOT_WRITABLE(file=str(folder), why=error.strerror)) from None
+    if strange and not (folder / CLASS).is_file():
         make = Fix(command="mrlab class SUBMISSIONS --rubric RUBRIC.yaml --out FOLDER")
         raise BadInput(NO_CLASS_FILE(file=CLASS, folder=str(folder), fixes=(make,)))
 
@@ -39,13 +58,23 @@ class ResultsFolder:
             strange = (
                 [p.name for p in path.iterdir() if p.name not in OWN] if path.exists() else []
             )
-            own = (path / KEPT).is_dir() or (path / CLASS).is_file()
+            own = any((path / name).exists() for name in (KEPT, CLASS, SOURCES))
             if strange and not own:
                 raise Misuse(NO_CLASS_FOLDER(folder=str(path), found=strange[0]))
-            for name in (KEPT, PAGES, FEEDBACK, RESULTS, TRAJECTORIES):
+            for name in FOLDERS:
                 (path / name).mkdir(parents=True, exist_ok=True)
         except OSError as error:
             raise BadInput(NOT_WRITABLE(file=str(path), why=error.strerror)) from None
+
+    @contextmanager
+    def alone(self) -> Iterator[None]:
+        """Let nobody else write results here meanwhile; raise BadInput where somebody does."""
+        with (self.path / RUNNING).open("wb") as file:
+            try:
+                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                raise BadInput(CLASS_RUNS(folder=str(self.path))) from None
+            yield
 
     def write(self, name: str, content: bytes) -> None:
         """Write a file by its path within the folder, replacing it as a whole."""
@@ -67,9 +96,17 @@ class ResultsFolder:
         found = content.get("result") if content.get("digest") == digest else None
         return found if isinstance(found, dict) else None
 
-    def keep(self, key: str, digest: str, result: dict[str, Any]) -> None:
-        """Keep the result of a key, when everything else of it is written."""
-        self.write(f"{KEPT}/{key}.json", orjson.dumps({"digest": digest, "result": result}))
+    def keep(self, key: str, digest: str, result: dict[str, Any], checked: str) -> None:
+        """Keep the result of a key, when everything else of it is written; checked: the digest of
+        its evidence."""
+        kept = {"digest": digest, "checked": checked, "result": result}
+        self.write(f"{KEPT}/{key}.json", orjson.dumps(kept))
+
+    def evidence(self, key: str, checked: str) -> bytes:
+        """Return the evidence of a key that was kept with a digest, none where there is none."""
+        if self.document(f"{KEPT}/{key}.json").get("checked") != checked:
+            return b""
+        return self.content(f"{EVIDENCE}/{key}")
 
     def forget(self, key: str) -> None:
         """Forget the result of a key, before anything of another one is written."""

@@ -181,7 +181,12 @@ class Grader:
         out.mkdir()
         try:
             names = self._given(task, folder)
-            request = {"folder": str(folder), "out": str(out), "shown": task.shown, "files": names}
+            request = {
+                "folder": str(folder), "out": str(out), "shown": task.shown, "files": names,
+                "changes": dict(task.changes), "comment": task.comment,
+            }  # fmt: skip
+            if task.evidence:
+                (folder / worker.GIVEN).write_bytes(task.evidence)
             status = self._ask(request)
             if status == -signal.SIGKILL:  # from outside: once more
                 status = self._ask(request)

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import functools
+import getpass
 import json
 import os
-import re
-import secrets
 import sys
 import tempfile
-from collections.abc import Iterator, Mapping, Sequence
+import time
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
 from typing import Any
@@ -21,10 +21,8 @@ from mrlab_ros.adapters import share
 from mrlab_ros.app.check import cell
 from mrlab_ros.app.check.file import CELLS
 from mrlab_ros.app.convert import SUFFIXES
-from mrlab_ros.classroom import grader, words, worker
+from mrlab_ros.classroom import grader, pseudonyms, words, worker
 from mrlab_ros.classroom.diagnostics import (
-    KEY_TABLE_NOT_READ,
-    KEY_TABLE_NOT_WRITTEN,
     NO_SUBMISSIONS,
     PROCESSES_KILLED,
     REFERENCE_APART,
@@ -37,6 +35,7 @@ from mrlab_ros.classroom.diagnostics import (
 from mrlab_ros.classroom.folder import (
     CHANGES,
     CLASS,
+    EVIDENCE,
     FEEDBACK,
     INDEX,
     KEPT,
@@ -46,8 +45,14 @@ from mrlab_ros.classroom.folder import (
     TRAJECTORIES,
     ResultsFolder,
 )
+from mrlab_ros.classroom.journal_file import JournalFile
 from mrlab_ros.classroom.marks import changes, gradebook
-from mrlab_ros.classroom.marks.diagnostics import MARKS_CHANGED, NO_FILE_HANDED_IN, UNREADABLE
+from mrlab_ros.classroom.marks.diagnostics import (
+    CLASS_IS_LOCKED,
+    MARKS_CHANGED,
+    NO_FILE_HANDED_IN,
+    UNREADABLE,
+)
 from mrlab_ros.classroom.marks.exports import (
     FORMS,
     REFERENCE,
@@ -57,13 +62,13 @@ from mrlab_ros.classroom.marks.exports import (
     recognise,
 )
 from mrlab_ros.classroom.marks.graded import GradedClass, Student
+from mrlab_ros.classroom.marks.journal import MARK, Entry, State
 from mrlab_ros.classroom.marks.result import (
     FAILED,
     MARKED,
     NO_FILE,
     TO_REPEAT,
     Result,
-    pseudonymous,
     without_marks,
 )
 from mrlab_ros.classroom.rubrics.rubric import Rubric
@@ -82,7 +87,12 @@ DONE, FAILED_SOME = 0, 1
 
 @dataclass(frozen=True)
 class Request:
-    """The arguments of the command. jobs: 0: one a processor."""
+    """The arguments of the command. jobs: 0: one a processor.
+
+    base: the folder of the class where `out` holds marks that are only proposed; its journal,
+    results and evidence are read. final: a locked class is written once more. worksheet: the
+    filled template. progress: told how many are checked, of how many.
+    """
 
     source: Path
     setup: Setup
@@ -95,23 +105,42 @@ class Request:
     fresh: bool = False
     template: Path | None = None
     form: str = ""
+    base: Path | None = None
+    final: bool = False
+    worksheet: Path | None = None
+    progress: Callable[[int, int], None] = lambda done, count: None
 
 
 @dataclass(frozen=True)
 class _Wanted:
-    """A submission whose result is not kept yet. digest: under which it will be."""
+    """A submission whose result is not kept yet. digest, checked: under which it will be, and its
+    evidence."""
 
     task: Task
     digest: str
+    checked: str
 
 
-Answer = tuple[str, str, dict[str, bytes]]
+Answer = tuple[tuple[str, str, str], dict[str, bytes]]
 
 
 def run(request: Request) -> int:
-    """Grade a class and return the exit code; raise LabError where nothing can be graded."""
+    """Mark a class, say it, and return the exit code; raise LabError where nothing is marked."""
+    graded, key_table, problems = marked(request)
+    if request.as_json:
+        print(json.dumps(graded.document()))
+    else:
+        words.show(graded, request.out, key_table, problems)
+    outcomes = {s.result.outcome for s in graded.students}
+    return FAILED_SOME if outcomes & {FAILED, TO_REPEAT} else DONE
+
+
+def marked(request: Request) -> tuple[GradedClass, Path | None, list[Diagnostic]]:
+    """Mark a class and write its folder; return it, the file that says who is who, and what its
+    teacher has to know. Raises LabError."""
     rubric = request.setup.rubric
-    with Export(request.source) as export:
+    folder = ResultsFolder(request.out)
+    with folder.alone(), Export(request.source) as export:
         roster = recognise(
             export.entries,
             (*SUFFIXES, *CELLS),
@@ -123,25 +152,24 @@ def run(request: Request) -> int:
         roster = replace(roster, left_out=left_out)
         if not roster.submissions:
             raise BadInput(NO_SUBMISSIONS(file=str(request.source)))
-        folder = ResultsFolder(request.out)
+        state, problems = _state(request, folder)
         key_table, who = None, dict[str, Submission]()
         if request.pseudonyms:
-            roster, key_table, who = _pseudonyms(roster, request.out)
-        results = _results(request, roster, export, folder)
-    students = tuple(Student(s, results[s.key]) for s in roster.submissions)
-    changed, problems = _changes(folder, students)
-    students = tuple(changes.applied(s, changed.get(s.key, {})) for s in students)
-    graded = GradedClass(rubric, roster.form, students, roster.left_out, results.get(REFERENCE))
-    _write(graded, folder, changed)
-    if request.template is not None:  # it has names, so it is filled by them
-        named = [Student(who.get(s.submission.name, s.submission), s.result) for s in students]
-        problems += _fill(request, named, request.template)
-    document = graded.document()
-    if request.as_json:
-        print(json.dumps(document))
-    else:
-        words.show(graded, request.out, key_table, problems)
-    return FAILED_SOME if any(s.result.outcome in (FAILED, TO_REPEAT) for s in students) else DONE
+            roster, key_table, who = pseudonyms.of_roster(roster, request.out)
+        results = _results(request, roster, export, folder, state)
+        students = tuple(
+            changes.applied(Student(s, results[s.key]), state.columns(s.key), state.comment(s.key))
+            for s in roster.submissions
+        )
+        if count := sum(bool(state.columns(s.key)) for s in students):
+            problems.append(MARKS_CHANGED(count=count))
+        reference = results.get(REFERENCE)
+        graded = GradedClass(rubric, roster.form, students, roster.left_out, reference)
+        _write(graded, folder)
+        if request.template is not None:  # it has names, so it is filled by them
+            named = [Student(who.get(s.submission.name, s.submission), s.result) for s in students]
+            problems += _fill(request, named, request.template)
+    return graded, key_table, problems
 
 
 def form_of(name: str) -> str:
@@ -188,7 +216,7 @@ def _reference(rubric: Rubric, path: Path) -> bytes:
 
 
 def _results(
-    request: Request, roster: Roster, export: Export, folder: ResultsFolder
+    request: Request, roster: Roster, export: Export, folder: ResultsFolder, state: State
 ) -> dict[str, Result]:
     """Return the result of each submission by key, of the reference too; what is kept is not
     checked again."""
@@ -217,10 +245,11 @@ def _results(
             results[key] = result
             missing.pop(key, None)
             bar.update(shown, completed=total - len(missing))
+            request.progress(total - len(missing), total)
 
         for attempt in range(1, ATTEMPTS + 1):
             try:
-                _run(request, missing, export, folder, known, done)
+                _run(request, missing, export, folder, state, known, done)
                 break
             except grader.Broken:
                 if attempt == ATTEMPTS:
@@ -237,11 +266,13 @@ def _run(
     missing: dict[str, Submission | None],
     export: Export,
     folder: ResultsFolder,
+    state: State,
     known: Any,
     done: Any,
 ) -> None:
     """Check what is missing, and keep each result when it comes."""
     setup, unread = request.setup, []
+    base = folder if request.base is None else ResultsFolder(request.base)
 
     def wanted() -> Iterator[_Wanted]:
         for key, submission in list(missing.items()):
@@ -250,12 +281,15 @@ def _run(
             except BadInput as error:
                 unread.append((key, without_marks(setup.rubric, NO_FILE, error.diagnostic)))
                 continue
-            digest = task.digest(setup.digest)
+            if setup.pages:  # which show them
+                task = replace(task, changes=state.columns(key), comment=state.comment(key))
+            digest, checked = task.digest(setup.digest), task.checked(setup.ground)
             found = known(key, digest)
             if found is not None:
                 unread.append((key, found))
                 continue
-            yield _Wanted(task, digest)
+            evidence = b"" if request.fresh else base.evidence(key, checked)
+            yield _Wanted(replace(task, evidence=evidence), digest, checked)
 
     # other machines have no folder of ours
     here = tempfile.TemporaryDirectory(prefix="mrlab-class-", ignore_cleanup_errors=True)
@@ -270,8 +304,8 @@ def _run(
             scheduler=request.scheduler,
         )
         try:
-            for key, digest, files in answers:
-                done(key, _stored(folder, key, digest, files))
+            for wanted_one, files in answers:
+                done(wanted_one[0], _stored(folder, *wanted_one, files))
                 while unread:
                     done(*unread.pop())
         finally:
@@ -282,7 +316,8 @@ def _run(
 
 def _graded(setup: Setup, scratch: str, owner: int, wanted: _Wanted) -> Answer:
     """Check one submission, wherever this runs."""
-    return wanted.task.key, wanted.digest, grader.checked(setup, wanted.task, scratch, owner)
+    named = (wanted.task.key, wanted.digest, wanted.checked)
+    return named, grader.checked(setup, wanted.task, scratch, owner)
 
 
 def _task(
@@ -304,48 +339,27 @@ def _task(
         raise BadInput(UNREADABLE())  # the values hold names
     if not files:
         raise problems[0]
-    return Task(key, submission.name, tuple(_unnamed(key, files) if pseudonym else files))
-
-
-def _unnamed(key: str, files: Sequence[tuple[str, bytes]]) -> list[tuple[str, bytes]]:
-    """Return files under names that say nothing; a cell names its motions by them."""
-    names = {
-        name: f"{key}-{n}{_ending(name)}" if n > 1 else f"{key}{_ending(name)}"
-        for n, (name, _) in enumerate(files, 1)
-    }
-    if not any(name.lower().endswith(CELLS) for name in names):
-        return [(names[name], content) for name, content in files]
-    longest = sorted(names, key=len, reverse=True)
-    known = re.compile(b"|".join(re.escape(name.encode()) for name in longest))
-    return [
-        (
-            names[name],
-            known.sub(lambda found: names[found[0].decode()].encode(), content)
-            if name.lower().endswith(CELLS)
-            else content,
-        )
-        for name, content in files
-    ]
-
-
-def _ending(name: str) -> str:
-    return next(
-        (s for s in sorted(SUFFIXES, key=len, reverse=True) if name.lower().endswith(s)), ""
+    return Task(
+        key, submission.name, tuple(pseudonyms.unnamed(key, files) if pseudonym else files)
     )
 
 
-def _stored(folder: ResultsFolder, key: str, digest: str, files: dict[str, bytes]) -> Result:
+def _stored(
+    folder: ResultsFolder, key: str, digest: str, checked: str, files: dict[str, bytes]
+) -> Result:
     """Write what was found of a submission, the result last; return it."""
     document = orjson.loads(files[worker.RESULT])
     result = Result(**document)
     folder.forget(key)
     if worker.TRAJECTORY in files:
         folder.write(f"{TRAJECTORIES}/{key}.json", files[worker.TRAJECTORY])
+    if worker.EVIDENCE in files:
+        folder.write(f"{EVIDENCE}/{key}", files[worker.EVIDENCE])
     if worker.PAGE in files:
         folder.write(f"{PAGES}/{key}.html", files[worker.PAGE])
         folder.write(f"{FEEDBACK}/{key}.html", files.get(worker.FEEDBACK, files[worker.PAGE]))
     if result.outcome in (MARKED, NO_FILE):
-        folder.keep(key, digest, document)
+        folder.keep(key, digest, document, checked)
     return result
 
 
@@ -353,13 +367,19 @@ def _known(request: Request, folder: ResultsFolder) -> Any:
     """Return what looks up the kept result of a key under a digest, with all files of it there."""
 
     def known(key: str, digest: str) -> Result | None:
-        document = None if request.fresh else folder.kept(key, digest)
+        if request.fresh:
+            return None
+        document = folder.kept(key, digest)
+        if document is None and request.base is not None:
+            document = ResultsFolder(request.base).kept(key, digest)
         if document is None:
             return None
         try:
             result = Result(**document)
         except TypeError:
             return None
+        if request.base is not None:
+            return result
         if request.setup.pages and result.has_trajectory and not result.has_page:
             return None  # it was checked without pages
         there = (not result.has_trajectory or folder.has(f"{TRAJECTORIES}/{key}.json")) and (
@@ -371,23 +391,29 @@ def _known(request: Request, folder: ResultsFolder) -> Any:
     return known
 
 
-def _changes(
-    folder: ResultsFolder, students: Sequence[Student]
-) -> tuple[dict[str, dict[str, float]], list[Diagnostic]]:
-    """Return the marks that were changed by hand, now or before, and what cannot be read."""
-    kept, table = folder.document(CHANGES), folder.content(TABLE)
-    new: dict[str, dict[str, float]] = {}
-    problems: list[Diagnostic] = []
-    before = folder.document(CLASS)
-    if table and before and changes.digest(table) not in kept.get("written", ()):
-        new, problems = changes.found(table.decode("utf-8", "replace"), before)
-    every = changes.merged(kept.get("changes", {}), new, students)
-    if every:
-        problems.append(MARKS_CHANGED(count=len(every)))
-    return every, problems
+def _state(request: Request, folder: ResultsFolder) -> tuple[State, list[Diagnostic]]:
+    """Return what teachers did to the marks, in the table too, and cells of it that are no
+    numbers. Raises BadInput where the class is locked."""
+    journal = JournalFile(request.base or request.out)
+    state = journal.state()
+    if state.locked and not request.final and request.base is None:
+        raise BadInput(CLASS_IS_LOCKED(who=state.locked.who))
+    kept, table, before = folder.document(CHANGES), folder.content(TABLE), folder.document(CLASS)
+    if not table or not before or changes.digest(table) in kept.get("written", ()):
+        return state, []
+    found, problems = changes.found(table.decode("utf-8", "replace"), before)
+    given = {s["key"]: changes.given_of(s) for s in before["students"]}
+    now, who = time.time(), getpass.getuser()
+    new = [
+        # a value that the test gave takes the change back
+        Entry(now, who, MARK, key, test, None if points == given[key][test] else points, TABLE)
+        for key, columns in found.items()
+        for test, points in columns.items()
+    ]
+    return journal.append(lambda _: new), problems
 
 
-def _write(graded: GradedClass, folder: ResultsFolder, changed: Mapping[str, Any]) -> None:
+def _write(graded: GradedClass, folder: ResultsFolder) -> None:
     """Write pages and tables."""
     from mrlab_ros.classroom.page import class_page
 
@@ -406,20 +432,21 @@ def _write(graded: GradedClass, folder: ResultsFolder, changed: Mapping[str, Any
     folder.tidy(PAGES, pages)
     folder.tidy(FEEDBACK, pages)
     folder.tidy(KEPT, [f"{key}.json" for key in results])
+    folder.tidy(EVIDENCE, results)
     table = gradebook.table(graded.rubric, graded.students).encode()
     # a kill between these leaves one of two tables that no hand changed
     written = [changes.digest(table)]
     before = [changes.digest(folder.content(TABLE)), *written]
-    folder.write_json(CHANGES, {"written": before, "changes": changed})
+    folder.write_json(CHANGES, {"written": before})
     folder.write(TABLE, table)
     folder.write_json(CLASS, graded.document())
-    folder.write_json(CHANGES, {"written": written, "changes": changed})
+    folder.write_json(CHANGES, {"written": written})
     folder.write(INDEX, class_page(graded, share.directory()).encode())
 
 
 def _fill(request: Request, students: Sequence[Student], template: Path) -> list[Diagnostic]:
-    """Write Moodle's worksheet with the grades beside the folder of the class."""
-    out = request.out.with_name(f"{request.out.name}-{template.name}")
+    """Write Moodle's worksheet with the grades, beside the folder of the class or as asked."""
+    out = request.worksheet or request.out.with_name(f"{request.out.name}-{template.name}")
     try:
         content = template.read_bytes().decode("utf-8")
         text, problems = gradebook.filled(content, students, template.name)
@@ -429,28 +456,3 @@ def _fill(request: Request, students: Sequence[Student], template: Path) -> list
             WORKSHEET_FAILED(file=str(template), out=str(out), why=str(error))
         ) from None
     return [WORKSHEET_WRITTEN(file=str(out)), *problems]
-
-
-def _pseudonyms(roster: Roster, out: Path) -> tuple[Roster, Path, dict[str, Submission]]:
-    """Return the roster without names, the file beside the class that says who is who, and who."""
-    path = out.with_name(f"{out.name}-names.json")
-    try:
-        known = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
-        secret = bytes.fromhex(known["secret"]) if known else secrets.token_bytes(32)
-    except (OSError, ValueError, LookupError, TypeError) as error:
-        raise BadInput(KEY_TABLE_NOT_READ(file=str(path), why=str(error))) from None
-    changed, who = pseudonymous(roster, secret)
-    students = {
-        name: {"name": s.name, "identifier": s.identifier, "email": s.email, "folder": s.folder}
-        for name, s in who.items()
-    }
-    content = {"secret": secret.hex(), "students": {**known.get("students", {}), **students}}
-    try:
-        written = path.with_name(f".{path.name}-writing")
-        descriptor = os.open(written, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600)
-        with os.fdopen(descriptor, "wb") as file:
-            file.write(orjson.dumps(content, option=orjson.OPT_INDENT_2))
-        os.replace(written, path)
-    except OSError as error:
-        raise BadInput(KEY_TABLE_NOT_WRITTEN(file=str(path), why=error.strerror)) from None
-    return changed, path, who

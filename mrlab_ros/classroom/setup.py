@@ -83,6 +83,15 @@ class Setup:
     @cached_property
     def digest(self) -> str:
         """Return the sha256 of all that marks depend on beside the submission."""
+        reference = [
+            [name, hashlib.sha256(content).hexdigest()] for name, content in self.references
+        ]
+        return digest([self.ground, described(self.rubric), reference])
+
+    @cached_property
+    def ground(self) -> str:
+        """Return the sha256 of all that a check depends on beside the submission, without what
+        the rubric makes of it."""
         folder = share.directory()
         setting = self.setting(folder)
         entry = entry_of(setting)
@@ -91,16 +100,12 @@ class Setup:
             stage = setting.stage
             robot = stage.robot(entry.name, entry.model, entry.end_effector, entry.pose)
             inputs = stage.inputs([robot], self.scene)
-        reference = [
-            [name, hashlib.sha256(content).hexdigest()] for name, content in self.references
-        ]
         return digest(
             {
                 "version": mrlab_ros.__version__,
-                "rubric": described(self.rubric),
+                "asked": [self.rubric.robot, self.rubric.tool, self.rubric.closest],
                 "scene": scene_document.plain(self.scene),
                 "options": {k: v for k, v in vars(self.options).items() if v},
-                "reference": reference,
                 "inputs": inputs,
             }
         )
@@ -134,14 +139,26 @@ def described(rubric: Rubric) -> Mapping[str, Any]:
 class Task:
     """One submission to check. shown: what its motion is called on pages, without folder.
 
-    files: name and bytes of the candidates; the first that holds a motion is taken.
+    files: name and bytes of the candidates; the first that holds a motion is taken. changes:
+    points that a teacher gives, by test; comment: the teacher's. evidence: what an earlier check
+    of these files left, so that nothing is simulated; empty: none.
     """
 
     key: str
     shown: str
     files: tuple[tuple[str, bytes], ...]
+    changes: Mapping[str, float] = field(default_factory=dict)
+    comment: str = ""
+    evidence: bytes = b""
 
     def digest(self, setup: str) -> str:
         """Return the sha256 by which the result of a task is known again."""
-        parts = [[name, hashlib.sha256(data).hexdigest()] for name, data in self.files]
-        return digest([setup, self.shown, parts])
+        return digest([setup, self.shown, self._parts, dict(self.changes), self.comment])
+
+    def checked(self, ground: str) -> str:
+        """Return the sha256 by which the evidence of a task is known again."""
+        return digest([ground, self._parts])
+
+    @property
+    def _parts(self) -> list[list[str]]:
+        return [[name, hashlib.sha256(data).hexdigest()] for name, data in self.files]

@@ -24,6 +24,8 @@ import socket
 import sys
 import tempfile
 import traceback
+import zlib
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -44,6 +46,7 @@ from mrlab_ros.app.convert import of_trajectory_file_here
 from mrlab_ros.app.show.page import packed
 from mrlab_ros.classroom.diagnostics import NO_FILE, NO_ROBOT_IN_RUBRIC, REFERENCE_NOT_MARKED
 from mrlab_ros.classroom.mark import check_rubric_file
+from mrlab_ros.classroom.marks import changes
 from mrlab_ros.classroom.marks.diagnostics import (
     MACHINE_REFUSED,
     SUBMISSION_FAILED,
@@ -127,6 +130,7 @@ class Inside:
 MiB = 1 << 20
 MOST_WRITTEN = 512 * MiB  # bytes of one file that a check may write
 RESULT, TRAJECTORY, PAGE, FEEDBACK = "result.json", "trajectory.json", "page.html", "feedback.html"
+EVIDENCE, GIVEN = "evidence", ".evidence"  # what a check leaves for the next one, and takes
 MESSAGE_SIZE = 1 << 16
 # A checked file, its name, and why it could not be checked.
 First = tuple[CheckedFile | None, str, Diagnostic | None]
@@ -166,13 +170,24 @@ class Warm:
 
             packed(code(self.share).script)
 
-    def check(self, shown: str, files: list[str], folder: Path, out: Path) -> None:
-        """Check the first of some files that holds a motion, and write what was found."""
-        found, file, problem = self._first(files, folder)
+    def check(self, request: Mapping[str, Any], folder: Path, out: Path) -> None:
+        """Check the first of some files that holds a motion, and write what was found.
+
+        What an earlier check left is taken for it; it was written here, and nobody else reads it.
+        """
+        given, problem = folder / GIVEN, None
+        found: CheckedFile | None
+        if given.exists():
+            found, file = pickle.loads(zlib.decompress(given.read_bytes()))
+        else:
+            found, file, problem = self._first(request["files"], folder)
         if found is None:
             result = without_marks(self.setup.rubric, MARKED, problem or NO_FILE(), file)
         else:
-            result = self._result(found, folder / file, shown, out)
+            result = self._result(found, folder / file, request, out)
+            if not given.exists():
+                evidence = pickle.dumps((found, file), pickle.HIGHEST_PROTOCOL)
+                (out / EVIDENCE).write_bytes(zlib.compress(evidence, 1))
         (out / RESULT).write_bytes(orjson.dumps(result.plain()))
 
     def _first(
@@ -192,7 +207,9 @@ class Warm:
             told = told or (found, name, None)
         return told or (None, "", None)
 
-    def _result(self, found: CheckedFile, source: Path, shown: str, out: Path) -> Result:
+    def _result(
+        self, found: CheckedFile, source: Path, request: Mapping[str, Any], out: Path
+    ) -> Result:
         file = source.name
         checked = found.checked
         marks = mark(self.setup.rubric, checked, self.reference)
@@ -202,7 +219,7 @@ class Warm:
             with (out / TRAJECTORY).open("wb") as written:
                 written.writelines(formats.chunks(trajectory))
         if has_page:
-            self._pages(found, marks, f"{shown}: {file}", out)
+            self._pages(found, marks, request, f"{request['shown']}: {file}", out)
         path: Any = ()
         if figures is not None:
             at = np.linspace(0, len(figures.tool) - 1, MOST_PATH).round().astype(int)
@@ -229,8 +246,11 @@ class Warm:
             has_page,
         )
 
-    def _pages(self, found: CheckedFile, marks: Marks, title: str, out: Path) -> None:
-        """Write the teacher's page, and the student's where it is another one."""
+    def _pages(
+        self, found: CheckedFile, marks: Marks, request: Mapping[str, Any], title: str, out: Path
+    ) -> None:
+        """Write the teacher's page, and the student's where it is another one, with the marks and
+        the comment that the teacher gives."""
         from mrlab_ros.app.show.check import write_page
 
         pages = {PAGE: marks}
@@ -238,9 +258,8 @@ class Warm:
             pages[FEEDBACK] = marks.public()
         for name, shown in pages.items():
             stage = self.setting.stage
-            write_page(
-                out / name, found, stage, self.share, shown.plain(), title=title, with_film=False
-            )
+            given = changes.marks(shown.plain(), request["changes"], request["comment"])
+            write_page(out / name, found, stage, self.share, given, title=title, with_film=False)
 
 
 def confine(bounds: Bounds) -> None:
@@ -257,7 +276,7 @@ def work(warm: Warm, request: dict[str, Any]) -> None:
     restrictions.shut(read=[folder, *warm.readable], write=[out], opens=True)
     outcome = FAILED
     try:
-        warm.check(request["shown"], request["files"], folder, out)
+        warm.check(request, folder, out)
     except MemoryError:
         why = SUBMISSION_OUT_OF_MEMORY(limit=warm.setup.bounds.memory)
     except OSError as error:

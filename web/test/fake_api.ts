@@ -46,6 +46,28 @@ export const NO_CHECK: Check = {
   duration: null,
   findings: [],
 }
+export const NO_CLASS: GradedClass = {
+  title: 'Pick and place',
+  robot: 'ur5e',
+  marked: false,
+  form: '',
+  submissions: [],
+  reference: null,
+  desk: {
+    sources: [],
+    missing: [],
+    form: '',
+    run: null,
+    proposed: null,
+    journal: [],
+    locked: '',
+    released: '',
+    undo: false,
+    differing: 0,
+    worksheet: false,
+    left_out: [],
+  },
+}
 const FOUND = {
   ...finding({}),
   robot: 'ur5e_1',
@@ -389,8 +411,10 @@ export class FakeApi implements Api {
     this.checks.delete(`${robot} ${trajectory}`)
   }
   async gradedClass(): Promise<GradedClass> {
-    return { title: 'Pick and place', robot: 'ur5e', submissions: [], reference: null }
+    return NO_CLASS
   }
+  async classSource(): Promise<void> {}
+  async classDo(): Promise<void> {}
   async classFile(key: string): Promise<File> {
     return new File(['{}'], `${key}.json`)
   }

@@ -1,7 +1,8 @@
-"""Marks that a teacher changed in the table of a class: they hold over all later runs.
+"""Marks that a teacher gives in place of those of tests: they hold over all later runs.
 
-A change belongs to a student's key and to a test, or to the sum of points. It is found where the
-table differs from what the last run wrote, and kept apart from the marks that tests give.
+A change belongs to a student's key and to a test, or to the sum of points; the journal keeps it
+apart from the marks that tests give. One that was made in the table is found where the table
+differs from what the last run wrote.
 """
 
 from __future__ import annotations
@@ -34,6 +35,22 @@ def columns_of(student: Mapping[str, Any]) -> dict[str, float]:
     """Return the points of a student in class.json, as the table shows them."""
     shown = {m["name"]: float(m["points"]) for m in student["marks"]}
     return {**shown, POINTS: float(student["points"])}
+
+
+def given_of(student: Mapping[str, Any]) -> dict[str, float]:
+    """Return the points of a student in class.json without those that a teacher gave."""
+    return columns_of(shown(student, {}))
+
+
+def shown(student: Mapping[str, Any], columns: Columns) -> dict[str, Any]:
+    """Return a student of class.json with the points that a teacher gives now."""
+    had = {
+        "tests": student["marks"],
+        "points": student["points"],
+        "given": student.get("given", student["points"]),
+    }
+    now = marks(had, columns)
+    return {**student, "marks": now["tests"], "points": now["points"]}
 
 
 def found(
@@ -70,60 +87,55 @@ def _number(text: str) -> float | None:
     return value if math.isfinite(value) else None
 
 
-def applied(student: Student, changes: Columns) -> Student:
-    """Return a student with changed marks; a note names each."""
-    if not changes:
+def marks(given: Mapping[str, Any], columns: Columns, comment: str = "") -> dict[str, Any]:
+    """Return marks, as `Marks.plain` has them, with those that a teacher gives.
+
+    `given` is then the number of points without the teacher's; what a cap took stays taken. The
+    comment stands before the hints. The marks may have been changed before: that is taken back.
+    """
+    before = [{k: v for k, v in m.items() if k != "given"} | _given(m) for m in given["tests"]]
+    tests = [_changed(m, columns) for m in before]
+    total = float(given.get("given", given["points"]))
+    own = columns.get(POINTS, round(total + _sum(tests) - _sum(before), 6))
+    hints = [*([comment] if comment else []), *given.get("hints", ())]
+    found = {**given, "tests": tests, "points": own, "hints": hints}
+    found.pop("given", None)
+    return found if own == total else {**found, "given": total}
+
+
+def applied(student: Student, columns: Columns, comment: str = "") -> Student:
+    """Return a student with the marks and the comment of a teacher; a note names each mark."""
+    if not columns and not comment:
         return student
     result = student.result
-    tests = _changed(result.marks["tests"], changes)
-    total = changes.get(POINTS, _total(result.marks, tests))
+    changed = marks(result.marks, columns)
     notes = [
-        CHANGED_MARK(test=m["name"], before=m["points"], after=changes[m["name"]])
-        for m in result.marks["tests"]
-        if m["name"] in changes
+        CHANGED_MARK(test=m["name"], before=m["given"], after=m["points"])
+        for m in changed["tests"]
+        if "given" in m
     ]
-    if POINTS in changes:
-        notes.append(CHANGED_MARK(before=result.points, after=total))
-    public = _changed(result.public["tests"], changes)
+    if POINTS in columns and "given" in changed:
+        notes.append(CHANGED_MARK(before=changed["given"], after=changed["points"]))
+    public = marks(result.public, columns, comment) | {"points": changed["points"]}
     return Student(
         replace(student.submission, notes=(*student.submission.notes, *notes)),
-        replace(
-            result,
-            marks={**result.marks, "tests": tests, "points": total},
-            public={**result.public, "tests": public, "points": total},
-        ),
+        replace(result, marks=changed, public=public),
     )
 
 
-def merged(
-    kept: Mapping[str, Columns], new: Mapping[str, Columns], students: Sequence[Student]
-) -> dict[str, dict[str, float]]:
-    """Return all changes of a class; one that says what the tests say is none."""
-    every: dict[str, dict[str, float]] = {}
-    for student in students:
-        marks = student.result.marks
-        given = {m["name"]: m["points"] for m in marks["tests"]}
-        own = {**kept.get(student.key, {}), **new.get(student.key, {})}
-        own = {name: v for name, v in own.items() if name == POINTS or given.get(name, v) != v}
-        if own.get(POINTS) == _total(marks, _changed(marks["tests"], own)):
-            own.pop(POINTS)
-        if own:
-            every[student.key] = own
-    return every
+def _given(mark: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the points that the test gave, where they were changed."""
+    if "given" not in mark:
+        return {}
+    return {"points": mark["given"], "passed": mark["given"] >= mark["of"]}
 
 
-def _changed(tests: Sequence[Mapping[str, Any]], changes: Columns) -> list[Mapping[str, Any]]:
-    return [
-        {**m, "points": changes[m["name"]], "passed": changes[m["name"]] >= m["of"]}
-        if m["name"] in changes
-        else m
-        for m in tests
-    ]
-
-
-def _total(marks: Mapping[str, Any], tests: Sequence[Mapping[str, Any]]) -> float:
-    """Return the sum of points with changed tests; what a cap took stays taken."""
-    return round(float(marks["points"]) + _sum(tests) - _sum(marks["tests"]), 6)
+def _changed(mark: dict[str, Any], columns: Columns) -> dict[str, Any]:
+    points = columns.get(mark["name"], mark["points"])
+    if points == mark["points"]:
+        return mark
+    passed = points >= mark["of"]
+    return {**mark, "points": points, "passed": passed, "given": mark["points"]}
 
 
 def _sum(tests: Sequence[Mapping[str, Any]]) -> float:

@@ -24,7 +24,7 @@ NEWEST_TAKEN = Code(
 )
 CHANGED_MARK = Code(
     "changed_mark",
-    "[{test}: ]{before:number} was changed to {after:number} in the table of the class.",
+    "[{test}: ]{before:number} was changed to {after:number} by a teacher.",
     severity=INFO,
 )
 CHANGED_MARK_NOT_READ = Code(
@@ -38,6 +38,22 @@ MARKS_CHANGED = Code(
     "Write the value of the test back into the table to undo a change.",
     INFO,
 )
+CLASS_IS_LOCKED = Code(
+    "class_is_locked", "{who} locked the marks of this class; undo that before you change one."
+)
+MARK_WITHOUT_REASON = Code(
+    "mark_without_reason", "A mark that is changed needs a reason; say why in a few words."
+)
+SECOND_IS_FIRST = Code(
+    "second_is_first",
+    "{who} gave this mark, and cannot be its second marker; another instructor has to sign in.",
+)
+SECOND_MARKS_DIFFER = Code(
+    "second_marks_differ",
+    "{count:count mark of a second marker differs|marks of a second marker differ}; give the mark "
+    "that holds, or take the second one back.",
+)
+NOTHING_TO_UNDO = Code("nothing_to_undo", "Nothing was done that could be undone.")
 # why a submission has no marks
 NO_FILE_HANDED_IN = Code(
     "no_file_handed_in",

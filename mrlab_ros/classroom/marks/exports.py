@@ -79,6 +79,12 @@ class Submission:
     others: tuple[str, ...] = ()
     notes: tuple[Diagnostic, ...] = ()
 
+    @property
+    def sent(self) -> str:
+        """Return the name of the file, by which Canvas takes feedback; empty for a pseudonym."""
+        paths = [entry.path for entry in self.candidates if self.identifier]
+        return PurePosixPath(paths[0]).name if paths else ""
+
 
 @dataclass(frozen=True)
 class Roster:

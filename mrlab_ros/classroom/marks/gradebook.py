@@ -116,12 +116,24 @@ def filled(template: str, students: Sequence[Student], name: str) -> tuple[str, 
 
 def comment(result: Result) -> str:
     """Return what a student reads beside the grade: each public test, and hints."""
+    return _lines(result.public["tests"], result.public["hints"])
+
+
+def words_of(student: Mapping[str, Any]) -> str:
+    """Return what a student of class.json reads: the sum of points, then as `comment`."""
+    found = text(student["found"])
+    total = f"{number(student['points'])} of {number(student['of'])} points. {found}"
+    public = [m for m in student["marks"] if not m["hidden"]]
+    return f"{total}\n\n{_lines(public, student['hints'])}\n"
+
+
+def _lines(tests: Sequence[Mapping[str, Any]], hints: Sequence[str]) -> str:
     lines = [
         f"{m['name']}: {number(m['points'])} of {number(m['of'])}. {text(m['found'])}"
         + (f" {m['hint']}" if m["hint"] and not m["passed"] else "")
-        for m in result.public["tests"]
+        for m in tests
     ]
-    return "\n".join([*lines, *result.public["hints"]])
+    return "\n".join([*lines, *hints])
 
 
 def gradescope(result: Result) -> dict[str, Any]:

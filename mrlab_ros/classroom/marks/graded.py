@@ -129,6 +129,8 @@ class GradedClass:
                     "name": s.submission.name,
                     "identifier": s.submission.identifier,
                     "late": s.submission.late,
+                    "folder": s.submission.folder,
+                    "sent": s.submission.sent,
                     "notes": [plain(note) for note in s.submission.notes],
                     **self._plain(s.key, s.result),
                 }
@@ -169,6 +171,7 @@ class GradedClass:
             "outcome": result.outcome,
             "found": result.found,
             "points": result.points,
+            "given": result.marks.get("given", result.points),
             "of": result.of,
             "file": result.file,
             "sha256": result.sha256,

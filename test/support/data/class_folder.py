@@ -66,6 +66,7 @@ def make_class(folder: Path, frames: int = 50) -> Path:
         "rubric": {"name": "Pick and place", "points": 3, "robot": "ur5e"},
         "reference": {k: v for k, v in reference.items() if k not in ("key", "name")},
         "students": students,
+        "left_out": [],
     }
     (folder / "trajectories").mkdir(parents=True, exist_ok=True)
     (folder / "class.json").write_text(json.dumps(document))

@@ -56,6 +56,10 @@ export interface Api {
   cancelCheck(robot: string, trajectory: string): Promise<void>
 
   gradedClass(): Promise<GradedClass>
+  /** Hand in a file for the next run of the class. */
+  classSource(name: string, file: File, onProgress: (share: number) => void): Promise<void>
+  /** Do something at the desk of the class, such as POST run. */
+  classDo(method: 'POST' | 'DELETE', part: ClassPart, body?: object): Promise<void>
   /** The motion of a submission as a file that can be uploaded. */
   classFile(key: string): Promise<File>
 
@@ -76,6 +80,9 @@ export interface Api {
   /** Return the name of the device. */
   approvePairing(code: string, role: Role): Promise<string>
 }
+
+/** Parts of the desk of a class below /api/class. */
+export type ClassPart = 'run' | 'proposed' | 'acts' | 'release'
 
 export class ApiError extends ToldError {
   override readonly name = 'ApiError'

@@ -1,6 +1,6 @@
 import type { MotionDocument } from '../playback/motion'
 import { own, type Told } from '../words/diagnostic'
-import { type Api, ApiError, trajectoryUrl } from './api'
+import { type Api, ApiError, type ClassPart, trajectoryUrl } from './api'
 import type {
   Check,
   Conversion,
@@ -96,6 +96,14 @@ export class HttpApi implements Api {
   }
 
   upload(file: File, onProgress: (share: number) => void, signal: AbortSignal): Promise<Upload> {
+    return this.#sent(`/api/uploads/${encodeURIComponent(file.name)}`, file, onProgress, signal)
+  }
+  #sent<Answer>(
+    url: string,
+    file: File,
+    onProgress: (share: number) => void,
+    signal: AbortSignal,
+  ): Promise<Answer> {
     return new Promise((resolve, reject) => {
       const request = new XMLHttpRequest()
       const abort = () => request.abort()
@@ -103,7 +111,7 @@ export class HttpApi implements Api {
         signal.removeEventListener('abort', abort)
         act()
       }
-      request.open('PUT', `/api/uploads/${encodeURIComponent(file.name)}`)
+      request.open('PUT', url)
       request.setRequestHeader('X-CSRF-Token', this.#csrf)
       request.setRequestHeader('Content-Type', 'application/octet-stream')
       request.upload.onprogress = (event) => {
@@ -112,7 +120,7 @@ export class HttpApi implements Api {
       request.onload = () =>
         end(() => {
           const body = parsed(request.responseText)
-          if (request.status < 300) resolve(body as Upload)
+          if (request.status < 300) resolve(body as Answer)
           else reject(this.#failure(request.status, body))
         })
       request.onerror = () => end(() => reject(new ApiError(0, 'no_answer', own(this.noAnswer()))))
@@ -166,6 +174,13 @@ export class HttpApi implements Api {
 
   gradedClass(): Promise<GradedClass> {
     return this.#ask('GET', '/api/class')
+  }
+  classSource(name: string, file: File, onProgress: (share: number) => void): Promise<void> {
+    const url = `/api/class/sources/${encodeURIComponent(name)}`
+    return this.#sent(url, file, onProgress, new AbortController().signal)
+  }
+  async classDo(method: 'POST' | 'DELETE', part: ClassPart, body?: object): Promise<void> {
+    await this.#ask(method, `/api/class/${part}`, body ?? (method === 'POST' ? {} : undefined))
   }
   async classFile(key: string): Promise<File> {
     const url = `/api/class/${encodeURIComponent(key)}/file`

@@ -259,6 +259,19 @@ export interface ClassMark {
   readonly hint: string
   readonly hidden: boolean
   readonly time: number | null
+  /** By the teacher who marks; null: as the test gave it. */
+  readonly change: ClassChange | null
+  /** By a second marker; it does not hold. */
+  readonly second: ClassChange | null
+}
+
+/** Points that a teacher gave; at: s since 1970, given: those of the test. */
+export interface ClassChange {
+  readonly points: number
+  readonly given: number
+  readonly who: string
+  readonly at: number
+  readonly reason: string
 }
 
 /** One student's submission. */
@@ -275,12 +288,76 @@ export interface Submission {
   /** There is one to show. */
   readonly motion: boolean
   readonly marks: readonly ClassMark[]
+  readonly late: boolean
+  readonly comment: string
 }
 
 /** A graded class; reference: the solution, null: there is none. */
 export interface GradedClass {
   readonly title: string
   readonly robot: string
+  /** False: it was not run yet. */
+  readonly marked: boolean
+  /** Of the export, such as Moodle. */
+  readonly form: string
+  readonly desk: ClassDesk
   readonly submissions: readonly Submission[]
   readonly reference: Submission | null
+}
+
+/** What stands on the desk of a class. */
+export interface ClassDesk {
+  /** Files that the next run reads; size: bytes. */
+  readonly sources: readonly { readonly name: string; readonly size: number }[]
+  /** Files that the rubric names and that are not there. */
+  readonly missing: readonly string[]
+  /** The form of the export that was said; empty: it is recognised. */
+  readonly form: string
+  readonly run: ClassRun | null
+  /** What proposed marks change; null: none are proposed. */
+  readonly proposed: readonly ClassDifference[] | null
+  /** The latest acts, newest first. */
+  readonly journal: readonly ClassAct[]
+  /** Who locked and who released the marks; empty: nobody. */
+  readonly locked: string
+  readonly released: string
+  readonly undo: boolean
+  /** How many marks of second markers do not hold. */
+  readonly differing: number
+  /** Moodle's worksheet is filled. */
+  readonly worksheet: boolean
+  readonly left_out: readonly { readonly file: string; readonly why: Diagnostic }[]
+}
+
+export interface ClassRun {
+  readonly how: 'propose' | 'hold' | 'final'
+  readonly running: boolean
+  readonly done: number
+  readonly all: number
+  readonly problem: Diagnostic | null
+}
+
+/** Points before and after; null: the student or the test is not there. */
+export interface ClassDifference {
+  readonly key: string
+  readonly name: string
+  readonly before: number | null
+  readonly after: number | null
+  readonly tests: readonly {
+    readonly name: string
+    readonly before: number | null
+    readonly after: number | null
+  }[]
+}
+
+export interface ClassAct {
+  /** s since 1970 */
+  readonly at: number
+  readonly who: string
+  readonly did: 'mark' | 'second' | 'comment' | 'lock' | 'release' | 'undo' | 'adopt'
+  /** Of the student; empty: of all. */
+  readonly name: string
+  readonly test: string
+  readonly points: number | null
+  readonly text: string
 }

@@ -1,11 +1,11 @@
 import { computed, signal } from '@preact/signals'
-import { type Api, submissionUrl } from '../api/api'
+import { type Api, type ClassPart, submissionUrl } from '../api/api'
 import type { GradedClass, Submission } from '../api/types'
 import type { MotionDocument } from '../playback/motion'
 import { sentence } from '../words/diagnostic'
 
 export type Order = 'class' | 'points'
-type ClassApi = Pick<Api, 'gradedClass' | 'motion'>
+type ClassApi = Pick<Api, 'gradedClass' | 'motion' | 'classSource' | 'classDo'>
 
 /** The key of the solution's motion. */
 export const REFERENCE = 'reference'
@@ -49,6 +49,18 @@ export class ClassSteps {
     } catch (error) {
       this.problem.value = sentence(error)
     }
+  }
+
+  /** Do something at the desk, and read the class again; rejects with why it was not done. */
+  async does(method: 'POST' | 'DELETE', part: ClassPart, body?: object): Promise<void> {
+    await this.api.classDo(method, part, body)
+    await this.load()
+  }
+
+  /** Hand in a file under the name that the desk has for it; rejects with why it is not taken. */
+  async handIn(name: string, file: File, onProgress: (share: number) => void): Promise<void> {
+    await this.api.classSource(name, file, onProgress)
+    await this.load()
   }
 
   choose(key: string): void {

@@ -8,13 +8,14 @@ import { Notice } from '../design/notice'
 import { Findings } from '../pages/motion/findings'
 import { MotionView } from '../pages/motion/lazy'
 import type { MotionDocument } from '../playback/motion'
-import { navigate, path } from '../shell/router'
+import { path } from '../shell/router'
 import { session, useApi } from '../shell/session'
 import { sentence, spoken } from '../words/diagnostic'
 import { number, words } from '../words/words'
 import { ClassSteps, type Order, REFERENCE, stepOf } from './class_steps'
 import './class.css'
 import '../pages/motion/verdict.css'
+import { Desk } from './desk'
 import { Marks } from './marks'
 import { PlayInLab } from './play_in_lab'
 
@@ -149,9 +150,9 @@ export function ClassPage() {
   if (current === null)
     return (
       <section class="stack">
-        <h1>{graded.value.title}</h1>
+        <h1>{graded.value.title || words.value.nav.grades}</h1>
         <p>{w.none}</p>
-        <Button onClick={() => navigate('/')}>{words.value.notFound.back}</Button>
+        <Desk steps={steps} />
       </section>
     )
   const compared = loaded?.reference ?? null
@@ -191,9 +192,12 @@ export function ClassPage() {
           <p class="second tiny">{w.keys}</p>
         </div>
       </header>
+      <Desk steps={steps} />
       <div class="verdict-columns">
         <div class="verdict-side stack">
           <Marks
+            key={current.key}
+            steps={steps}
             submission={current}
             onSelect={(finding) => {
               // A second click on the same number seeks again.

@@ -10,11 +10,20 @@ import {
   stepOf,
 } from '../../src/classroom/class_steps'
 import { keyOfPath } from '../../src/classroom/page'
-import { finding } from '../fake_api'
+import { finding, NO_CLASS } from '../fake_api'
 import { fakeMotion } from '../fake_motion'
 
 function submission(key: string, points: number, more: Partial<Submission> = {}): Submission {
-  const lost = { points: 0, of: 1, found: finding({}), hint: '', hidden: false, time: null }
+  const lost = {
+    change: null,
+    second: null,
+    points: 0,
+    of: 1,
+    found: finding({}),
+    hint: '',
+    hidden: false,
+    time: null,
+  }
   return {
     key,
     name: key,
@@ -25,6 +34,8 @@ function submission(key: string, points: number, more: Partial<Submission> = {})
     robot: 'ur5e',
     tool: '',
     motion: true,
+    late: false,
+    comment: '',
     marks: [
       { ...lost, name: 'a', passed: false },
       { ...lost, name: 'b', passed: true, points: 1 },
@@ -35,8 +46,8 @@ function submission(key: string, points: number, more: Partial<Submission> = {})
 }
 
 const CLASS: GradedClass = {
-  title: 'Pick and place',
-  robot: 'ur5e',
+  ...NO_CLASS,
+  marked: true,
   submissions: [
     submission('anna', 3),
     submission('ben', 1),
@@ -48,7 +59,12 @@ const CLASS: GradedClass = {
 
 function stepsOf(graded: GradedClass) {
   const motion = vi.fn(async (_url: string) => fakeMotion({ verdict: 'accepted', message: '' }))
-  const steps = new ClassSteps({ gradedClass: async () => graded, motion })
+  const steps = new ClassSteps({
+    gradedClass: async () => graded,
+    motion,
+    classSource: async () => {},
+    classDo: async () => {},
+  })
   return { steps, motion }
 }
 

@@ -57,25 +57,25 @@ def test_changes_are_found_and_hold():
     found, problems = changes.found(text, DOCUMENT)
     assert found == {"anna": {"points": 9.0, "a; b": 5.0}, "ben": {"a; b": 2.5}}
     assert [(p.code, p.values["found"]) for p in problems] == [("changed_mark_not_read", "x")]
-    every = changes.merged({}, found, STUDENTS)
-    anna, ben = (changes.applied(s, every[s.key]) for s in STUDENTS)
+    anna, ben = (changes.applied(s, found[s.key], "Well done") for s in STUDENTS)
     assert (anna.result.points, ben.result.points) == (9.0, 6.5)
     assert [m["points"] for m in ben.result.public["tests"]] == [2.5]
+    assert (ben.result.public["points"], ben.result.public["hints"]) == (6.5, ["Well done"])
     assert [n.code for n in anna.submission.notes] == ["changed_mark", "changed_mark"]
-    # the next run finds nothing new, and keeps what it has
+    # the next run finds nothing new, and knows what the tests gave
     shown = (anna, ben)
     document = GradedClass(RUBRIC, "folder", shown).document()
     assert changes.found(table(shown), document) == ({}, [])
-    assert changes.merged(every, {}, STUDENTS) == every
+    given = [changes.given_of(s) for s in document["students"]]
+    assert given == [changes.columns_of(s) for s in DOCUMENT["students"]]
 
 
-def test_a_change_back_to_the_mark_of_the_test_is_none():
-    kept = {"ben": {"a; b": 2.5}, "gone": {"a; b": 1.0}}
-    assert changes.merged(kept, {"ben": {"a; b": 0.0}}, STUDENTS) == {}
-    assert changes.merged({}, {"ben": {"a; b": 2.0, "points": 6.0}}, STUDENTS) == {
-        "ben": {"a; b": 2.0}
-    }
-    assert changes.merged({}, {"ben": {"a test of old": 2.0}}, STUDENTS) == {}
+def test_what_the_test_gave_comes_back():
+    marks = STUDENTS[1].result.marks
+    changed = changes.marks(marks, {"a; b": 2.0, "points": 9.0, "a test of old": 3.0})
+    assert (changed["points"], changed["given"]) == (9.0, 4.0)
+    assert changes.marks(changed, {}) == marks
+    assert changes.marks(changed, {"a; b": 0.0}) == marks
 
 
 def test_who_is_to_be_repeated_has_no_mark_and_no_share_in_the_mean():

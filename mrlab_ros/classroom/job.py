@@ -1,0 +1,83 @@
+"""A run of a class for the desk of the gateway, in a process of its own.
+
+It takes the folder of the class and one of PROPOSE, HOLD and FINAL, and prints JSON lines: how
+many submissions are done of how many, and at the end that it is done, or the problem.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import sys
+from pathlib import Path
+from typing import Any
+
+from mrlab_ros.adapters import share
+from mrlab_ros.app.check.file import scene_of
+from mrlab_ros.classroom.folder import HELD, PROPOSED, SOURCES, WORKSHEET
+from mrlab_ros.classroom.mark import read_rubric
+from mrlab_ros.classroom.run import Request, form_of, marked, of_rubric
+from mrlab_ros.classroom.setup import Bounds
+from mrlab_ros.core.base.diagnostic import plain
+from mrlab_ros.core.base.errors import LabError
+from mrlab_ros.core.conversion.options import Options
+
+PROPOSE, HOLD, FINAL = "propose", "hold", "final"
+EXPORT, RUBRIC, SHEET = "export.zip", "rubric.yaml", "worksheet.csv"
+
+
+def work(folder: Path, how: str, form: str) -> None:
+    """Mark the class from its sources. Raises LabError.
+
+    PROPOSE writes no page and changes no mark that holds; HOLD and FINAL let the marks hold.
+    """
+    sources = folder / (HELD if how == FINAL else SOURCES)
+    rubric = read_rubric(sources / RUBRIC)
+    proposes = how == PROPOSE
+    scene = scene_of(rubric.scene, share.directory())
+    setup = of_rubric(rubric, scene, Options(), Bounds(), pages=not proposes)
+    sheet = folder / SOURCES / SHEET
+    marked(
+        Request(
+            sources / EXPORT,
+            setup,
+            folder / PROPOSED if proposes else folder,
+            template=sheet if how == FINAL and sheet.exists() else None,
+            form=form_of(form),
+            base=folder if proposes else None,
+            final=how == FINAL,
+            worksheet=folder / WORKSHEET,
+            progress=lambda done, count: said(done=done, all=count),
+        )
+    )
+    if how == HOLD:
+        hold(folder / SOURCES, folder / HELD)
+        shutil.rmtree(folder / PROPOSED, ignore_errors=True)
+
+
+def hold(source: Path, target: Path) -> None:
+    """Let the files of a folder be those of another one; no byte is copied."""
+    shutil.rmtree(target, ignore_errors=True)
+    target.mkdir(parents=True)
+    for file in source.iterdir():
+        os.link(file, target / file.name)
+
+
+def said(**values: Any) -> None:
+    """Print a line for the desk."""
+    print(json.dumps(values), flush=True)
+
+
+def main() -> None:
+    """Run as the arguments say: the folder, how, and the form of the export."""
+    try:
+        work(Path(sys.argv[1]), sys.argv[2], sys.argv[3])
+    except LabError as error:
+        said(problem=plain(error.diagnostic))
+    else:
+        said(ended=True)
+
+
+if __name__ == "__main__":
+    main()

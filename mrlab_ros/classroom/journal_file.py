@@ -1,0 +1,60 @@
+"""The file of a class' journal: a line an act, appended whole under a lock."""
+
+from __future__ import annotations
+
+import fcntl
+import json
+import os
+from collections.abc import Callable
+from dataclasses import asdict
+from pathlib import Path
+
+from mrlab_ros.classroom.diagnostics import NOT_WRITABLE
+from mrlab_ros.classroom.folder import JOURNAL
+from mrlab_ros.classroom.marks.journal import Entry, State, state_of
+from mrlab_ros.core.base.errors import BadInput
+
+
+class JournalFile:
+    """The journal in a folder of a class."""
+
+    def __init__(self, folder: Path) -> None:
+        self.path = folder / JOURNAL
+
+    def entries(self) -> list[Entry]:
+        """Return all acts; a line that a kill cut off is none. Raises BadInput."""
+        try:
+            text = self.path.read_bytes()
+        except FileNotFoundError:
+            return []
+        except OSError as error:
+            raise BadInput(NOT_WRITABLE(file=str(self.path), why=error.strerror)) from None
+        found = []
+        for line in text.splitlines():
+            try:
+                found.append(Entry(**json.loads(line)))
+            except (ValueError, TypeError):
+                continue
+        return found
+
+    def state(self) -> State:
+        """Return what holds now."""
+        return state_of(self.entries())
+
+    def append(self, made: Callable[[State], list[Entry]]) -> State:
+        """Append the acts that are made from what holds, while nobody else does; return what holds
+        then. Raises BadInput, and what `made` raises."""
+        try:
+            with self.path.open("a+b") as file:
+                fcntl.flock(file, fcntl.LOCK_EX)
+                before = self.entries()
+                new = made(state_of(before))
+                whole = not file.tell() or self.path.read_bytes().endswith(b"\n")
+                lines = [json.dumps(asdict(entry)) for entry in new]
+                text = "".join([*([] if whole else ["\n"]), *(f"{line}\n" for line in lines)])
+                file.write(text.encode())
+                file.flush()
+                os.fsync(file.fileno())
+        except OSError as error:
+            raise BadInput(NOT_WRITABLE(file=str(self.path), why=error.strerror)) from None
+        return state_of([*before, *new])
