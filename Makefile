@@ -10,12 +10,14 @@
 # make dist   build the wheel and the source archive into dist/
 # make lint   ruff and mypy
 # make lock   write the lock files anew from requirements*.in
+# make audit  list every locked package with its licence, and the advisories that files of OSV have for it
+#             (ARGS='PyPI.zip npm.zip'; docs/security.md says where they are)
 # make clean  remove everything that set-up made
 
 SHELL := /bin/bash
 ENV := . .venv/mrlab.sh &&
 
-.PHONY: demo test bench robots objects gallery docs site dist lint lock setup clean
+.PHONY: audit demo test bench robots objects gallery docs site dist lint lock setup clean
 
 setup:
 	@python3 scripts/bootstrap.py
@@ -66,6 +68,11 @@ lock:
 	@$(ENV) uv pip compile -q --universal --python-version 3.10 --generate-hashes requirements.in -o requirements.lock
 	@$(ENV) uv pip compile -q --universal --python-version 3.10 --generate-hashes requirements-dev.in -o requirements-dev.lock
 	@$(ENV) uv pip compile -q --universal --python-version 3.10 --generate-hashes requirements-docs.in -o requirements-docs.lock
+	@$(ENV) uv pip compile -q --universal --python-version 3.12 --generate-hashes requirements-ros.in -o requirements-ros.lock
+
+audit:
+	@python3 scripts/bootstrap.py --dev
+	@$(ENV) python scripts/docs/audit.py $(ARGS)
 
 clean:
 	rm -rf .venv build dist install log web/node_modules web/dist

@@ -189,7 +189,7 @@ def test_what_pip_installs_with_a_wheel_is_what_the_package_imports() -> None:
 
 
 def test_a_ros_machine_gets_what_the_package_imports() -> None:
-    by_pip = set(re.findall(r"^([a-z0-9_-]+)", (ROOT / "requirements-ros.txt").read_text(), re.M))
+    by_pip = set(re.findall(r"^([a-z0-9_-]+)", (ROOT / "requirements-ros.in").read_text(), re.M))
     by_rosdep = {re.sub("^python3-|-pip$", "", key) for key in dependencies()}
     by_rosdep |= {"pyyaml"} if "yaml" in by_rosdep else set()
     # mat-io is nowhere on Jazzy; docs/dependencies.md says why.
