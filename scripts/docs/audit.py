@@ -2,8 +2,8 @@
 
 python scripts/docs/audit.py [PyPI.zip npm.zip ...]; nothing is fetched. The files are exports of
 OSV, one an ecosystem: https://osv-vulnerabilities.storage.googleapis.com/PyPI/all.zip, and
-npm/all.zip. The exit status is 1 where an advisory affects a locked version, and 2 where no file is
-of an ecosystem that is locked.
+npm/all.zip. The exit status is 1 where an advisory affects a locked version, and 2 where no file
+is of an ecosystem that is locked.
 """
 
 from __future__ import annotations
