@@ -63,9 +63,17 @@ def test_two_clicks_make_a_robot_move(
     if pause.is_enabled():
         pause.click()
     expect(pause).to_be_disabled()
-    there.page.get_by_role("button", name="Keys").click()
-    row = there.page.get_by_role("row", name="ur5e_1/joint_states")
-    expect(row).to_contain_text("sensor_msgs/JointState")
+    there.page.get_by_role("button", name="Topics").click()
+    topics = there.page.get_by_role("region", name="Topics")
+    topics.get_by_role("searchbox").fill("ur5e_1/joint_st")
+    row = topics.get_by_role("button", name="ur5e_1/joint_states sensor_msgs/JointState")
+    expect(topics.get_by_role("listitem")).to_have_count(1)
+    row.click()
+    # a number of the newest message, plotted
+    topics.locator("summary", has_text="position").locator("..").get_by_role("checkbox").first.check()
+    expect(topics.locator("figure .sparkline")).to_be_visible()
+    topics.get_by_role("button", name="Hold").click()
+    expect(topics.get_by_role("button", name="Go on")).to_be_visible()
     context.close()
 
 
@@ -85,7 +93,7 @@ def test_a_robot_is_put_there_and_taken_away(page: Page, lab: ServedLab) -> None
 def test_what_a_motion_would_touch_is_said_before_it_is_played(page: Page, lab: ServedLab) -> None:
     there = LabPage(page).open(lab.url)
     there.load("ur5e_1", "quintic")
-    check = there.robot("ur5e_1").get_by_role("region", name="Check")
+    check = there.robot("ur5e_1").get_by_role("region", name="Check of ur5e_1")
     # what was loaded before this page was opened is checked when somebody asks
     button = check.get_by_role("button", name=re.compile("^Check"))
     verdict = check.get_by_role("status")

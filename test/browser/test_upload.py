@@ -29,7 +29,11 @@ def test_a_good_file_moves_after_two_clicks_and_is_published(
     page.get_by_label("Time").fill("1")
     assert difference(first, upload.picture()) > 0.01
     upload.publish("wave")
-    expect(page.get_by_role("img", name="QR code of")).to_be_visible()
+    # a phone cannot open 127.0.0.1: the address that it can open is asked for once
+    page.get_by_label("Address at which others reach").fill("https://lab.example:8765")
+    page.get_by_role("button", name="Use it for links").click()
+    code = page.get_by_role("img", name="QR code of https://lab.example:8765/trajectories/")
+    expect(code).to_be_visible()
     page.get_by_role("link", name="See the trajectory").click()
     expect(page.get_by_role("heading", name="wave")).to_be_visible()
     expect(page.locator(".strip")).to_have_count(6)

@@ -77,6 +77,9 @@ const SHAPES = {
       <path d="m13.2 13.2 4 4" />
     </>
   ),
+  fit: <path d="M3 7V3h4M13 3h4v4M17 13v4h-4M7 17H3v-4" />,
+  projector: <path d="M3 4h14v9H3zM10 13v2.500M6.500 17l3.500-1.500 3.500 1.500" />,
+  topics: <path d="M3 5h3M9 5h8M6 10h3M12 10h5M6 15h3M12 15h5M4.500 5v10" />,
   copy: (
     <>
       <rect x="7" y="7" width="9.5" height="9.5" rx="1.5" />

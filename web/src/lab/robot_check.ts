@@ -30,7 +30,7 @@ export class RobotCheck {
 
   constructor(
     private readonly api: CheckApi,
-    private readonly robot: string,
+    readonly robot: string,
   ) {}
 
   /** Take over the loaded motion, such as quintic@3; empty: none. begins: start a check if there

@@ -33,6 +33,8 @@ interface SessionViewOptions {
   onTime(time: number): void
 }
 
+const MOVING = new Set(['PLAYING', 'ADJUSTING'])
+
 /** Show a session in `container`. */
 export function createSessionView(
   container: HTMLElement,
@@ -67,7 +69,8 @@ export function createSessionView(
       session,
       new MeshLibrary(meshes),
       () => player.position(),
-      wordOf,
+      // nothing plays on a still
+      (state) => (!player.playing && MOVING.has(state) ? '' : wordOf(state)),
       (troubles) => say(words.missing(troubles)),
     )
   } catch (error) {
@@ -76,10 +79,12 @@ export function createSessionView(
     say(words.noWebGL)
   }
   let last = -1
+  let played = false
   const step = (): boolean => {
     const time = player.position()
-    if (time !== last) {
+    if (time !== last || played !== player.playing) {
       last = time
+      played = player.playing
       draw(time)
       controls.show(time)
       onTime(time)

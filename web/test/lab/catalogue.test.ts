@@ -2,7 +2,7 @@
 import { expect, test, vi } from 'vitest'
 import type { Api } from '../../src/api/api'
 import { fits, LabCatalogue, playable } from '../../src/lab/catalogue'
-import { reachable } from '../../src/pages/lab/join'
+import { reachable } from '../../src/pages/motion/link_with_code'
 import { FakeApi } from '../fake_api'
 
 test('a robot plays what is for its model, and for what it carries or for nothing', async () => {

@@ -78,7 +78,7 @@ export function CheckCard({ check, enabled, onSeek }: CheckCardProps) {
   )
   if (known === null)
     return (
-      <section class="check" aria-label={w.title}>
+      <section class="check" aria-label={w.of(check.robot)}>
         {enabled && (
           <div class="check-line">
             <p class="grow second small">{problem || w.notYet}</p>
@@ -94,7 +94,7 @@ export function CheckCard({ check, enabled, onSeek }: CheckCardProps) {
   const findings = known.findings.slice(0, all ? MOST : FEW)
   const left = known.findings.length - findings.length
   return (
-    <section class="check" aria-label={w.title}>
+    <section class="check" aria-label={w.of(check.robot)}>
       <div class="check-line">
         <p class={`grow check-verdict check-${verdict}`} role="status">
           <Icon name={VERDICTS[verdict]} />

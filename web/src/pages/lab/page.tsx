@@ -21,12 +21,14 @@ import { fixed, words } from '../../words/words'
 import { AddRobot } from './add_robot'
 import { LabProvider } from './context'
 import { Join } from './join'
-import { KeyTable } from './key_table'
 import { ReplayCard } from './replay_card'
 import { RobotCard } from './robot_card'
 import { SystemCard } from './system_card'
+import { Topics } from './topics'
 import type { LabView } from './view'
 
+/** s, of a round trip that is worth words. */
+const SLOW_S = 0.1
 const NOTHING: Rights = { commands: false, scene: false, replay: false, grades: false }
 
 const say = (text: string) => showToast(text)
@@ -113,6 +115,8 @@ export function Lab({ link }: { link: Link }) {
       : Number.isNaN(roundTrip)
         ? w.connected
         : w.roundTrip(fixed(roundTrip * 1000, roundTrip < 0.01 ? 1 : 0))
+  // a dot says it until it is slow
+  const wordless = phase === 'open' && !(roundTrip > SLOW_S)
   return (
     <LabProvider value={lab}>
       <div class={`lab${projected.value ? ' lab-projected' : ''}`}>
@@ -121,7 +125,7 @@ export function Lab({ link }: { link: Link }) {
           <div class="lab-bar">
             {may.commands && (
               <Button
-                look="primary"
+                look={moving.length > 0 ? 'primary' : 'quiet'}
                 icon="pause"
                 disabled={lost || moving.length === 0}
                 onClick={pauseAll}
@@ -129,16 +133,30 @@ export function Lab({ link }: { link: Link }) {
                 {w.pauseAll}
               </Button>
             )}
-            <Button onClick={() => view.current?.scene.frame(true)}>{w.showAll}</Button>
-            <Button aria-pressed={projected.value} onClick={project}>
-              {w.project}
-            </Button>
-            <Button onClick={toggle(joining)}>{w.join}</Button>
-            <Button aria-pressed={keys.value} onClick={toggle(keys)}>
-              {w.keys}
-            </Button>
-            <span class={`lab-link lab-link-${phase} small`} role="status">
-              {status}
+            <Button
+              look="quiet"
+              icon="fit"
+              label={w.showAll}
+              onClick={() => view.current?.scene.frame(true)}
+            />
+            <Button
+              look="quiet"
+              icon="projector"
+              label={w.project}
+              aria-pressed={projected.value}
+              onClick={project}
+            />
+            <Button look="quiet" icon="headset" label={w.join} onClick={toggle(joining)} />
+            <Button
+              look="quiet"
+              icon="topics"
+              label={w.keys}
+              aria-pressed={keys.value}
+              onClick={toggle(keys)}
+            />
+            <span class={`lab-link lab-link-${phase} small`} role="status" title={status}>
+              {wordless && <i class="lab-link-dot" />}
+              <span class={wordless ? 'spoken' : ''}>{status}</span>
             </span>
           </div>
           <div class="lab-stage">
@@ -156,7 +174,7 @@ export function Lab({ link }: { link: Link }) {
                 </Button>
               </div>
             )}
-            {phase !== 'refused' && follower.known.value && robots.length === 0 && (
+            {!lost && follower.known.value && robots.length === 0 && (
               <div class="lab-empty stack-8">
                 {may.scene ? (
                   <>
@@ -179,8 +197,8 @@ export function Lab({ link }: { link: Link }) {
                 ))}
               </ul>
             )}
-            {keys.value && <KeyTable follower={follower} />}
           </div>
+          {keys.value && <Topics follower={follower} onClose={toggle(keys)} />}
         </section>
         {!projected.value && (
           <aside class="lab-panel" aria-label={w.panel}>

@@ -20,7 +20,7 @@ function LinkDialog({ link, onClose }: { link: InvitationLink; onClose: () => vo
     <Dialog title={w.linkFor(link.name)} onClose={onClose}>
       <div class="stack">
         <p>{w.linkExplanation(number(link.expires_in / DAY_S, 0))}</p>
-        <LinkWithCode url={link.url} />
+        <LinkWithCode path={new URL(link.url).pathname} origin={new URL(link.url).origin} />
       </div>
     </Dialog>
   )

@@ -156,7 +156,7 @@ export function TrajectoryDetail({ catalogue, id }: DetailProps) {
           {info && <Versions catalogue={catalogue} info={info} compared={other} />}
           <details class="card trajectory-code">
             <summary>{w.link}</summary>
-            <LinkWithCode url={location.origin + trajectoryPage(id)} />
+            <LinkWithCode path={trajectoryPage(id)} />
           </details>
         </div>
         {motion && (other === '' || otherMotion || otherError) ? (

@@ -25,6 +25,7 @@ export function ownerName(info: TrajectoryInfo, user: string): string {
 /** Return the people who may see it, in words. */
 export function audience(info: TrajectoryInfo, user: string): string {
   const w = words.value.trajectories
+  if (info.owner === '') return w.ofLab
   if (info.shared) return w.shared
   return info.owner === user ? w.private : w.privateOf(info.owner)
 }

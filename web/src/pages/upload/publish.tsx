@@ -3,6 +3,7 @@ import type { TrajectoryInfo } from '../../api/types'
 import { Button, ButtonLink } from '../../design/button'
 import { Check, Field } from '../../design/field'
 import { Icon } from '../../design/icons'
+import { session } from '../../shell/session'
 import { sentence } from '../../words/diagnostic'
 import { words } from '../../words/words'
 import { LinkWithCode } from '../motion/lazy'
@@ -30,7 +31,7 @@ export function Publish({ flow, trajectory }: PublishProps) {
           <Icon name="complete" />
           {w.publishedAs(done.id, done.version)}
         </h2>
-        <LinkWithCode url={location.origin + trajectoryPage(done.id)} />
+        <LinkWithCode path={trajectoryPage(done.id)} />
         <div class="row">
           <ButtonLink look="primary" href="/lab" icon="robot">
             {w.toLab}
@@ -55,9 +56,11 @@ export function Publish({ flow, trajectory }: PublishProps) {
     <form class="card stack publish" onSubmit={(event) => void publish(event)}>
       <h2>{w.publishTitle}</h2>
       <Field label={w.name} value={name} onInput={setName} error={error} required />
-      <Check checked={shared} onChange={setShared}>
-        {w.shareWithClass}
-      </Check>
+      {(session.value?.ways.password || session.value?.ways.oidc) && (
+        <Check checked={shared} onChange={setShared}>
+          {w.shareWithClass}
+        </Check>
+      )}
       <Button look="primary" type="submit" disabled={busy || name.trim() === ''}>
         {w.publish}
       </Button>
