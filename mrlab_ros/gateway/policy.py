@@ -5,6 +5,9 @@ A route without a line here answers nobody: a new route cannot be open by mistak
 
 from __future__ import annotations
 
+import logging
+import threading
+import time
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum
@@ -20,6 +23,7 @@ from mrlab_ros.adapters.yaml_files import Loader
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.access import Policy, Verb
 from mrlab_ros.core.bridge.rules import Role, parse
+from mrlab_ros.core.runtime.bucket import Occurrences
 from mrlab_ros.extensions import extensions
 from mrlab_ros.gateway.diagnostics import (
     ALLOW_LIST_UNREADABLE,
@@ -49,6 +53,9 @@ class Need:
     key: str
     own: bool = False
 
+
+log = logging.getLogger("mrlab.gateway")
+_refused, _refusing = Occurrences(), threading.Lock()
 
 EVERYBODY = Everybody.EVERYBODY
 CONVERTS_OWN = Need(Verb.CALL, "converter/convert", own=True)
@@ -155,6 +162,10 @@ def authorise(connection: HTTPConnection, policy: ThePolicy, person: KnownPerson
     if role is None:
         raise NotAllowed(NO_ROLE_MAY())
     if not person.role.may(role):
+        with _refusing:
+            due = _refused.again((person.id, method, path), time.monotonic())
+        if due is not None:
+            log.warning("%s may not %s %s (%d times)", person.name, method, path, due)
         raise NotAllowed(
             ROLE_TOO_LOW(person=person.name, role=person.role.value, needed=role.value)
         )

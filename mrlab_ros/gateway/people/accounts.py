@@ -6,6 +6,7 @@ Passwords: argon2id, with the parameters of RFC 9106 for little memory.
 from __future__ import annotations
 
 import itertools
+import logging
 import re
 import sqlite3
 import threading
@@ -29,8 +30,10 @@ from mrlab_ros.gateway.people.diagnostics import (
 from mrlab_ros.gateway.people.person import LOCAL
 from mrlab_ros.gateway.people.sign_ins import Database, digest, new_secret
 
-SHORTEST = 10
+SHORTEST = 12
 LONGEST = 200
+log = logging.getLogger("mrlab.gateway")
+
 # Each takes 64 MiB while it runs.
 AT_ONCE = 2
 
@@ -127,6 +130,7 @@ class Accounts:
                 )
         except sqlite3.IntegrityError:
             raise _taken(name) from None
+        log.info("%s was added as %s", name, role.value)
         return self.get(name)
 
     def check_leaves(self, name: str) -> Account:
@@ -151,6 +155,7 @@ class Accounts:
             connection.execute("UPDATE ids SET name = NULL WHERE name = ?", (name,))
             for table in ("people", "sign_ins", "links"):
                 connection.execute(f"DELETE FROM {table} WHERE name = ?", (name,))
+        log.info("%s was removed", name)
 
     def set_role(self, name: str, role: Role) -> None:
         """Give a person another role.
@@ -162,6 +167,7 @@ class Accounts:
             if role is not Role.INSTRUCTOR:
                 _keep_an_instructor(connection, name)
             connection.execute("UPDATE people SET role = ? WHERE name = ?", (role.value, name))
+        log.info("%s is %s now", name, role.value)
 
     def invite(self, name: str, now: float) -> str:
         """Return the secret of a link with which a person chooses a password, once."""
@@ -188,6 +194,7 @@ class Accounts:
             )
             for table in ("sign_ins", "links"):
                 connection.execute(f"DELETE FROM {table} WHERE name = ?", (row["name"],))
+        log.info("%s chose a password", row["name"])
         return self.get(row["name"])
 
     def open(self, now: float) -> str:

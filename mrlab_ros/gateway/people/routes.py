@@ -6,6 +6,7 @@ Routes that hash passwords or write the database are plain functions, so that th
 from __future__ import annotations
 
 import io
+import logging
 from typing import Annotated, Literal
 
 import segno
@@ -14,6 +15,7 @@ from fastapi.concurrency import run_in_threadpool
 
 from mrlab_ros.core.base.diagnostic import heard
 from mrlab_ros.core.base.errors import BadInput, Unavailable
+from mrlab_ros.core.base.foreign_text import visible
 from mrlab_ros.core.bridge.access import Policy, Verb
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.gateway.diagnostics import GATEWAY_WITHOUT_LAB
@@ -32,6 +34,7 @@ from mrlab_ros.gateway.people.people import People, ThePeople, address_of
 from mrlab_ros.gateway.people.person import CurrentPerson, KnownPerson, Person
 from mrlab_ros.gateway.ports import Ports, ports
 
+log = logging.getLogger("mrlab.gateway")
 router = APIRouter(prefix="/api", tags=["people"])
 DAY_S = 24 * 3600.0
 
@@ -54,6 +57,7 @@ def sign_in(
     people.check_attempt(body.name, request, people.steady())
     account = people.accounts.matching(body.name, body.password)
     if account is None:
+        log.warning("a wrong password for '%s' from %s", visible(body.name), address_of(request))
         raise NotSignedIn(WRONG_PASSWORD())
     csrf = people.sign_in(response, account.name, account.role)
     people.remember_browser(account.name, request, response)

@@ -23,6 +23,7 @@ from pathlib import Path
 from typing import Any
 
 from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.foreign_text import visible
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.core.runtime.bucket import Occurrences
 from mrlab_ros.gateway.people.diagnostics import (
@@ -31,6 +32,8 @@ from mrlab_ros.gateway.people.diagnostics import (
     USERS_UNUSABLE,
 )
 from mrlab_ros.gateway.people.person import LOCAL, Person
+
+log = logging.getLogger("mrlab.gateway")
 
 FILE = "users.sqlite"
 # Of the tables below; a file with other tables is not touched.
@@ -203,6 +206,7 @@ class SignIns:
         with self._database.writing() as connection:
             connection.execute("DELETE FROM sign_ins WHERE expires <= ?", (now,))
             connection.execute("INSERT INTO sign_ins VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)", row)
+        log.info("%s signed in as %s: %s", name, role.value, visible(device) or "browser")
         return secret
 
     def person(self, secret: str, now: float) -> Person | None:
@@ -239,6 +243,7 @@ class SignIns:
             connection.execute(
                 "DELETE FROM sign_ins WHERE id = ? OR let_in_by = ?", (sign_in, sign_in)
             )
+        log.info("sign-in %s was ended, and what it let in", sign_in)
 
     def csrf(self, secret: str) -> str:
         """Return the CSRF token that belongs to a cookie's secret; empty: nobody is signed in."""

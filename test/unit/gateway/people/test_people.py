@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 from fake_lab import FakeLab
 from fastapi.requests import HTTPConnection
-from gateway_side import Gateway, code_of
+from gateway_side import PASSWORD, Gateway, code_of
 
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.gateway.people.people import address_of
@@ -208,3 +208,25 @@ def test_what_a_removed_person_owned_is_kept_given_or_erased(tmp_path: Path) -> 
         assert [each.name for each in gateway.people.accounts.all()] == ["dora", "teacher"]
         given, erased = (request for _, request in lab.calls[-2:])
         assert (given.owner, given.to, erased.name) == ("anna", "dora", "ben")
+
+
+def test_the_log_names_who_did_what_and_no_secret(
+    class_lab: Gateway, caplog: pytest.LogCaptureFixture
+) -> None:
+    caplog.set_level("INFO", "mrlab.gateway")
+    teacher = class_lab.browser("teacher", Role.INSTRUCTOR)
+    anna = class_lab.browser("anna")
+    for _ in range(3):
+        anna.get("/api/people")
+    made = anna.send("POST", "/api/tokens", json={"program": "m\x1b[2J", "role": "student"})
+    class_lab.browser().sign_in("an\x1bna", "wrong horse battery")
+    teacher.send("PATCH", "/api/people/anna", json={"role": "operator"})
+    teacher.send("DELETE", "/api/people/anna")
+    lines = [each.getMessage() for each in caplog.records if each.name == "mrlab.gateway"]
+    said = "\n".join(lines)
+    assert sum("anna may not GET /api/people" in line for line in lines) == 1
+    for part in ("anna signed in as student", "wrong password", "anna is operator", "removed"):
+        assert part in said
+    assert "\x1b" not in said
+    for secret in (made.json()["token"], "wrong horse battery", PASSWORD):
+        assert secret not in said

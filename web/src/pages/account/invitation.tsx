@@ -10,7 +10,7 @@ import { words } from '../../words/words'
 import './account.css'
 
 /** Fewest characters that the gateway takes. */
-const SHORTEST = 10
+const SHORTEST = 12
 
 /** Choose a password by a link that is good once. */
 export function InvitationPage() {
