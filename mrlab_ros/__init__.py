@@ -1,6 +1,7 @@
 """MR-Lab: a mixed-reality robotics laboratory without robots.
 
-`Lab` is the Python API of a running lab, `Options` says how a file is converted.
+`Lab` is the Python API of a running lab, and `check` needs none; `Options` says how a file is
+converted.
 """
 
 from __future__ import annotations
@@ -8,6 +9,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from mrlab_ros.app.check.array import ArrayCheck as ArrayCheck
+    from mrlab_ros.app.check.array import check as check
     from mrlab_ros.client.lab import FileRefused as FileRefused
     from mrlab_ros.client.lab import Lab as Lab
     from mrlab_ros.client.lab import Recording as Recording
@@ -33,6 +36,8 @@ else:
 
 
 _MODULES = {
+    "ArrayCheck": "app.check.array",
+    "check": "app.check.array",
     "FileRefused": "client.lab",
     "JointSample": "client.robot",
     "Lab": "client.lab",
@@ -44,6 +49,7 @@ _MODULES = {
     "Run": "client.robot",
 }
 __all__ = [
+    "ArrayCheck",
     "FileRefused",
     "JointSample",
     "Lab",
@@ -54,6 +60,7 @@ __all__ = [
     "Recording",
     "Run",
     "__version__",
+    "check",
 ]
 
 

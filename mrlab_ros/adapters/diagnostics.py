@@ -98,6 +98,13 @@ NOTHING_TO_SHOW = Code(
     meaning="A file was refused before a matrix was found in it.",
 )
 
+# arrays in Python
+ARRAY_SHAPE = Code(
+    "array_shape",
+    "An array of {kind} with the shape {shape:list} is no motion.",
+    "Expected a matrix of real numbers, with a row a frame and a column a joint.",
+)
+
 # what is set aside
 SET_ASIDE = Code("set_aside", "It is now called {file}", severity=INFO)
 COPY_KEPT = Code("copy_kept", "A copy is kept as {file}", severity=INFO)

@@ -62,3 +62,8 @@ NO_SINGLE_BAG = Code(
     "Name the file itself.",
     meaning="A folder was given in the place of a file to convert.",
 )
+NAME_A_ROBOT = Code(
+    "name_a_robot",
+    "Which robot is meant is not said; the lab has {robots:list}.",
+    "Name one of them.",
+)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import atexit
 import os
+import tempfile
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -14,14 +15,16 @@ from mrlab_msgs import srv
 from mrlab_msgs.srv import Trigger
 
 from mrlab_ros.client.connect import open_graph
-from mrlab_ros.client.diagnostics import BAD_BASE_PLACE, NO_SINGLE_BAG
-from mrlab_ros.client.robot import LabRobot, Motion, motion_of, standing, surviving
+from mrlab_ros.client.diagnostics import BAD_BASE_PLACE, NAME_A_ROBOT, NO_SINGLE_BAG
+from mrlab_ros.client.robot import LabRobot, Motion, Run, motion_of, standing, surviving
 from mrlab_ros.core.base.diagnostic import heard
 from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.ros.graph import GraphClient
 
 if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
     from mrlab_ros.core.conversion.convert import ConversionResult
 
 CONVERT_TIMEOUT_S = 60.0
@@ -111,21 +114,30 @@ class Lab:
 
     def convert(
         self,
-        file: str | Path,
+        file: str | Path | ArrayLike,
         robot: LabRobot | str,
         options: Options | None = None,
         *,
+        fs: ArrayLike | None = None,
         end_effector: str = "",
         id: str = "",
     ) -> Motion:
-        """Convert a workspace, table, trajectory file or bag and put it into the catalogue.
+        """Convert a workspace, table, trajectory file, bag or array into the catalogue.
 
-        robot: the robot that will play it, with its end effector, or the id of a model. options:
-        as of `mrlab convert`, such as Options(degrees=True). id: its name there; empty: from the
-        file's. Raises FileRefused with the findings where the file is not taken.
+        file: or (N, J) rad, a row a frame, at `fs` Hz, or `fs` the time of each row, s. robot: the
+        robot that will play it, with its end effector, or the id of a model. options: as of
+        `mrlab convert`, such as Options(degrees=True). id: its name there; empty: from the file's.
+        Raises FileRefused with the findings where the file is not taken.
         """
         model = robot if isinstance(robot, str) else robot.model
         tool = end_effector if isinstance(robot, str) else robot.end_effector
+        if not isinstance(file, str | Path):
+            # numpy, which no other call of a lab needs
+            from mrlab_ros.adapters.trajectories import array_file
+
+            with tempfile.TemporaryDirectory(prefix="mrlab-") as folder:
+                made = array_file.write(Path(folder), file, fs, id.rsplit("/", 1)[-1] or "array")
+                return self.convert(made, robot, options, end_effector=end_effector, id=id)
         path = one_file(Path(file))
         request = srv.ConvertTrajectory.Request(
             path=str(path.absolute()),
@@ -149,6 +161,32 @@ class Lab:
 
         findings = tuple(map(diagnostic_from_message, answer.diagnostics))
         return replace(motion_of(answer.trajectory), findings=findings)
+
+    def play(
+        self,
+        motion: Motion | str | Path | ArrayLike,
+        robot: LabRobot | str = "",
+        options: Options | None = None,
+        *,
+        fs: ArrayLike | None = None,
+        speed: float | None = None,
+        loop: bool | None = None,
+    ) -> Run:
+        """Play an array, a file or a trajectory of the catalogue; return the run.
+
+        motion: (N, J) rad at `fs` Hz, a Path, or the id of a trajectory. robot: empty: the only
+        robot of the lab. Raises FileRefused where the motion is not taken, Misuse where none of
+        several robots is named.
+        """
+        if not isinstance(robot, LabRobot):
+            there = self.graph.robots()
+            name = robot or (there[0].name if len(there) == 1 else "")
+            if not name:
+                raise Misuse(NAME_A_ROBOT(robots=[each.name for each in there]))
+            robot = self.robot(name)
+        if not isinstance(motion, Motion | str):
+            motion = self.convert(motion, robot, options, fs=fs)
+        return robot.play(motion, speed=speed, loop=loop)
 
     def record(
         self, bag: str | Path = "", topics: Sequence[str] | str = (), split: float = 0.0

@@ -81,6 +81,16 @@ def write(path: Path) -> None:
         scipy.io.savemat(path, {**content, "fs": RATE})
 
 
+def test_an_array_is_played_without_a_file(lab: None) -> None:
+    times = np.arange(51) / RATE
+    q = np.column_stack([np.sin(times), *([-1.2 + 0 * times] * 5)])
+    with Lab() as lab_:
+        run = lab_.play(q, fs=RATE, speed=4)
+        assert run.wait(DEADLINE)
+        (motion,) = [each for each in lab_.trajectories() if each.id.endswith("array")]
+    assert (motion.frame_count, motion.frame_rate) == (51, RATE)
+
+
 def state() -> str:
     with Lab() as lab:
         return lab.robot("ur5e_1").state

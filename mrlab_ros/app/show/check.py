@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from mrlab_ros.adapters.diagnostics import NOTHING_TO_SHOW
 from mrlab_ros.adapters.robots.library import RobotLibrary, from_library
 from mrlab_ros.app.check.diagnostics import PAGE_NOT_WRITTEN
 from mrlab_ros.app.check.file import CheckedFile
@@ -274,10 +275,33 @@ def write_page(
 ) -> int:
     """Write the page of a file that was rehearsed; return how many characters it has.
 
-    marks: by a rubric, as JSON has them. title: empty: the file's name.
-    with_film: see `check_page`. Raises BadInput where it cannot be written.
+    For marks, title, with_film see `page_of`. Raises BadInput where it cannot be written.
     """
-    assert found.played is not None
+    text = page_of(found, stage, folder, marks, title=title, with_film=with_film)
+    try:
+        out.parent.mkdir(parents=True, exist_ok=True)
+        out.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise BadInput(PAGE_NOT_WRITTEN(file=str(out), why=error.strerror)) from None
+    return len(text)
+
+
+def page_of(
+    found: CheckedFile,
+    stage: Stage,
+    folder: Path,
+    marks: Mapping[str, Any] | None = None,
+    *,
+    title: str = "",
+    with_film: bool = True,
+) -> str:
+    """Return the page of a file that was rehearsed.
+
+    marks: by a rubric, as JSON has them. title: empty: the file's name. with_film: see
+    `check_page`. Raises BadInput where the file holds no motion.
+    """
+    if found.played is None:
+        raise BadInput(NOTHING_TO_SHOW(why=found.why or found.checked.report.summary))
     motions = {m.robot.name: (m.trajectory, m.figures) for m in found.checked.motions}
     shown = [
         PlayedRobot(
@@ -291,17 +315,11 @@ def write_page(
         )
         for r in found.robots
     ]
-    text = check_page(
+    return check_page(
         replace(found.checked.report, title=title or found.checked.report.title),
         found.checked.document["hash"], found.played.recorded, shown, found.played.objects,
         stage.library, folder, marks, with_film=with_film,
     )  # fmt: skip
-    try:
-        out.parent.mkdir(parents=True, exist_ok=True)
-        out.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise BadInput(PAGE_NOT_WRITTEN(file=str(out), why=error.strerror)) from None
-    return len(text)
 
 
 def _film(

@@ -1014,6 +1014,10 @@ export const diagnostics: Templates = {
     "{file}: Am Glied '{link}' beginnen Ketten von {first:integer} und {second:integer} Gelenken; das Labor bewegt nur einen Arm.",
     'Nenne das letzte Glied des Arms, etwa {tip}.',
   ],
+  array_shape: [
+    'Ein Array aus {kind} mit der Form {shape:list} ist keine Bewegung.',
+    'Erwartet wird eine Matrix reeller Zahlen, mit einer Zeile je Frame und einer Spalte je Gelenk.',
+  ],
   asset_changed: ['{asset} wurde während des Sendens geändert.', 'Lade die Datei noch einmal.'],
   asset_in_pieces: [
     '{key} hat {size:integer} Bytes, und eine Antwort fasst höchstens {largest:integer}.',
@@ -2205,6 +2209,10 @@ export const diagnostics: Templates = {
     'Setze ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST für ein Labor auf einem einzigen Rechner, oder erlaube in der Firewall UDP-Multicast an {group}.',
   ],
   multicast_works: ['Multicast: Knoten finden einander darüber'],
+  name_a_robot: [
+    'Welcher Roboter gemeint ist, steht nicht da; das Labor hat {robots:list}.',
+    'Nenne einen davon.',
+  ],
   name_leads_out: ['Der Name führt aus dem Archiv hinaus; die Datei wird nicht gelesen.'],
   name_of_another_model: [
     "'{id}' ist schon eine Trajektorie von {there}, und diese ist für {robot_model}.",
