@@ -19,7 +19,7 @@ from mrlab_ros.adapters.workspaces.matlab.elements import Damaged
 from mrlab_ros.adapters.workspaces.matlab.mat5 import LONGEST_TEXT
 from mrlab_ros.adapters.workspaces.recorded_states import RecordedStates
 from mrlab_ros.adapters.workspaces.sinks import Found, Sink
-from mrlab_ros.adapters.workspaces.tables.table import MOST_COMMENTS, add_members
+from mrlab_ros.adapters.workspaces.tables.table import MOST_COMMENTS, add_document, add_members
 from mrlab_ros.core.conversion.workspace import COMMENT as COMMENT_KIND
 
 SUFFIXES = (".yaml", ".yml")
@@ -34,15 +34,21 @@ OF_GOALS = ("path_tolerance", "goal_tolerance", "goal_time_tolerance", "componen
 def read_yaml(data: memoryview, sink: Sink, joints: Sequence[str]) -> None:
     """Hand every JointTrajectory of a file to the sink, and the motion that its joint states are.
 
-    joints: of the robot whose motion is wanted. Raises Damaged where the file is no YAML, holds
-    no such message, or where a number in one is none: `ros2 topic echo` shortens long lists.
+    joints: of the robot whose motion is wanted. A mapping or a list without a message is read as
+    JSON of the same structure. Raises Damaged where the file is no YAML, holds neither, or where
+    a number in a message is none: `ros2 topic echo` shortens long lists.
     """
     documents = _documents(data)
     found = [each for document in documents for each in _trajectories(document, DEEPEST)]
     states = [each for each in documents if _has(each, "name", "position")]
-    if not found and not states:
-        raise Damaged(NO_MESSAGES())
     try:
+        if not found and not states:
+            # what a program of one's own wrote: as an object or a list of JSON
+            whole = documents[0] if len(documents) == 1 else None
+            if not (_holds_numbers(whole) and add_document(whole, sink)):
+                raise Damaged(NO_MESSAGES())
+            _add_comments(data, sink)
+            return
         for number, trajectory in enumerate(found, 1):
             path = "trajectory" if len(found) == 1 else f"trajectory({number})"
             joint_trajectories.hand_over(path, _message(trajectory), sink)
@@ -68,6 +74,17 @@ def _documents(data: memoryview) -> list[Any]:
     except (yaml.YAMLError, ValueError, RecursionError) as error:
         why = getattr(error, "problem", "") or str(error)
         raise Damaged(LIBRARY_FAILED(part="yaml", error=why)) from None
+
+
+def _holds_numbers(document: Any) -> bool:
+    """Say whether two numbers stand behind one another somewhere, or under one key of a list."""
+    inside = document.values() if isinstance(document, dict) else document
+    if not isinstance(document, dict | list):
+        return False
+    if isinstance(document, list) and document and isinstance(document[0], dict):
+        return any(isinstance(each, int | float) for each in document[0].values())
+    numbers = isinstance(document, list) and all(isinstance(n, int | float) for n in document[:2])
+    return (numbers and len(document) > 1) or any(map(_holds_numbers, inside))
 
 
 def _has(document: Any, *keys: str) -> bool:

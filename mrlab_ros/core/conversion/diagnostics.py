@@ -29,9 +29,9 @@ QUANTITY = (
 )
 ANGLES = (
     "rad=radians|deg=degrees|mrad=milliradians|urad=microradians|gon=gon|turn=turns|"
-    "halfturn=half turns|cdeg=hundredths of a degree|mdeg=thousandths of a degree|"
-    "arcmin=minutes of arc|arcsec=seconds of arc|counts=counts|%=percent|"
-    "normalized=shares of a range|mm=mm"
+    "halfturn=half turns|ddeg=tenths of a degree|cdeg=hundredths of a degree|"
+    "mdeg=thousandths of a degree|arcmin=minutes of arc|arcsec=seconds of arc|counts=counts|"
+    "%=percent|normalized=shares of a range|mm=mm"
 )
 GRIPPER_RANGE = (
     "{meaning:choice states=0 open, 1 closed|"
@@ -959,9 +959,7 @@ TRANSPOSE_APPLIED = Code(
 COLUMNS_APPLIED = Code(
     "columns_applied", "Columns {columns} of '{variable}' were taken, as asked.", severity=INFO
 )
-GRIPPER_APPLIED = Code(
-    "gripper_applied", "The gripper was taken from '{gripper}', as asked.", severity=INFO
-)
+GRIPPER_APPLIED = Code("gripper_applied", "The gripper was taken from '{gripper}'.", severity=INFO)
 INVERT_APPLIED = Code(
     "invert_applied", "Larger values of the gripper were taken as open, as asked.", severity=INFO
 )

@@ -7,7 +7,7 @@ matrix is its derivative, that before the duration, and the default comes last.
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -25,7 +25,7 @@ from mrlab_ros.core.conversion.evidence import rate_scalars
 from mrlab_ros.core.conversion.evidence.assessment import Assessment
 from mrlab_ros.core.conversion.evidence.joining import first_path
 from mrlab_ros.core.conversion.evidence.names import Hint, describe, hint, leaf, parts, words
-from mrlab_ros.core.conversion.evidence.rate_scalars import Scalar
+from mrlab_ros.core.conversion.evidence.rate_scalars import Scalar, Thinning
 from mrlab_ros.core.conversion.evidence.survey import Survey
 from mrlab_ros.core.conversion.evidence.time_vectors import (
     PATH_PARAMETERS,
@@ -99,10 +99,12 @@ def find(
         # velocities a row, as jtraj gives them without times, say nothing of a second
         motion = tuple((p, r) for p, r in motion if abs(r - 1) > AGREES_WITH_MOTION)
     scalars = rate_scalars.scalars(workspace, path, rows, coarse)
+    notes: list[Diagnostic] = []
+    if scalars and (thinned := rate_scalars.thinning(workspace, path)) is not None:
+        scalars = _thinned(scalars, thinned, notes)
     likely = tuple(s.rate for s in scalars if s.sure) + tuple(r for _, r in motion)
     clocks = _clocks(workspace, path, rows, column, coarse, likely)
     usable = [c for c in clocks if c.rate]
-    notes: list[Diagnostic] = []
     if usable:
         near = first_path(path).rpartition(".")[0]
         return _by_clock(usable, scalars, motion, notes, near)
@@ -148,6 +150,19 @@ def find(
         notes.append(unused)
     notes.append(RATE_DEFAULT(file=file, rate=default, value=default, unit="Hz"))
     return Rate(default, None, notes)
+
+
+def _thinned(scalars: list[Scalar], by: Thinning, notes: list[Diagnostic]) -> list[Scalar]:
+    """Return the rates of a file whose rows were thinned out, which never are for certain.
+
+    A plain rate may be that of the rows as they are: then it is taken and the other one is named.
+    """
+    first = scalars[0]
+    if first.sure and not by.skipped:
+        conflict = rate_findings.conflict(first.path, first.rate, by.path, first.rate / by.every)
+        notes.append(conflict)
+        return scalars
+    return [replace(s, rate=s.rate / by.every, sure=False) for s in scalars]
 
 
 def _by_clock(

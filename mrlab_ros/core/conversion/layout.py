@@ -115,9 +115,9 @@ def lay_out(chosen: Chosen, survey: Survey, options: Options, notes: list[Diagno
             options.columns or options.gripper or options.invert
         ):
             column = _as_headed(variable.columns[by_name[joints]], column, notes)
-    held = None if column is None else _gripper(column, options, path, chosen, joints, notes)
     if column is None and not chosen.without_gripper:
-        notes += _gripper_beside(survey.workspace, path, len(arm))
+        column = _gripper_beside(survey.workspace, path, len(arm), notes)
+    held = None if column is None else _gripper(column, options, path, chosen, joints, notes)
     stated = statements.about(survey.workspace, first_path(path))
     arm, scale = in_radians(arm, options, assessment, robot, stated, notes, by_name[:joints])
     return Layout(arm, held, times, [chosen.picked[i] for i in by_name[:joints]], scale)
@@ -276,16 +276,27 @@ def _gripper(
     return closed
 
 
-def _gripper_beside(workspace: Workspace, path: str, rows: int) -> list[Diagnostic]:
-    """Return what to say of a vector that is named as a gripper and was not taken."""
+def _gripper_beside(
+    workspace: Workspace, path: str, rows: int, notes: list[Diagnostic]
+) -> NDArray[Any] | None:
+    """Return a vector of states, 0 and 1, whose name says a gripper and nothing else, or None.
+
+    Another vector that may be the gripper is said in `notes`.
+    """
     for v in workspace.variables:
         if v.values is None or v.values.size != rows or min(v.shape) != 1:
             continue
         words = described(v.label or v.path)
         opens = bool(OPENING & {w.text for w in words}) and len(np.unique(v.values)) == 2
-        if opens or any(word.can_be(Class.GRIPPER) for word in words):
-            column = f"{'1 - ' if opens else ''}{matlab_name(v.path)}(:)"
-            line = f"q = [{matlab_name(path)} {column}]; save('traj.mat', 'q')"
-            fix = Fix(matlab=line) if opens else Fix("gripper", v.path, line)
-            return [GRIPPER_BESIDE(variable=v.path, size=v.size, fixes=(fix,))]
-    return []
+        if not (opens or any(word.can_be(Class.GRIPPER) for word in words)):
+            continue
+        plain = all(w.can_be(Class.GRIPPER, Class.KEPT, Class.PLACE) for w in words) and not opens
+        if plain and set(np.unique(v.values).tolist()) == {0.0, 1.0}:
+            notes.append(GRIPPER_APPLIED(variable=path, gripper=v.path))
+            return v.values.reshape(-1)
+        column = f"{'1 - ' if opens else ''}{matlab_name(v.path)}(:)"
+        line = f"q = [{matlab_name(path)} {column}]; save('traj.mat', 'q')"
+        fix = Fix(matlab=line) if opens else Fix("gripper", v.path, line)
+        notes.append(GRIPPER_BESIDE(variable=v.path, size=v.size, fixes=(fix,)))
+        return None
+    return None

@@ -26,7 +26,7 @@ TERM = re.compile(r"(\d+|end)(?:\s*:\s*(?:(\d+)\s*:\s*)?(\d+|end))?$")
 DEFAULT_FRAME_RATE = 100.0  # Hz
 MOST_ROWS = 5_000_000  # of a matrix, if not said otherwise: almost 14 hours at 100 Hz
 LEAST_RATE, MOST_RATE = 0.1, 100_000.0  # Hz
-UNITS = ("rad", "deg", "mrad", "gon", "turn", "halfturn", "cdeg", "mdeg", "mm")
+UNITS = ("rad", "deg", "mrad", "gon", "turn", "halfturn", "ddeg", "cdeg", "mdeg", "mm")
 MOST_COUNTS = 1e9  # a turn; encoders have at most 2^30
 NO_GRIPPER = "none"
 

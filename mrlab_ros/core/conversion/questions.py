@@ -275,8 +275,8 @@ APPLIED = frozenset(("transpose_applied", "columns_applied"))
 def layout(found: Sequence[Diagnostic], options: Options) -> Options | None:
     """Return options with the only layout that a refusal leaves, None where a person has to say.
 
-    found: the findings of the refusal, worst first. Only a person says how to read what is named
-    as another quantity, or the pieces of what is not named as joints.
+    found: the findings of the refusal, worst first. Only a person says how to read the pieces of
+    what is not named as joints.
     """
     worst = found[0]
     fixes = [f for f in worst.fixes if f.option]
@@ -286,9 +286,8 @@ def layout(found: Sequence[Diagnostic], options: Options) -> Options | None:
     if worst.code == "wrong_shape" and not (beside and beside <= worst.values["more"]):
         return None
     joined = fixes[0].value if fixes[0].option == "join" else ""
-    said = hint(joined or worst.variable)
-    of_joints = said is Hint.POSITIONS and worst.values.get("pieces") == "joints"
-    if said.against or (joined and not of_joints):
+    of_joints = hint(joined) is Hint.POSITIONS and worst.values.get("pieces") == "joints"
+    if joined and not of_joints:
         return None
     return applied(options, fixes[0])
 

@@ -678,8 +678,8 @@ def grippers() -> Iterator[File]:
     yield File(
         "gripper_percent", "ur5e", mat(q=np.column_stack([q, 100 * ramp])), ".mat", WARN, None, q
     )
-    yield File("gripper_beside", "ur5e", mat(q=q, gripper=column(g)), ".mat", WARN, None, q)
-    yield File("gripper_Greifer", "ur5e", mat(q=q, Greifer=column(g)), ".mat", WARN, None, q)
+    yield File("gripper_beside", "ur5e", mat(q=q, gripper=column(g)), ".mat", ACCEPT, None, q)
+    yield File("gripper_Greifer", "ur5e", mat(q=q, Greifer=column(g)), ".mat", ACCEPT, None, q)
     seven = np.column_stack([q, 0.4 * np.sin(np.arange(300) / 40)])
     yield File("seven_axes", "ur5e", mat(q=seven), ".mat", REFUSE)
 

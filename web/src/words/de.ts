@@ -1464,7 +1464,7 @@ export const diagnostics: Templates = {
   ],
   continuous: ['stetig'],
   converted_unit: [
-    "Die Datei nennt für '{variable}' die Einheit {stated:choice rad=Radiant|deg=Grad|mrad=Milliradiant|urad=Mikroradiant|gon=Gon|turn=Umdrehungen|halfturn=halbe Umdrehungen|cdeg=Hundertstel Grad|mdeg=Tausendstel Grad|arcmin=Bogenminuten|arcsec=Bogensekunden|counts=Zählschritte|%=Prozent|normalized=Anteile eines Bereichs|mm=mm}[ ('{source}')]; die Werte wurden in Radiant umgerechnet.",
+    "Die Datei nennt für '{variable}' die Einheit {stated:choice rad=Radiant|deg=Grad|mrad=Milliradiant|urad=Mikroradiant|gon=Gon|turn=Umdrehungen|halfturn=halbe Umdrehungen|ddeg=Zehntelgrad|cdeg=Hundertstel Grad|mdeg=Tausendstel Grad|arcmin=Bogenminuten|arcsec=Bogensekunden|counts=Zählschritte|%=Prozent|normalized=Anteile eines Bereichs|mm=mm}[ ('{source}')]; die Werte wurden in Radiant umgerechnet.",
   ],
   converter_failed: [
     "Der Konverter ist an '{file}' gescheitert ({error}); das ist ein Fehler des Konverters.",
@@ -1481,7 +1481,7 @@ export const diagnostics: Templates = {
   counts_down: ["'{term}' zählt nicht von einer Zahl zu einer größeren"],
   counts_of_what: ['counts braucht die Zählschritte einer Umdrehung, etwa counts:4096'],
   counts_stated: [
-    "'{source}' nennt für '{variable}' die Einheit {stated:choice rad=Radiant|deg=Grad|mrad=Milliradiant|urad=Mikroradiant|gon=Gon|turn=Umdrehungen|halfturn=halbe Umdrehungen|cdeg=Hundertstel Grad|mdeg=Tausendstel Grad|arcmin=Bogenminuten|arcsec=Bogensekunden|counts=Zählschritte|%=Prozent|normalized=Anteile eines Bereichs|mm=mm}, und die Datei sagt nicht, wie viel davon eine Umdrehung ist.",
+    "'{source}' nennt für '{variable}' die Einheit {stated:choice rad=Radiant|deg=Grad|mrad=Milliradiant|urad=Mikroradiant|gon=Gon|turn=Umdrehungen|halfturn=halbe Umdrehungen|ddeg=Zehntelgrad|cdeg=Hundertstel Grad|mdeg=Tausendstel Grad|arcmin=Bogenminuten|arcsec=Bogensekunden|counts=Zählschritte|%=Prozent|normalized=Anteile eines Bereichs|mm=mm}, und die Datei sagt nicht, wie viel davon eine Umdrehung ist.",
     'Sag, wie viele Zählschritte eine Umdrehung sind, oder speichere Radiant.',
   ],
   create_system: ['das System {system} erstellen'],
@@ -1741,7 +1741,7 @@ export const diagnostics: Templates = {
     'Schließ ihn dort, wo ein Gegenstand ist; die Abstände zeigen, wie weit er entfernt war.',
   ],
   grip_objects: ['{robots:list} nach {objects:list} greifen lassen'],
-  gripper_applied: ["Wie gewünscht wurde der Greifer aus '{gripper}' genommen."],
+  gripper_applied: ["Der Greifer wurde aus '{gripper}' genommen."],
   gripper_beside: [
     "'{variable}' ({size}) könnte die Zustände des Greifers enthalten; sie wurde nicht genommen.",
     'Nimm sie als Greifer, oder sichere sie als letzte Spalte.',
@@ -3699,7 +3699,7 @@ export const diagnostics: Templates = {
     'Es rutscht: {mass:mass} zu halten braucht eine Reibung von {friction_needed:number}, vorhanden ist {friction:number}.',
   ],
   small_for_degrees: [
-    'ihre Einheit in der Datei ist {stated:choice rad=Radiant|deg=Grad|mrad=Milliradiant|urad=Mikroradiant|gon=Gon|turn=Umdrehungen|halfturn=halbe Umdrehungen|cdeg=Hundertstel Grad|mdeg=Tausendstel Grad|arcmin=Bogenminuten|arcsec=Bogensekunden|counts=Zählschritte|%=Prozent|normalized=Anteile eines Bereichs|mm=mm}, aber sie reicht nur bis {largest:number}, wie es auch Radiant tun',
+    'ihre Einheit in der Datei ist {stated:choice rad=Radiant|deg=Grad|mrad=Milliradiant|urad=Mikroradiant|gon=Gon|turn=Umdrehungen|halfturn=halbe Umdrehungen|ddeg=Zehntelgrad|cdeg=Hundertstel Grad|mdeg=Tausendstel Grad|arcmin=Bogenminuten|arcsec=Bogensekunden|counts=Zählschritte|%=Prozent|normalized=Anteile eines Bereichs|mm=mm}, aber sie reicht nur bis {largest:number}, wie es auch Radiant tun',
   ],
   smoothness: ['Die Glattheit ist {value:number}; erwartet: mindestens {limit:number}.'],
   some_numbers: ['eine Liste von Zahlen[ {limits:problem}][ ({unit})]'],
@@ -4002,7 +4002,7 @@ export const diagnostics: Templates = {
     'Bewege dort sanfter, oder greife näher am Schwerpunkt.',
   ],
   unit_conflict: [
-    "'{source}' nennt für '{variable}' die Einheit {stated:choice rad=Radiant|deg=Grad|mrad=Milliradiant|urad=Mikroradiant|gon=Gon|turn=Umdrehungen|halfturn=halbe Umdrehungen|cdeg=Hundertstel Grad|mdeg=Tausendstel Grad|arcmin=Bogenminuten|arcsec=Bogensekunden|counts=Zählschritte|%=Prozent|normalized=Anteile eines Bereichs|mm=mm}, '{other}' aber {second:choice rad=Radiant|deg=Grad|mrad=Milliradiant|urad=Mikroradiant|gon=Gon|turn=Umdrehungen|halfturn=halbe Umdrehungen|cdeg=Hundertstel Grad|mdeg=Tausendstel Grad|arcmin=Bogenminuten|arcsec=Bogensekunden|counts=Zählschritte|%=Prozent|normalized=Anteile eines Bereichs|mm=mm}.",
+    "'{source}' nennt für '{variable}' die Einheit {stated:choice rad=Radiant|deg=Grad|mrad=Milliradiant|urad=Mikroradiant|gon=Gon|turn=Umdrehungen|halfturn=halbe Umdrehungen|ddeg=Zehntelgrad|cdeg=Hundertstel Grad|mdeg=Tausendstel Grad|arcmin=Bogenminuten|arcsec=Bogensekunden|counts=Zählschritte|%=Prozent|normalized=Anteile eines Bereichs|mm=mm}, '{other}' aber {second:choice rad=Radiant|deg=Grad|mrad=Milliradiant|urad=Mikroradiant|gon=Gon|turn=Umdrehungen|halfturn=halbe Umdrehungen|ddeg=Zehntelgrad|cdeg=Hundertstel Grad|mdeg=Tausendstel Grad|arcmin=Bogenminuten|arcsec=Bogensekunden|counts=Zählschritte|%=Prozent|normalized=Anteile eines Bereichs|mm=mm}.",
     'Was stimmt? Nenne die Einheit.',
   ],
   unit_mixed: [
@@ -4013,18 +4013,18 @@ export const diagnostics: Templates = {
     'sie reicht bis {largest:number}[ und bleibt nur in den Grenzen von {model}, wenn das {fits:choice degrees=Grad sind|hundredths=Hundertstelgrad oder Zählschritte sind|thousandths=Tausendstelgrad oder Zählschritte sind}][, wie es Grad tun und Radiant bei {beyond} nicht][{counted:choice counts=, in ganzen Zahlen wie die Zählschritte eines Encoders}]',
   ],
   unit_of_name: [
-    "'{variable}' heißt nach der Einheit {stated:choice rad=Radiant|deg=Grad|mrad=Milliradiant|urad=Mikroradiant|gon=Gon|turn=Umdrehungen|halfturn=halbe Umdrehungen|cdeg=Hundertstel Grad|mdeg=Tausendstel Grad|arcmin=Bogenminuten|arcsec=Bogensekunden|counts=Zählschritte|%=Prozent|normalized=Anteile eines Bereichs|mm=mm}; erwartet werden Radiant.",
+    "'{variable}' heißt nach der Einheit {stated:choice rad=Radiant|deg=Grad|mrad=Milliradiant|urad=Mikroradiant|gon=Gon|turn=Umdrehungen|halfturn=halbe Umdrehungen|ddeg=Zehntelgrad|cdeg=Hundertstel Grad|mdeg=Tausendstel Grad|arcmin=Bogenminuten|arcsec=Bogensekunden|counts=Zählschritte|%=Prozent|normalized=Anteile eines Bereichs|mm=mm}; erwartet werden Radiant.",
     'Rechne die Werte in Radiant um, oder bestätige die Einheit, indem du sie nennst.',
   ],
   unit_stated: [
-    "'{source}' nennt die Einheit {stated:choice rad=Radiant|deg=Grad|mrad=Milliradiant|urad=Mikroradiant|gon=Gon|turn=Umdrehungen|halfturn=halbe Umdrehungen|cdeg=Hundertstel Grad|mdeg=Tausendstel Grad|arcmin=Bogenminuten|arcsec=Bogensekunden|counts=Zählschritte|%=Prozent|normalized=Anteile eines Bereichs|mm=mm}",
+    "'{source}' nennt die Einheit {stated:choice rad=Radiant|deg=Grad|mrad=Milliradiant|urad=Mikroradiant|gon=Gon|turn=Umdrehungen|halfturn=halbe Umdrehungen|ddeg=Zehntelgrad|cdeg=Hundertstel Grad|mdeg=Tausendstel Grad|arcmin=Bogenminuten|arcsec=Bogensekunden|counts=Zählschritte|%=Prozent|normalized=Anteile eines Bereichs|mm=mm}",
   ],
   unit_unread: [
     "'{source}' nennt für '{variable}' '{words}', und das ist keine bekannte Einheit von Winkeln; die Werte wurden als Radiant gelesen.",
     'Schreib dort rad oder deg, oder nenne die Einheit.',
   ],
   units_applied: [
-    "Wie gewünscht wurde '{variable}' als {taken:choice rad=Radiant|deg=Grad|mrad=Milliradiant|urad=Mikroradiant|gon=Gon|turn=Umdrehungen|halfturn=halbe Umdrehungen|cdeg=Hundertstel Grad|mdeg=Tausendstel Grad|arcmin=Bogenminuten|arcsec=Bogensekunden|counts=Zählschritte|%=Prozent|normalized=Anteile eines Bereichs|mm=mm}[, {counts:number} je Umdrehung,] gelesen.",
+    "Wie gewünscht wurde '{variable}' als {taken:choice rad=Radiant|deg=Grad|mrad=Milliradiant|urad=Mikroradiant|gon=Gon|turn=Umdrehungen|halfturn=halbe Umdrehungen|ddeg=Zehntelgrad|cdeg=Hundertstel Grad|mdeg=Tausendstel Grad|arcmin=Bogenminuten|arcsec=Bogensekunden|counts=Zählschritte|%=Prozent|normalized=Anteile eines Bereichs|mm=mm}[, {counts:number} je Umdrehung,] gelesen.",
   ],
   units_contradict: ['zugleich wurden Grad verlangt; nenne eine Einheit, etwa {found}'],
   units_unknown: [
@@ -4071,7 +4071,7 @@ export const diagnostics: Templates = {
     'Sind es Nullpunkte, Vorzeichen oder Faktoren der Gelenke, wende sie an und speichere das Ergebnis als q.',
   ],
   units_differ: [
-    "Die Datei gibt die Spalten {columns} von '{variable}' in {stated:choice rad=Radiant|deg=Grad|mrad=Milliradiant|urad=Mikroradiant|gon=Gon|turn=Umdrehungen|halfturn=halbe Umdrehungen|cdeg=Hundertstel Grad|mdeg=Tausendstel Grad|arcmin=Bogenminuten|arcsec=Bogensekunden|counts=Zählschritte|%=Prozent|normalized=Anteile eines Bereichs|mm=mm} an, die Spalten {others} aber in {second:choice rad=Radiant|deg=Grad|mrad=Milliradiant|urad=Mikroradiant|gon=Gon|turn=Umdrehungen|halfturn=halbe Umdrehungen|cdeg=Hundertstel Grad|mdeg=Tausendstel Grad|arcmin=Bogenminuten|arcsec=Bogensekunden|counts=Zählschritte|%=Prozent|normalized=Anteile eines Bereichs|mm=mm}; jede wurde in ihrer Einheit genommen.",
+    "Die Datei gibt die Spalten {columns} von '{variable}' in {stated:choice rad=Radiant|deg=Grad|mrad=Milliradiant|urad=Mikroradiant|gon=Gon|turn=Umdrehungen|halfturn=halbe Umdrehungen|ddeg=Zehntelgrad|cdeg=Hundertstel Grad|mdeg=Tausendstel Grad|arcmin=Bogenminuten|arcsec=Bogensekunden|counts=Zählschritte|%=Prozent|normalized=Anteile eines Bereichs|mm=mm} an, die Spalten {others} aber in {second:choice rad=Radiant|deg=Grad|mrad=Milliradiant|urad=Mikroradiant|gon=Gon|turn=Umdrehungen|halfturn=halbe Umdrehungen|ddeg=Zehntelgrad|cdeg=Hundertstel Grad|mdeg=Tausendstel Grad|arcmin=Bogenminuten|arcsec=Bogensekunden|counts=Zählschritte|%=Prozent|normalized=Anteile eines Bereichs|mm=mm}; jede wurde in ihrer Einheit genommen.",
     'Prüfe, ob sich alle Gelenke richtig bewegen. Gilt eine Einheit für alle, nenne sie.',
   ],
   unwrap_applied: ["Wie gewünscht wurden die Sprünge um 2*pi in '{variable}' entfernt."],

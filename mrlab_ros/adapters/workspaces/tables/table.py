@@ -163,19 +163,24 @@ def read_json(data: memoryview, sink: Sink) -> None:
     column, the joints' names and fs.
     """
     document = _parsed(data)
+    frames = document.get("frames") if isinstance(document, dict) else None
+    if isinstance(frames, dict) and "schema_version" in document:
+        _add_frames(document, frames, sink)
+    elif not add_document(document, sink):
+        raise Damaged(NO_JSON_OBJECT())
+
+
+def add_document(document: Any, sink: Sink) -> bool:
+    """Hand rows, a list of objects or an object to the sink; return whether it is one of them."""
     if (rows := _numbers(document)) is not None and rows.ndim == 2:
         _add(sink, "q", rows)
-        return
-    if _are_records(document):
+    elif _are_records(document):
         _add_records(document, sink)
-        return
-    if not isinstance(document, dict):
-        raise Damaged(NO_JSON_OBJECT())
-    frames = document.get("frames")
-    if "schema_version" in document and isinstance(frames, dict):
-        _add_frames(document, frames, sink)
-        return
-    add_members(document, "", sink, DEEPEST)
+    elif isinstance(document, dict):
+        add_members({str(key): each for key, each in document.items()}, "", sink, DEEPEST)
+    else:
+        return False
+    return True
 
 
 def _parsed(data: memoryview) -> Any:

@@ -55,7 +55,7 @@ CLASSES = {
     Class.ANGLE: """
         angle angles ang winkel winkels angulo angulos angolo angoli angulaire angulaires
         angular angulares angolare angolari hoek hoeken kat katy katow aci acilar acisi jiaodu jiao
-        kakudo uhel uhly ugol ugly угол углы угла 角 角度 각도 rotaties anguli""",
+        kakudo guanjiao uhel uhly ugol ugly угол углы угла 角 角度 각도 rotaties anguli""",
     Class.CONFIGURATION: """
         config configs configuration configurations konfiguration konfigurationen jpos jangles
         configuracion configuraciones configurazione configurazioni configuracao configuracoes
@@ -81,9 +81,9 @@ CLASSES = {
     Class.ROLE: """
         actual act measured meas ist target desired des ref reference soll cmd command commanded
         commands current present set setpoint setpoints demand goal goals feedback fb real mes
-        mesure mesuree mesurees mesures consigne consignes reel reelle reelles desire desires
-        desiree desirees souhaite souhaitee medido medida medidos medidas deseado deseada deseados
-        deseadas consigna referencia actuales reales misurato misurata misurati misurate
+        mesure mesuree mesurees mesures mis med consigne consignes reel reelle reelles desire
+        desires desiree desirees souhaite souhaitee medido medida medidos medidas deseado deseada
+        deseados deseadas consigna referencia actuales reales misurato misurata misurati misurate
         desiderato desiderata desiderati desiderate riferimento attuale attuali reali desejado
         desejada desejados desejadas atual atuais gemeten gewenst gewenste zmierzone zadane zadana
         zadany referans olculen istenen shiji qiwang cankao mokuhyou zadana mereni sollwert
@@ -135,7 +135,7 @@ CLASSES = {
     Class.PERIOD: """
         dt ts te ta tm tc deltat tstep timestep dtime deltatime takt taktzeit takzeit zeitschritt
         period periode periodo periodes stap step schritt interval intervall intervalle intervalo
-        intervallo cycle cycletime zyklus zykluszeit ciclo pas paso passo delta schrittweite
+        intervallo cycle cycletime zyklus zykluszeit ciclo pas paso passo delta schrittweite ech
         tsample tcycle tabtast tastzeit zhouqi shuki 周期 okres krok""",
     Class.RATE: """
         fs fe fa fm fc freq freqs frequency frequenz frequence frequencia frecuencia frequenza
@@ -159,7 +159,7 @@ CLASSES = {
         sure czastrwania""",
     Class.ORDER: """
         order ordering reihenfolge ordre orden ordine ordem volgorde kolejnosc sira permutation
-        perm index indices idx sequence mapping map""",
+        perm index indices idx sequence mapping map shunxu junjo 顺序 次序 順序""",
     Class.NAMES: """
         name names namen nom noms nombre nombres nome nomi nomes label labels heading headings
         header headers titles columns columnas colonnes beschriftung legend legende""",
@@ -188,7 +188,8 @@ CLASSES = {
     Class.TABLE: """
         mass masse masa massa weight gewicht payload traglast charge carga carico length laenge
         longueur largo lunghezza width breite height hoehe radius kp ki kd tol tolerance
-        toleranz eps limit limits seed id version number anzahl nombre numero num n count counts
+        toleranz eps limit limits lim lims min max lower upper grenze grenzen limite limites
+        seed id version number anzahl nombre numero num n count counts
         dof dofs ndof nq nj joints joint gravity g temperature index trial year month day date
         serial size points steps iterations iter maxiter damping friction stiffness inertia alpha
         beta gamma k score cost error success episode episodes port m l a d mu rho""",
@@ -211,7 +212,7 @@ QUANTITIES = {
     "torques": """
         torque torques force forces tau taus wrench moment moments momente load loads effort
         efforts ft trq mom kraft kraefte drehmoment drehmomente gelenkmoment gelenkmomente
-        achsmoment
+        achsmoment pares momenti binario binarios binari niuju 扭力
         couple couples fuerza fuerzas forza forze coppia coppie torque forca forcas koppel
         krachten moment momenty tork kuvvet liju torsi toruku момент моменты сила усилие
         力矩 扭矩 トルク 토크 momento momentos effort""",

@@ -190,6 +190,8 @@ def split_tables(workspace: Workspace, robot: RobotModel) -> Workspace:
     return replace(workspace, variables=(*workspace.variables, *kept)) if kept else workspace
 
 
+PARAMETERS = Name(Hint.AGAINST, "parameters")
+MOST_PARAMETERS = 20  # rows of a matrix of gains, masses or links
 UNNAMED = ("CSV", "NumPy npy")  # formats whose matrix is called q by the reader
 # Quantities that are angles as joint positions are: an angle as unit does not tell them apart.
 STAYS_DOUBTFUL = frozenset(("errors", "obstacles", "parameters"))
@@ -208,6 +210,9 @@ def name_of(variable: Variable, file_format: str, robot: RobotModel) -> Name:
     if of_units.hint is Hint.AGAINST:
         return of_units
     said = describe(variable.path)
+    if said == PARAMETERS and len(variable.path) == 1 and min(variable.shape) > 1:
+        # no gains or masses, with a row a sample
+        said = Name(Hint.NEUTRAL) if max(variable.shape) > MOST_PARAMETERS else said
     if KEYED.search(variable.path):
         # the columns of a table or an entry of a map: what holds them has any name
         of_columns = describe_table(variable) if variable.columns else None

@@ -19,7 +19,14 @@ from mrlab_ros.core.conversion.evidence.headings import (
     names_joints,
     plain,
 )
-from mrlab_ros.core.conversion.evidence.names import Hint, describe, described, spelled
+from mrlab_ros.core.conversion.evidence.names import (
+    Hint,
+    describe,
+    described,
+    spelled,
+    words,
+    words_in,
+)
 from mrlab_ros.core.conversion.evidence.statements import Statement
 from mrlab_ros.core.conversion.evidence.time_vectors import is_time_name
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
@@ -36,6 +43,10 @@ PLACE_WORDS = {
     "wrist": "wrist handgelenk poignet muneca polso pulso punho pols nadgarstek",
 }
 FEWEST_NUMBERED = 3  # of one name, such as q1 to q3
+ORDERED = re.compile(r"\d+|[^\W\d_]+|\.(?=\d)")
+# what stands between the first and the last joint of an order
+TO = words("to down bis zu a au al ate hasta fino jusqu jusque till until naar tot til 到 至")
+OF_ORDER = (Class.ORDER, Class.JOINT, Class.SYMBOL)
 PLACE_OF = {word: place for place, words in PLACE_WORDS.items() for word in words.split()}
 
 
@@ -58,22 +69,50 @@ class OrderClaim:
 
 
 def order_vectors(said: list[Statement], joints: int) -> list[OrderClaim]:
-    """Return the vectors beside a matrix that permute the numbers of its joints."""
+    """Return the vectors and texts beside a matrix that permute the numbers of its joints."""
     found = []
     for s in said:
         values = s.variable.values
-        if values is None or values.size != joints or joints < 2 or s.near > 5:
+        if joints < 2 or s.near > 5:
             continue
-        numbers = np.asarray(values, dtype=np.float64).reshape(-1)
-        if not np.isfinite(numbers).all():
+        if s.text and s.variable.kind != "logical":
+            numbers = numbers_in_order(s.text, joints)
+        elif values is not None and values.size == joints:
+            numbers = np.asarray(values, dtype=np.float64).reshape(-1).tolist()
+        else:
             continue
         for first in (1, 0):
-            if sorted(numbers.tolist()) == list(range(first, first + joints)):
+            if sorted(numbers) == list(range(first, first + joints)):
                 text = "[" + " ".join(f"{n:g}" for n in numbers) + "]"
                 order = tuple(int(n) - first for n in numbers)
                 found.append(OrderClaim(order, s.path, text))
                 break
     return found
+
+
+def numbers_in_order(text: str, joints: int) -> list[float]:
+    """Return the numbers of joints that a text puts in an order: 6 5 4 3 2 1, axis 6 to axis 1.
+
+    Empty where other words stand between them, or where it says no order.
+    """
+    tokens = ORDERED.findall(spelled(text))
+    places = [i for i, token in enumerate(tokens) if token.isdigit()]
+    numbers = [float(tokens[i]) for i in places]
+    if len(numbers) < 2 or "." in tokens:
+        return []
+    between = [t for t in tokens[places[0] : places[-1]] if not t.isdigit()]
+    spoken = [w for t in tokens[: places[0]] if t[0].isalpha() for w in words_in(t)]
+    known = any(w.can_be(*OF_ORDER) for w in spoken) or not spoken
+    if not (known and all(t in TO or _is_joint(t) for t in between)):
+        return []
+    if len(numbers) == 2 and numbers in ([joints, 1], [1, joints], [joints - 1, 0]):
+        step = 1 if numbers[0] < numbers[1] else -1
+        return [float(n) for n in range(int(numbers[0]), int(numbers[1]) + step, step)]
+    return numbers if len(numbers) == joints else []
+
+
+def _is_joint(token: str) -> bool:
+    return len(token) == 1 or all(w.can_be(Class.JOINT) for w in words_in(token))
 
 
 @dataclass(frozen=True)

@@ -94,6 +94,7 @@ SPELLED = str.maketrans(
      "ϑ": " theta ", "φ": " phi ", "ϕ": " phi ", "ω": " omega ", "τ": " tau ", "δ": " delta ",
      "π": " pi ", "\u03b1": " alpha ", "°": " deg ", "º": " deg ", "µ": "u", "%": " percent "}
 )  # fmt: skip
+UNIT_BEHIND = re.compile(r"(.+(?: |\d_))([^ _]+)")
 CJK = re.compile(r"[\u3040-\u30ff\u3400-\u9fff\uac00-\ud7af]")
 FRONT = ("qdd", "ddq", "qd", "dq", "q", "th")
 GLUE = ("", "s", "es", "n", "en", "e")
@@ -402,7 +403,8 @@ def _is_unread(word: Word, symbol: bool) -> bool:
 
 
 def without_units(name: str) -> tuple[str, units.Unit | None]:
-    """Return a name without the unit of angles behind it in words, and that unit: q1 deg."""
-    before, _, last = name.strip().rpartition(" ")
+    """Return a name without the unit of angles behind it, and that unit: q1 deg, q1_deg."""
+    match = UNIT_BEHIND.fullmatch(name.strip())
+    before, last = match.groups() if match else (name, "")
     unit = units.parse(last) if before and len(last) > 1 else None
-    return (before, unit) if unit is not None and unit.is_angle else (name.strip(), None)
+    return (before.rstrip(" _"), unit) if unit and unit.is_angle else (name.strip(), None)

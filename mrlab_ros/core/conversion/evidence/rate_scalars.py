@@ -10,7 +10,14 @@ import numpy as np
 from mrlab_ros.core.conversion.evidence import rate_sentences, statements
 from mrlab_ros.core.conversion.evidence.glossary import FOREIGN, Class
 from mrlab_ros.core.conversion.evidence.joining import first_path
-from mrlab_ros.core.conversion.evidence.names import described, leaf, parts, words
+from mrlab_ros.core.conversion.evidence.names import (
+    described,
+    leaf,
+    parts,
+    vocabulary,
+    word_of,
+    words,
+)
 from mrlab_ros.core.conversion.evidence.time_vectors import (
     LEAST_RATE,
     MOST_RATE,
@@ -48,6 +55,10 @@ OF_RATES = (
 )  # fmt: skip
 SETTLED = (Class.TABLE, Class.GEAR, Class.GRIPPER, Class.UNIT_FLAG)
 OF_TIMES = (Class.CLOCK, Class.PERIOD, Class.RATE, Class.SAMPLING, Class.DURATION)
+THINNED = words(
+    "skip downsample downsampled downsampling decimate decimation stride subsample subsampling "
+    "unterabtastung sousechantillonnage submuestreo sottocampionamento subamostragem"
+)
 FOREIGN_ROWS = 20  # of data beside a rate that have their own number of rows
 # an entry of a containers.Map or of a dictionary
 KEY = re.compile(r"""\('([^']+)'\)$|\{"([^"]+)"\}$""")
@@ -130,7 +141,8 @@ def _by_words(name: str, number: float, unit: str, rows: int) -> tuple[float | N
     """
     if spoken := rate_sentences.rate_in(f"{number!r} {' '.join(parts(name))}"):
         return spoken.rate, spoken.sure
-    said = described(name)
+    whole = "".join(parts(name))
+    said = [word_of(whole)] if whole in vocabulary() else described(name)
     times = words(" ".join(UNIT_WORDS["ms"] | UNIT_WORDS["us"] | UNIT_WORDS["ns"]))
     said = [w for w in said if w.text not in times or w is said[0]]
     if not said or number == rows:
@@ -145,16 +157,45 @@ def _by_words(name: str, number: float, unit: str, rows: int) -> tuple[float | N
         return number * (1e3 if said[-1].text == "khz" else 1.0), known
     if not known and any(w.quantity or w.can_be(*SETTLED) for w in said):
         return None, False
+    # a name that says nothing but a rate or a step, with a number that such have
+    alone = len(whole) > 1 and whole not in UNSURE_RATES | UNSURE_STEPS
     if any(w.can_be(Class.RATE) and (known or len(w.text) > 1) for w in said):
-        return number, beside
+        alone = alone and all(w.can_be(Class.RATE) for w in said) and _is_usual(number)
+        return number, beside or alone
     step = number * {"ms": 1e-3, "us": 1e-6, "ns": 1e-9}.get(unit, 1.0)
     likely = LIKELY_STEPS[0] <= step <= LIKELY_STEPS[1]
     period = any(w.can_be(Class.PERIOD) and (known or len(w.text) > 1) for w in said)
     if period or (beside and any(w.can_be(Class.CLOCK) for w in said)):
         if known and (unit or beside):
             return 1 / step, beside
-        return (1 / step if likely else 0.0), False
+        alone = alone and all(w.can_be(Class.PERIOD) for w in said) and _is_usual(1 / step)
+        return (1 / step if likely else 0.0), alone
     return (1 / step, False) if unit and likely and len(parts(name)) > 1 else (None, False)
+
+
+def _is_usual(rate: float) -> bool:
+    """Say whether a rate, Hz, is one that people choose: 50, 125, 200."""
+    least, most = LIKELY_RATES
+    return least <= rate <= most and abs(rate / 5 - round(rate / 5)) < 1e-6 * rate
+
+
+@dataclass(frozen=True)
+class Thinning:
+    """A number that says which rows of a recording were kept. skipped: a step of a simulation."""
+
+    path: str
+    every: float
+    skipped: bool
+
+
+def thinning(workspace: Workspace, path: str) -> Thinning | None:
+    """Return what the file says of rows that were left out, such as downsample_factor = 10."""
+    for s in statements.about(workspace, first_path(path)):
+        number = workspace.scalar(s.variable)
+        said = THINNED & {w.text for w in s.words}
+        if said and number is not None and number >= 2 and number == round(number):
+            return Thinning(s.path, number, said <= {"skip"})
+    return None
 
 
 def in_texts(workspace: Workspace, path: str) -> list[Scalar]:

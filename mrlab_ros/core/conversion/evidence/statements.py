@@ -25,8 +25,11 @@ PREFIXES = ("/", "milli", "micro", "mikro", "centi", "half", "halbe", "tenth", "
 MODES = ("mode", "modus", "modo", "on", "in")
 TRUTHS = {"true": True, "yes": True, "on": True, "ja": True, "si": True, "oui": True,
           "false": False, "no": False, "off": False, "nein": False, "non": False}  # fmt: skip
-SPOKEN = frozenset(("rad", "deg", "mrad", "gon", "urad"))
-AMBIGUOUS = frozenset(("grade", "grau", "graus", "du", "giro", "giri", "tour", "tours", "hudu"))
+SPOKEN = frozenset(("rad", "deg", "mrad", "gon", "urad", "turn", "ddeg", "cdeg", "mdeg"))
+AMBIGUOUS = frozenset(
+    ("grade", "grau", "graus", "du", "giro", "giri", "tour", "tours", "hudu", "turn", "turns",
+     "cycles", "quan", "rev", "vuelta", "volta", "tur")
+)  # fmt: skip
 OURS = (
     Class.UNIT_KEY, Class.SYMBOL, Class.JOINT, Class.ANGLE, Class.CONFIGURATION, Class.PLACE,
     Class.MOTION, Class.ROLE, Class.KEPT, Class.ABOUT, Class.ARM, Class.UNIT_FLAG,
@@ -190,8 +193,13 @@ def _spoken(text: str) -> Iterator[Unit]:
         if unit is None or unit.name not in SPOKEN or word in AMBIGUOUS:
             continue
         before = text[: match.start()].rstrip().lower()
-        if not QUOTIENT.match(text, match.end()) and not before.endswith(PREFIXES):
-            yield unit
+        if QUOTIENT.match(text, match.end()) or before[-1:].isdigit():
+            continue  # another unit, or an angle by itself
+        last = before.split()[-3:]
+        parts = (units.parse(" ".join((*last[-n:], word))) for n in range(len(last), 0, -1))
+        part = next((p for p in parts if p is not None), None)
+        if part is not None or not before.endswith(PREFIXES):
+            yield part or unit
 
 
 def _flag(s: Statement) -> Unit | None:
@@ -241,7 +249,7 @@ def counts_a_turn(said: list[Statement]) -> float | None:
 
 def words_of_text(text: str) -> list[Word]:
     """Return the words of a text of the file, compounds taken apart."""
-    return [w for token in TOKEN.findall(text) for w in words_in(token.lower())]
+    return [w for token in TOKEN.findall(text) for w in words_in(spelled(token).strip())]
 
 
 @dataclass(frozen=True)

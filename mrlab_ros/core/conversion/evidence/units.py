@@ -34,22 +34,23 @@ TABLE: dict[str, tuple[tuple[str, float, str], ...]] = {
             "turn",
             TURN,
             "turn,turns,rev,revs,revolution,revolutions,u,umdr,umdrehung,umdrehungen,tour,tours,"
-            "vuelta,vueltas,giro,giri,volta,voltas,omwenteling,obr,obrot,obroty,tur,r,cycles",
+            "vuelta,vueltas,giro,giri,volta,voltas,omwenteling,obr,obrot,obroty,tur,r,cycles,quan,圈,回転,회전",
         ),
         (
             "halfturn",
             math.pi,
             "half turn,half turns,halfturn,halfturns,pi,*pi,pi rad,xpi,π,π rad,rad/pi,rad/π",
         ),
+        ("ddeg", DEGREE / 10, "ddeg,decidegree,decidegrees"),
         (
             "cdeg",
             DEGREE / 100,
-            "cdeg,centideg,centidegree,centidegrees,0.01deg,0.01 deg,0.01°,1/100 deg,1/100°",
+            "cdeg,centideg,centidegree,centidegrees",
         ),
         (
             "mdeg",
             DEGREE / 1000,
-            "mdeg,millideg,millidegree,millidegrees,0.001deg,0.001 deg,0.001°,1/1000 deg",
+            "mdeg,millideg,millidegree,millidegrees",
         ),
         ("arcmin", DEGREE / 60, "arcmin,arcminute,arcminutes,winkelminuten"),
         ("arcsec", DEGREE / 3600, "arcsec,arcsecond,arcseconds,winkelsekunden"),
@@ -137,8 +138,19 @@ TABLE: dict[str, tuple[tuple[str, float, str], ...]] = {
 }
 REPLACED = (
     ("²", "2"), ("³", "3"), ("^", ""), ("**", ""), ("·", "*"), ("⋅", "*"), ("º", "°"), ("\\", ""),
-    ("\u03bc", "\u00b5"), ("⁻¹", "-1"), ("é", "e"), ("è", "e"), (" per ", "/"),
+    ("\u03bc", "\u00b5"), ("⁻¹", "-1"), ("é", "e"), ("è", "e"), ("ê", "e"), (" per ", "/"),
 )  # fmt: skip
+# words of a tenth, a hundredth and a thousandth begin so, in seven languages
+PARTS = {
+    "tenth": 0.1, "zehntel": 0.1, "dixieme": 0.1, "decim": 0.1,
+    "hundredth": 0.01, "hundertstel": 0.01, "centie": 0.01, "centes": 0.01,
+    "thousandth": 0.001, "tausendstel": 0.001, "millie": 0.001, "miles": 0.001, "milles": 0.001,
+}  # fmt: skip
+UNIT = r"(?P<unit>[^\W\d_]+|°)"
+PART = re.compile(
+    rf"(?P<part>{'|'.join(PARTS)})[a-z]{{0,4}}?\s*(?:of an? |de |di |d'|degli |dei )?{UNIT}"
+)
+MULTIPLE = re.compile(rf"(?:1/(?P<divisor>10+)|(?P<number>0[.,]0*1|10+))\s*\*?{UNIT}")
 BRACKETS = re.compile(r"[\[(<{]\s*([^\[\](){}<>]{1,24}?)\s*[\])>}]")
 
 
@@ -189,7 +201,24 @@ def parse(text: str) -> Unit | None:
     found = table.get(spelled)
     if found is None and text.strip() == "Grads":
         return DEGREES
-    return found if found is not None else table.get(spelled.removeprefix("in ").strip())
+    spelled = spelled.removeprefix("in ").strip()
+    return found or table.get(spelled) or _multiple(spelled)
+
+
+@cache
+def _multiple(spelled: str) -> Unit | None:
+    """Return the unit of angles that is a tenth of a degree, 0.01 deg and the like."""
+    if match := MULTIPLE.fullmatch(spelled):
+        number = match["number"]
+        factor = float(number.replace(",", ".")) if number else 1 / float(match["divisor"])
+    elif match := PART.fullmatch(spelled):
+        factor = PARTS[match["part"]]
+    else:
+        return None
+    of = _spellings().get(match["unit"])
+    wanted = factor * of.factor if of is not None and of.is_angle else 0.0
+    known = (u for u in _spellings().values() if u.is_angle and u.factor)
+    return next((u for u in known if wanted and abs(u.factor / wanted - 1) < 1e-9), None)
 
 
 def named(name: str) -> Unit | None:

@@ -153,7 +153,7 @@ EXAMPLES = {
     "gripper_opens": Example(
         [var("q", np.column_stack([Q, CLOSED]), columns=(*Q_NAMES, "gripper_open"))]
     ),
-    "gripper_beside": Example([var("q", Q), var("gripper", CLOSED)]),
+    "gripper_beside": Example([var("q", Q), var("gripper", 0.085 * CLOSED)]),
     # good to know
     "object_ignored": Example([var("q", Q), Variable("ts", "timeseries", (1, 1), is_object=True)]),
     "other_candidates": Example([var("q", Q), var("data", Q[::-1] + 0.4)]),

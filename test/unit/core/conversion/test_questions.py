@@ -217,8 +217,14 @@ def test_an_opening_width_is_named_and_its_fix_inverts_it():
     assert (found.fixes[0].option, found.fixes[0].value) == ("invert", "true")
 
 
-def test_a_vector_of_the_gripper_beside_is_mentioned():
+def test_states_that_are_named_as_those_of_the_gripper_are_taken():
     result = convert(var("q", Q), var("Greifer", CLOSED))
+    np.testing.assert_array_equal(result.trajectory.gripper, CLOSED == 1)
+    assert not result.trajectory.warnings
+
+
+def test_a_width_of_the_gripper_beside_is_mentioned():
+    result = convert(var("q", Q), var("Greifer", 85 * CLOSED))
     found = next(d for d in result.diagnostics if d.code == "gripper_beside")
     assert (found.fixes[0].option, found.fixes[0].value) == ("gripper", "Greifer")
 
@@ -270,3 +276,49 @@ def test_a_name_with_a_newline_is_refused(name):
         conversion_convert.convert(
             "q.mat", lambda: None, Options(), ARM, COEFFICIENTS, trajectory_id=name
         )
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "columns are joint 6 down to joint 1",
+        "Reihenfolge der Spalten: Achse 6 bis Achse 1",
+        "ordre des colonnes : axe 6 à axe 1",
+        "顺序: 6 5 4 3 2 1",
+    ],
+)
+def test_an_order_in_words_is_obeyed_and_said(words):
+    result = convert(var("q", Q[:, ::-1]), Variable("note", "char", text=words))
+    assert "order_stated" in [d.code for d in result.diagnostics]
+    np.testing.assert_array_equal(result.trajectory.positions, Q)
+
+
+@pytest.mark.parametrize("words", ["robot with 6 joints, experiment 1", "joint 1 to joint 6"])
+def test_other_numbers_of_joints_are_no_order(words):
+    result = convert(var("q", Q), Variable("note", "char", text=words))
+    np.testing.assert_array_equal(result.trajectory.positions, Q)
+
+
+@pytest.mark.parametrize(
+    ("numbers", "rate", "sure"),
+    [
+        ({"T_A": 0.02}, 50, True),
+        ({"f_A": 50}, 50, True),
+        ({"Abtastrate_kHz": 0.05}, 50, True),
+        ({"samples_per_minute": 3000}, 50, True),
+        ({"duree_totale": 299 / 50}, 50, False),
+        ({"timestep": 0.002, "frame_skip": 10}, 50, False),
+        ({"fs_original": 500, "downsample_factor": 10}, 50, False),
+        ({"fs": 50, "downsample_factor": 10}, 50, False),
+    ],
+)
+def test_numbers_beside_a_motion_say_its_rate(numbers, rate, sure):
+    result = convert(var("q", Q), *(var(name, [n]) for name, n in numbers.items()))
+    assert result.trajectory.frame_rate == pytest.approx(rate)
+    assert sure is not any(d.code.startswith("rate_") for d in result.trajectory.warnings)
+
+
+def test_limits_beside_a_motion_are_harmless():
+    limits = {"q_min": Q.min(0) - 1, "q_max": Q.max(0) + 1, "v_max": Q.max(0) * 0 + 3}
+    result = convert(var("q", Q), *(var(name, [n]) for name, n in limits.items()))
+    assert not result.trajectory.warnings
