@@ -24,6 +24,7 @@ from mrlab_ros.core.conversion.diagnostics import (
     WHOLE_LIKE_POSES,
 )
 from mrlab_ros.core.conversion.evidence import relations
+from mrlab_ros.core.conversion.evidence.headings import units_of
 from mrlab_ros.core.conversion.evidence.joining import PART
 from mrlab_ros.core.conversion.options import NO_GRIPPER, Options, parse_columns
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
@@ -95,6 +96,9 @@ def pick(variable: Variable, options: Options, workspace: Workspace, robot: Robo
             why = ROWS_ALREADY(variable=variable.path, size=variable.size)
             raise BadInput(BAD_OPTION(option="transpose", found="true", why=why))
         values, names, given = values.T, (), given[:1] if len(set(given)) == 1 else ()
+    if not given and names:
+        each = units_of(variable, range(values.shape[1]))
+        given = tuple("" if unit is None else unit.name for unit in each)
     stored = values
     width, size = values.shape[1], "x".join(str(n) for n in values.shape)
     picked = list(range(width))

@@ -47,6 +47,7 @@ STATED = re.compile(
     r"\s*(?P<name>[A-Za-z][\w .-]{0,40}?)\s*(\[[^\]]*\]|\([^)]*\))?\s*[:=;,\t]\s*"
     r"(?P<number>[-+]?\d+(?:[.,]\d+)?(?:[eE][-+]?\d+)?)\s*[A-Za-z]{0,3}[;,\t\s]*$"
 )
+NAMED = re.compile(r"\s*[^\W\d][\w .-]*[:=]\s*[^\W\d°][^;,\t]*$")  # unit: deg
 MOST_ABOVE = 200  # lines above a table
 
 
@@ -168,7 +169,7 @@ def parsed(data: bytes) -> TextTable:
         lines.pop()
     stated: dict[str, float] = {}
     comments: list[str] = []
-    while len(lines) > 1 and lines[-1].lstrip()[:1] in ("#", "%", ""):
+    while len(lines) > 1 and (lines[-1].lstrip()[:1] in ("#", "%", "") or NAMED.match(lines[-1])):
         below = lines.pop().strip().lstrip("#% ")
         if below:
             _state(below, stated)

@@ -144,8 +144,8 @@ CLASSES = {
         tasa tasso taxa fsample fsampling f sps""",
     Class.SAMPLING: """
         sample samples sampling samp abtast abtastung abtastungen abtastzeit abtastrate
-        abtastfrequenz abtastintervall abtastperiode echantillonnage echantillon echant
-        bemonstering bemonsterings ctrl logging muestreo muestra
+        abtastfrequenz abtastintervall abtastperiode echantillonnage echantillon echant ech camp
+        muestr amostr         bemonstering bemonsterings ctrl logging muestreo muestra
         campionamento campione amostragem amostra control controller controle controllo loop
         update publish record recording frame frames per second capture acquisition servo
         regel regler ros probkowania ornekleme caiyang bild bilder bildern cycle sequence
@@ -212,14 +212,16 @@ QUANTITIES = {
     "torques": """
         torque torques force forces tau taus wrench moment moments momente load loads effort
         efforts ft trq mom kraft kraefte drehmoment drehmomente gelenkmoment gelenkmomente
-        achsmoment pares momenti binario binarios binari niuju 扭力
+        achsmoment pares momenti esfuerzo esfuerzos sforzo sforzi esforco esforcos
+        binario binarios binari niuju 扭力
         couple couples fuerza fuerzas forza forze coppia coppie torque forca forcas koppel
         krachten moment momenty tork kuvvet liju torsi toruku момент моменты сила усилие
         力矩 扭矩 トルク 토크 momento momentos effort""",
     "currents": """
         currents amps ampere amperes strom stroeme motorstrom motorstroeme gelenkstrom achsstrom
         courant courants corriente corrientes corrente correnti correntes stroom prad prady akim
-        dianliu denryuu proud proudy ток токи 电流 電流 전류 iq id imot""",
+        dianliu denryuu intensite intensites intensidad intensidades intensita intensidade
+        proud proudy ток токи 电流 電流 전류 iq id imot""",
     "voltages": """
         voltage voltages volt volts pwm spannung spannungen tension tensions tensione tensioni
         voltaje voltajes tensao tensoes dianya denatsu napiecie gerilim напряжение 电压 電圧""",
@@ -232,9 +234,9 @@ QUANTITIES = {
     "poses": """
         tcp poses cartesian cart xyz rpy quat quats quaternion quaternions eef ee endeffector
         endeffektor tool toolpath toolvector workspace xyzrpy xyzabc kartesisch kartesische
-        werkzeug effecteur outil herramienta utensile ferramenta cartesien cartesienne cartesiano
-        cartesiana gereedschap narzedzie kartezyen cpath ctraj tpose tcppos cpol euler orientation
-        orientierung flange flansch quaternionen mocap marker""",
+        werkzeug shisei effecteur outil herramienta utensile ferramenta cartesien cartesienne
+        cartesiano cartesiana gereedschap narzedzie kartezyen cpath ctraj tpose tcppos cpol euler
+        orientation orientierung flange flansch quaternionen mocap marker""",
     "times": "tspan",
     "parameters": """
         limit limits inertia gains gain jacobian covariance coefficients jacobi jac dh qlim

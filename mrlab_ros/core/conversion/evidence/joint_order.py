@@ -43,9 +43,12 @@ PLACE_WORDS = {
     "wrist": "wrist handgelenk poignet muneca polso pulso punho pols nadgarstek",
 }
 FEWEST_NUMBERED = 3  # of one name, such as q1 to q3
-ORDERED = re.compile(r"\d+|[^\W\d_]+|\.(?=\d)")
+ORDERED = re.compile(r"\d+|[轴軸]|から|まで|[到至]|[^\W\d_]+|\.(?=\d)")
 # what stands between the first and the last joint of an order
-TO = words("to down bis zu a au al ate hasta fino jusqu jusque till until naar tot til 到 至")
+TO = words(
+    "to down bis zu a au al all ao ate hasta fino jusqu jusque till until naar tot til 到 至 から "
+    "まで"
+)
 OF_ORDER = (Class.ORDER, Class.JOINT, Class.SYMBOL)
 PLACE_OF = {word: place for place, words in PLACE_WORDS.items() for word in words.split()}
 
@@ -96,13 +99,14 @@ def numbers_in_order(text: str, joints: int) -> list[float]:
     Empty where other words stand between them, or where it says no order.
     """
     tokens = ORDERED.findall(spelled(text))
-    places = [i for i, token in enumerate(tokens) if token.isdigit()]
+    places = [i for i, token in enumerate(tokens) if token.isdecimal()]
     numbers = [float(tokens[i]) for i in places]
     if len(numbers) < 2 or "." in tokens:
         return []
-    between = [t for t in tokens[places[0] : places[-1]] if not t.isdigit()]
+    between = [t for t in tokens[places[0] : places[-1]] if not t.isdecimal()]
     spoken = [w for t in tokens[: places[0]] if t[0].isalpha() for w in words_in(t)]
-    known = any(w.can_be(*OF_ORDER) for w in spoken) or not spoken
+    lettered = len(tokens[places[0] - 1]) == 1 if places[0] else True  # A6 to A1
+    known = lettered or any(w.can_be(*OF_ORDER) for w in spoken)
     if not (known and all(t in TO or _is_joint(t) for t in between)):
         return []
     if len(numbers) == 2 and numbers in ([joints, 1], [1, joints], [joints - 1, 0]):

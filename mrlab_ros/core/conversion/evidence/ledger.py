@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from mrlab_ros.core.conversion.evidence import rate_scalars, rate_sentences, statements, units
 from mrlab_ros.core.conversion.evidence.glossary import FOREIGN, PENDING, PROSE, QUIET, Class
 from mrlab_ros.core.conversion.evidence.joining import first_path
-from mrlab_ros.core.conversion.evidence.names import Hint, Word, described, hint, leaf, parts
+from mrlab_ros.core.conversion.evidence.names import CJK, Hint, Word, described, hint, leaf, parts
 from mrlab_ros.core.conversion.evidence.statements import ELEMENT, Statement
 from mrlab_ros.core.conversion.evidence.time_vectors import (
     MOST_RATE,
@@ -393,11 +393,11 @@ def _words_that_matter(s: Statement, matrix: _Matrix) -> Iterator[str]:
     found = [w for w in spoken if w.text not in PROSE and w.text not in matrix.robot]
     reads_all = s.near == 0 or s.names(Class.ABOUT, Class.ARM, Class.ORDER, *TELLING)
     named = s.names(Class.NAMES) and not s.names(Class.ARM)
-    reads_all = (reads_all or len(spoken) > 1) and not named
+    reads_all = (reads_all or len(spoken) > 1 or bool(CJK.search(s.text))) and not named
     for w in found:
         other = w.quantity and not w.can_be(Class.ROLE, Class.KEPT, Class.PLACE)
         changes = w.can_be(*CHANGES) and not w.can_be(Class.KEPT, Class.SAMPLING, Class.TABLE)
-        counted = w.unit is not None and not w.unit.factor
+        counted = w.unit is not None and not (w.unit.factor == 1.0 or matrix.unit_stated)
         pending = w.text in PENDING and not w.can_be(Class.KEPT)
         if other or changes or counted or pending or (reads_all and w.unread):
             yield w.text

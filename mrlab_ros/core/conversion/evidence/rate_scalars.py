@@ -17,6 +17,7 @@ from mrlab_ros.core.conversion.evidence.names import (
     vocabulary,
     word_of,
     words,
+    words_in,
 )
 from mrlab_ros.core.conversion.evidence.time_vectors import (
     LEAST_RATE,
@@ -38,6 +39,7 @@ STEP_NAMES = words(
     "tsample tsampling abtastzeit abtastintervall abtastperiode zeitschritt dtime deltatime "
     "controlperiod cycletime zykluszeit sampleinterval tcycle takt takzeit taktzeit dts tabtast"
 )
+OF_RECORDS = (Class.SAMPLING, Class.KEPT, Class.ROLE)
 # These are also frequencies of sines, heights, counts and durations: they need a likely value.
 UNSURE_RATES = words("f freq frequency frequenz rate samples")
 UNSURE_STEPS = words("h step stepsize schrittweite t tau period periode")
@@ -143,6 +145,8 @@ def _by_words(name: str, number: float, unit: str, rows: int) -> tuple[float | N
         return spoken.rate, spoken.sure
     whole = "".join(parts(name))
     said = [word_of(whole)] if whole in vocabulary() else described(name)
+    if whole[:1] in ("f", "t") and all(w.can_be(Class.SAMPLING) for w in words_in(whole[1:])):
+        said = [word_of({"f": "freq", "t": "dt"}[whole[0]])]  # f_ech, T_cycle
     times = words(" ".join(UNIT_WORDS["ms"] | UNIT_WORDS["us"] | UNIT_WORDS["ns"]))
     said = [w for w in said if w.text not in times or w is said[0]]
     if not said or number == rows:
@@ -160,7 +164,8 @@ def _by_words(name: str, number: float, unit: str, rows: int) -> tuple[float | N
     # a name that says nothing but a rate or a step, with a number that such have
     alone = len(whole) > 1 and whole not in UNSURE_RATES | UNSURE_STEPS
     if any(w.can_be(Class.RATE) and (known or len(w.text) > 1) for w in said):
-        alone = alone and all(w.can_be(Class.RATE) for w in said) and _is_usual(number)
+        known_words = all(w.can_be(Class.RATE, *OF_RECORDS) for w in said)
+        alone = alone and known_words and _is_usual(number)
         return number, beside or alone
     step = number * {"ms": 1e-3, "us": 1e-6, "ns": 1e-9}.get(unit, 1.0)
     likely = LIKELY_STEPS[0] <= step <= LIKELY_STEPS[1]
@@ -193,7 +198,7 @@ def thinning(workspace: Workspace, path: str) -> Thinning | None:
     for s in statements.about(workspace, first_path(path)):
         number = workspace.scalar(s.variable)
         said = THINNED & {w.text for w in s.words}
-        if said and number is not None and number >= 2 and number == round(number):
+        if said and number is not None and 2 <= number <= MOST_RATE and number % 1 == 0:
             return Thinning(s.path, number, said <= {"skip"})
     return None
 

@@ -21,7 +21,9 @@ EVERY = words(
     "every each alle je jede jeder jedem jedes toutes tous chaque cada ogni todos todas elke 每"
 )
 # between what is counted and a time, or a time and what is counted
-PER = EVERY | words("/ per pro par por al alla au a")
+PER = EVERY | words("/ per pro par por al alla au a in")
+ARTICLES = words("der la el the un una ein")
+TIMES_OVER = words("times mal fois veces volte vezes")
 IMAGES = words("fps frames bilder bildern images imagenes immagini imagens")
 COUNTED = (Class.SAMPLING, Class.PLACE, Class.KEPT)
 STEPS = (Class.PERIOD, Class.SAMPLING)
@@ -40,7 +42,8 @@ class Stated:
 @lru_cache(maxsize=4096)
 def rate_in(text: str) -> Stated | None:
     """Return the rate that a text states, None where it states none, or several."""
-    clauses = [TOKEN.findall(spelled(c.replace("1/s", " hz"))) for c in CLAUSE.split(text)]
+    found_in = (TOKEN.findall(spelled(c.replace("1/s", " hz"))) for c in CLAUSE.split(text))
+    clauses = [[token for token in c if token not in ARTICLES] for c in found_in]
     ours = [c for c in clauses if not FOREIGN.intersection(c)]
     found = {rate for clause in ours for rate in _rates(clause) if LEAST <= rate <= MOST}
     if len(found) != 1:
@@ -53,7 +56,7 @@ def _is_unread(token: str) -> bool:
     """Say whether a word of a sentence is not understood; images are those of a camera."""
     if token in IMAGES:
         return True
-    if token[0].isdigit() or token in PER or token in PROSE or units.parse(token):
+    if token[0].isdecimal() or token in PER or token in PROSE or units.parse(token):
         return False
     return any(w.unread or w.quantity for w in _words(token))
 
@@ -74,10 +77,12 @@ def _unit(tokens: list[str], place: int, quantity: str) -> units.Unit | None:
 def _rates(tokens: list[str]) -> Iterator[float]:
     """Yield the rates of one clause."""
     for i, token in enumerate(tokens):
-        if not token[0].isdigit() or not (number := float(token.replace(",", "."))):
+        if not token[0].isdecimal() or not (number := float(token.replace(",", "."))):
             continue
         before, after = tokens[max(0, i - NEAR) : i], tokens[i + 1 : i + 6]
-        before = before[max((k + 1 for k, t in enumerate(before) if t[0].isdigit()), default=0) :]
+        before = before[
+            max((k + 1 for k, t in enumerate(before) if t[0].isdecimal()), default=0) :
+        ]
         if unit := _unit(tokens, i + 1, "rates"):
             yield number * unit.factor
         elif unit := _unit(tokens, i + 1, units.TIMES):
@@ -96,10 +101,14 @@ def _counted(after: list[str]) -> units.Unit | None:
     for k, token in enumerate(after[:-1]):
         unit = _unit(after, k + 1, units.TIMES)
         if token in PER and unit is not None:
-            return unit if not k or any(_can_be(t, *COUNTED) for t in after[:k]) else None
-        if units.parse(token) or token[0].isdigit():
+            return unit if not k or any(_is_counted(t) for t in after[:k]) else None
+        if units.parse(token) or token[0].isdecimal():
             return None
     return None
+
+
+def _is_counted(token: str) -> bool:
+    return token in TIMES_OVER or _can_be(token, *COUNTED)
 
 
 def _of_each(before: list[str]) -> units.Unit | None:

@@ -20,6 +20,8 @@ ELEMENT = re.compile(r"[({][^.]*$")
 # words of a text: letters with the signs of units inside
 TOKEN = re.compile(r"[^\W\d_]+|°(?![cCfF])")
 QUOTIENT = re.compile(r"\s*(/|per\b|\*|·|\^|-?[²2]|s\b|pro\b)")
+# a word that may be something else is a unit behind these, at the end
+BEHIND = re.compile(r"(?:\b(?:in|en|em)|[:=(])$")
 # a unit behind one of these is another one
 PREFIXES = ("/", "milli", "micro", "mikro", "centi", "half", "halbe", "tenth", "hundredth")
 MODES = ("mode", "modus", "modo", "on", "in")
@@ -190,9 +192,12 @@ def _spoken(text: str) -> Iterator[Unit]:
     for match in TOKEN.finditer(text):
         word = units.plain(match[0])
         unit = units.parse(word) if len(word) > 2 or word == "°" else None
-        if unit is None or unit.name not in SPOKEN or word in AMBIGUOUS:
-            continue
         before = text[: match.start()].rstrip().lower()
+        if unit is None or unit.name not in SPOKEN:
+            continue
+        ends = BEHIND.search(before) and not text[match.end() :].strip(" .)")
+        if word in AMBIGUOUS and not ends:
+            continue
         if QUOTIENT.match(text, match.end()) or before[-1:].isdigit():
             continue  # another unit, or an angle by itself
         last = before.split()[-3:]

@@ -17,12 +17,13 @@ from mrlab_ros.core.conversion.evidence import unit_range as units
 from mrlab_ros.core.conversion.evidence.assessment import (
     FEW_ROWS,
     NAME_SCORES,
+    NO_POSES,
     Assessment,
     blocking_clocks,
     judged,
 )
 from mrlab_ros.core.conversion.evidence.glossary import Class
-from mrlab_ros.core.conversion.evidence.headings import misnamed, name_of, names_joints
+from mrlab_ros.core.conversion.evidence.headings import misnamed, name_of, names_joints, units_of
 from mrlab_ros.core.conversion.evidence.names import (
     Hint,
     Name,
@@ -170,6 +171,7 @@ def measured(
     smooth = None
     if moving.any() and rows >= ENOUGH_ROWS:
         smooth = float((steps[:, moving].mean(axis=0) / span[moving]).mean()) <= ROUGH
+    stated = units_of(variable, range(joints))  # poses have no unit of angles in each column
     last_is_joint = False
     if columns > joints:
         last = values[:, joints]
@@ -186,7 +188,7 @@ def measured(
         smooth=smooth,
         between_zeros=_between_zeros(arm, span),
         last_is_joint=last_is_joint,
-        poses=relations.evidence(values, robot),
+        poses=relations.evidence(values, robot) if None in stated else NO_POSES,
     )
 
 

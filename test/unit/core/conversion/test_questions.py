@@ -283,6 +283,7 @@ def test_a_name_with_a_newline_is_refused(name):
     [
         "columns are joint 6 down to joint 1",
         "Reihenfolge der Spalten: Achse 6 bis Achse 1",
+        "Spalten: A6 bis A1",
         "ordre des colonnes : axe 6 à axe 1",
         "顺序: 6 5 4 3 2 1",
     ],
@@ -291,6 +292,12 @@ def test_an_order_in_words_is_obeyed_and_said(words):
     result = convert(var("q", Q[:, ::-1]), Variable("note", "char", text=words))
     assert "order_stated" in [d.code for d in result.diagnostics]
     np.testing.assert_array_equal(result.trajectory.positions, Q)
+
+
+@pytest.mark.parametrize("words", ["angles en tours", "unit: rev", "手首から基部"])
+def test_units_and_orders_in_a_text_are_never_passed_over(words):
+    result = convert(var("q", Q / (2 * np.pi)), Variable("memo", "char", text=words))
+    assert {"converted_unit", "text_unread"} & {d.code for d in result.diagnostics}
 
 
 @pytest.mark.parametrize("words", ["robot with 6 joints, experiment 1", "joint 1 to joint 6"])

@@ -36,7 +36,15 @@ def test_images_and_words_of_other_data_leave_a_doubt(text):
 
 
 @pytest.mark.parametrize(
-    "text", ["90 deg per second", "moves in 2 s", "speed 50 %", "50 Hz or 100 Hz", "Experiment 12"]
+    "text",
+    [
+        "90 deg per second",
+        "moves in 2 s",
+        "speed 50 %",
+        "50 Hz or 100 Hz",
+        "¹ Hz",
+        "Experiment 12",
+    ],
 )
 def test_other_numbers_state_no_rate(text):
     assert rate_in(text) is None
