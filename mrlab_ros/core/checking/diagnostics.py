@@ -87,6 +87,12 @@ DROPS_OBJECT = Code(
     WARNING,
     meaning="A gripper opens above nothing.",
 )
+FAILED_HAND_OVER = Code(
+    "failed_hand_over",
+    "The gripper stays closed on {other} while another robot takes it away[: {why:problem}].",
+    "Open the giver's gripper after the taker's has closed, and before either moves on.",
+    meaning="Two grippers hold one object and move apart.",
+)
 PAYLOAD = Code(
     "payload",
     "The robot carries {value:mass} in {other}; it may carry {limit:mass} beside its end "

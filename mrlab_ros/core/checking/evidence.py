@@ -13,6 +13,7 @@ from mrlab_ros.core.checking.diagnostics import (
     COLLIDES_AT_START,
     COLLISION,
     DROPS_OBJECT,
+    FAILED_HAND_OVER,
     GRASPS_NOTHING,
     LEFT_THE_ROOM,
     LOSES_OBJECT,
@@ -24,12 +25,15 @@ from mrlab_ros.core.checking.diagnostics import (
 )
 from mrlab_ros.core.checking.rehearsal import FARTHEST
 from mrlab_ros.core.checking.rehearsal_record import Collision, GraspChange, Rehearsed
+from mrlab_ros.core.physics.diagnostics import PULLED_THROUGH, TORN_OFF
 from mrlab_ros.core.physics.engine import Kind
 from mrlab_ros.core.physics.grasp.states import Grasp
 
 # A robot that comes nearer, m, without touching is a finding: what is measured in a real cell is
 # seldom better.
 CLOSE = 0.01
+# What is said of a gripper that stays closed while another robot pulls.
+PULLS = (PULLED_THROUGH.code, TORN_OFF.code)
 # What falls less, m, was set down.
 SET_DOWN = 0.01
 # Between a robot's grasp and the other's loss in a hand-over, s.
@@ -180,6 +184,10 @@ def of_grasps(recorded: Rehearsed, objects: Iterable[str]) -> list[Diagnostic]:
         elif change.state is Grasp.HOLDING:
             held[change.robot] = change.object
             found += _of_load(change)
+        elif change.reason is not None and change.reason.code in PULLS:
+            found.append(
+                FAILED_HAND_OVER(**at, **met(Kind.OBJECT, change.reason.values["object"]))
+            )
         elif change.state is Grasp.EMPTY and before:
             held.pop(change.robot)
             if not _taken(recorded, change, before):

@@ -250,8 +250,8 @@ def _of_joint(one: JointFigures, robot: str, end: float) -> Iterator[Diagnostic]
     ):
         if speed > REST_SHARE * most:
             yield code(**at, time=time, value=speed, limit=REST_SHARE * most, unit="rad/s")
-    # A row that goes back is either; one of the two says it.
-    zigzags = len(one.backs) >= len(one.jumps)
+    # A row that goes back is both; one of the two says it.
+    zigzags = 2 * len(one.backs) >= len(one.jumps)
     times, value = (one.backs, one.back) if zigzags else (one.jumps, one.jump)
     if times:
         code = ZIGZAG if zigzags else SMALL_JUMPS

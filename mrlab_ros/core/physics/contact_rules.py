@@ -68,9 +68,11 @@ def _against(robot: Robot, touch: Touch) -> bool:
 
 def _held_counts(state: WorldState, robot: Robot, touch: Touch) -> bool:
     other = state.robots.get(touch.other) if touch.kind is Kind.ROBOT else None
-    if other is not None and may_touch(other, touch, touch.held, touch.other_link):
-        return False
     settings = state.settings
+    if other is not None and may_touch(other, touch, touch.held, touch.other_link):
+        still = other.still_grips
+        strain = still.strain if still is not None and still.object == touch.held else 0.0
+        return max(touch.depth, strain) > settings.set_down
     pressed = robot.pressed.get(_key(touch))
     way = pressed.way if pressed is not None else 0.0
     before = pressed.depth if pressed is not None else 0.0

@@ -79,6 +79,20 @@ SLIPPED_OUT = Code(
     severity=WARNING,
     meaning="Friction did not hold an object any longer.",
 )
+PULLED_THROUGH = Code(
+    "pulled_through",
+    "{other} pulls {object} through the closed fingers of {robot}: it slid {way:length} "
+    "against {force:number} N, and {other} holds it with a margin of {margin:share}.",
+    severity=WARNING,
+    meaning="Two hands hold one object and move apart.",
+)
+TORN_OFF = Code(
+    "torn_off",
+    "{other} tore {object} from the closed fingers of {robot}: it slid {way:length} against "
+    "{force:number} N, and {other} holds it with a margin of {margin:share}.",
+    severity=WARNING,
+    meaning="An object was pulled out of a hand that had not opened.",
+)
 LET_GO = Code(
     "let_go",
     "{object} was let go: {robot} was given another end effector.",

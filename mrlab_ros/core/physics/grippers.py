@@ -32,7 +32,7 @@ from mrlab_ros.core.physics.grasp.load import Grip, fingers_grip, middle
 from mrlab_ros.core.physics.grasp.states import INWARDS, Grasp, GraspEvent
 from mrlab_ros.core.physics.holding import Holding
 from mrlab_ros.core.physics.seal import OUT, leak, lip
-from mrlab_ros.core.physics.simulated_robot import COMMANDING, Robot
+from mrlab_ros.core.physics.simulated_robot import COMMANDING, Gripped, Robot
 from mrlab_ros.core.physics.snapshots import HeldSnapshot
 from mrlab_ros.core.physics.world_state import SceneObject, WorldState
 from mrlab_ros.core.playback.states import State
@@ -122,6 +122,10 @@ class Grippers:
 
     def carry(self, robot: Robot) -> None:
         """Place what the gripper holds after the arm was placed."""
+        robot.still_grips = None
+        for other in self._world_state.robots.values():
+            if other.still_grips is not None and other.still_grips.object == robot.held:
+                other.still_grips = None
         if robot.holding is not None:
             hand = self._world_state.hand(robot).pose
             pose = compose(hand, robot.holding.in_hand)
@@ -164,6 +168,8 @@ class Grippers:
                 playing = robot.playing
                 robot.takes_over = playing.state is State.PLAYING and playing.clock.rate > 0
                 self._set_closed(robot, closed, now_ns)
+        if robot.still_grips is not None:
+            self._follow_pull(robot, robot.still_grips)
         if robot.held:
             fallen = self._holding.slip(robot, duration)
             if fallen is not None:
@@ -171,10 +177,25 @@ class Grippers:
         elif robot.closed:
             self._watch(robot, now_ns)
 
+    def _follow_pull(self, robot: Robot, still: Gripped) -> None:
+        """Follow an object that another robot took over from a hand that is closed about it."""
+        thing = self._world_state.objects.get(still.object)
+        if thing is not None and not thing.held_by:
+            # The other hand let it go: this one has it alone again.
+            robot.still_grips = None
+            self._seize(robot, thing, still.grip)
+            return
+        pulled = self._holding.pulled(robot)
+        if pulled is not None and robot.still_grips is None:
+            robot.reason = pulled
+            self.announce(robot)
+        elif pulled is not None and (robot.reason is None or pulled.code != robot.reason.code):
+            self._holding.remark(robot, pulled)
+
     def _set_closed(self, robot: Robot, closed: bool, now_ns: int) -> None:
         robot.closed = closed
         robot.closing_since_ns = now_ns
-        robot.lost, robot.reason = "", None
+        robot.lost, robot.reason, robot.still_grips = "", None, None
         robot.watch.reset()
         if not closed:
             self.let_go(robot)
@@ -217,7 +238,11 @@ class Grippers:
             )
             shut = timeout or (bool(stalled) and robot.watch.shut(states))
         if found is not None and self._may_take(robot, found[0]):
+            giver = self._world_state.robots.get(found[0].held_by)
+            before = giver.holding if giver is not None and giver.closed else None
             self._seize(robot, *found)
+            if giver is not None and before is not None and before.grip is not None:
+                giver.still_grips = Gripped(found[0].name, before.in_hand, before.grip)
         elif shut and robot.grasp is Grasp.CLOSING:
             # The touched object may be gone by now: keep the reason why it was not held.
             robot.reason = reason or robot.reason

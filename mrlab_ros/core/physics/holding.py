@@ -12,13 +12,14 @@ from mrlab_ros.core.base.geometry import (
     compose,
     conjugate,
     cross,
+    dot,
     inverse,
     relative,
     rotate,
     scale,
     subtract,
 )
-from mrlab_ros.core.physics.diagnostics import SLIPPED_OUT
+from mrlab_ros.core.physics.diagnostics import PULLED_THROUGH, SLIPPED_OUT, TORN_OFF
 from mrlab_ros.core.physics.engine import BodyState
 from mrlab_ros.core.physics.grasp.load import Grip, Load, attached, bears, remark
 from mrlab_ros.core.physics.simulated_robot import Held, Robot
@@ -26,6 +27,8 @@ from mrlab_ros.core.physics.world_state import GraspChanged, LoadChanged, SceneO
 
 # An object that slid so far between the fingers, m, falls: a pad is 25 mm high.
 SLID = 0.012
+# From so far on, m, an object is pulled through a closed hand: less is its play.
+PULLED = 0.001
 STILL: Vector = (0.0, 0.0, 0.0)
 # The normal of a contact that supports an object points up by more than this cosine.
 SUPPORTS = 0.5
@@ -156,6 +159,68 @@ class Holding:
             robot.payload,
             thing.type.body.friction,
             self._force(robot, held.grip),
+            self._drag(thing),
+        )
+
+    # two hands on one thing -----------------------------------------------------------------
+
+    def _friction(self, robot: Robot, grip: Grip, thing: SceneObject) -> float:
+        """Return the friction with which a hand holds against a pull, N."""
+        return thing.type.body.friction * grip.kind.friction * self._force(robot, grip)
+
+    def _drag(self, thing: SceneObject) -> Vector:
+        """Return the force, N in world, of closed hands through which an object is pulled."""
+        total = STILL
+        for robot in self._world_state.robots.values():
+            still = robot.still_grips
+            size = _length(still.slid) if still is not None else 0.0
+            if still is not None and still.object == thing.name and size > PULLED:
+                force = self._friction(robot, still.grip, thing)
+                turn = self._world_state.hand(robot).pose.orientation
+                total = subtract(total, scale(rotate(turn, still.slid), force / size))
+        return total
+
+    def pulled(self, robot: Robot) -> Diagnostic | None:
+        """Follow what another robot pulls at in a closed hand; return what is to be said of it.
+
+        Across the way its fingers close the object slides, against friction, and is torn off in
+        the end; against them it strains, which halts whoever pulls. A face lets it go.
+        """
+        still = robot.still_grips
+        thing = self._world_state.objects.get(still.object) if still is not None else None
+        taker = self._world_state.robots.get(thing.held_by) if thing is not None else None
+        if still is None or thing is None or taker is None or taker.holding is None:
+            robot.still_grips = None
+            return None
+        hands = relative(self._world_state.hand(robot).pose, self._world_state.hand(taker).pose)
+        moved = compose(compose(hands, taker.holding.in_hand), inverse(still.in_hand))
+        point = still.grip.point
+        way = subtract(compose(moved, Pose(point)).position, point)
+        against = STILL
+        if self._world_state.settings.hold == "infinite":
+            against = way
+        elif not still.grip.kind.pulls:
+            axis = still.grip.axes[0]
+            against = scale(axis, dot(way, axis))
+        still.strain = _length(against)
+        if still.strain > self._world_state.settings.set_down:
+            # It is stuck between the fingers, and no longer slides.
+            return None
+        still.slid = subtract(way, against)
+        across = _length(still.slid)
+        torn = across > (still.grip.kind.yields or SLID)
+        if not torn and across <= PULLED:
+            return None
+        if torn:
+            robot.still_grips = None
+            robot.leaving.discard(thing.name)
+        return (TORN_OFF if torn else PULLED_THROUGH)(
+            object=thing.name,
+            robot=robot.name,
+            other=taker.name,
+            way=round(across, 3),
+            force=self._friction(robot, still.grip, thing),
+            margin=taker.holding.load.slip_margin if taker.holding.load is not None else 0.0,
         )
 
     @staticmethod

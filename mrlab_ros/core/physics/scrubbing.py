@@ -113,7 +113,7 @@ class Rewind:
         """Restore the objects as they were when the run passed the position of the seek."""
         if robot.pending is None or now_ns < robot.pending[0]:
             return
-        snapshot, robot.pending = robot.pending[1], None
+        snapshot, robot.pending, robot.still_grips = robot.pending[1], None, None
         if robot.held and robot.held not in snapshot.held_by(robot.name):
             self._grippers.let_go(robot)
             robot.fire(GraspEvent.LOST)

@@ -10,7 +10,7 @@ from operator import mul, sub
 
 from mrlab_ros.core.base.clock import SECOND, PlaybackClock
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.base.geometry import Pose
+from mrlab_ros.core.base.geometry import Pose, Vector
 from mrlab_ros.core.base.state_machine import Machine
 from mrlab_ros.core.physics.clearance import Clearance
 from mrlab_ros.core.physics.engine import Arm, Kind, Touch
@@ -117,6 +117,22 @@ class Held:
 
 
 @dataclass(eq=False)
+class Gripped:
+    """A closed hand about an object that another robot holds too.
+
+    in_hand: T_hand_object when that robot took it. grip: as it held it then. slid: m, how far the
+    object has been pulled through it since, at the grip and in the frame of the hand; strain: m,
+    how far against its fingers.
+    """
+
+    object: str
+    in_hand: Pose
+    grip: Grip
+    slid: Vector = (0.0, 0.0, 0.0)
+    strain: float = 0.0
+
+
+@dataclass(eq=False)
 class Robot:
     """The state of one robot. joints: names in order of its joint states."""
 
@@ -156,6 +172,8 @@ class Robot:
     # The object that was taken from the closed gripper; empty after the next gripper command.
     lost: str = ""
     holding: Held | None = None
+    # How it gripped what another robot took over, until it opens or that is torn from it.
+    still_grips: Gripped | None = None
     # Objects just released, between the fingers until these have left them.
     leaving: set[str] = field(default_factory=set)
     # Objects that it pressed into something else: it passes into them until it has left them.

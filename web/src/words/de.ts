@@ -625,6 +625,7 @@ export const words: Words = {
       grasps_nothing: 'Greift ins Leere',
       missed_hand_over: 'Verpasste Übergabe',
       drops_object: 'Lässt in der Luft los',
+      failed_hand_over: 'Misslungene Übergabe',
       payload: 'Zu schwer',
       misses_point: 'Verfehlt einen Punkt',
       point_out_of_order: 'Punkte in falscher Reihenfolge',
@@ -1614,6 +1615,10 @@ export const diagnostics: Templates = {
   ],
   enumeration: ['eine Aufzählung: {names:list}'],
   exited: ['Exit-Code {exit_code:integer}'],
+  failed_hand_over: [
+    'Der Greifer bleibt um {other} geschlossen, während ein anderer Roboter es wegnimmt[: {why:problem}].',
+    'Öffne den Greifer des Gebers, nachdem der des Nehmers geschlossen hat und bevor einer weiterfährt.',
+  ],
   falls: [
     '{object} fällt um {value:length}, wenn es losgelassen wird; erwartet werden höchstens {limit:length}.',
   ],
@@ -2491,6 +2496,9 @@ export const diagnostics: Templates = {
     'Prozesse, die prüfen, wurden {count:integer}-mal beendet; vielleicht reicht der Speicher nicht.',
     'Fertiges bleibt erhalten: Starte denselben Befehl noch einmal mit weniger Prozessen.',
   ],
+  pulled_through: [
+    '{other} zieht {object} durch die geschlossenen Finger von {robot}: Es glitt {way:length} gegen {force:number} N, und {other} hält es mit einer Reserve von {margin:share}.',
+  ],
   ready_for_robot: ['Die Prüfung hat keinen Befund, der die Bewegung sperrt.'],
   recording_pauses: [
     "'{variable}' hat vor Punkt {first_row:integer} für {value:number} s keinen Punkt; so lange braucht der Roboter vom einen zum nächsten.",
@@ -2552,6 +2560,9 @@ export const diagnostics: Templates = {
   submission_killed: [
     'Die Prüfung wurde von außen beendet; dem Rechner fehlte wohl Speicher.',
     'Starte denselben Befehl mit weniger Prozessen: Er prüft, was zu wiederholen ist.',
+  ],
+  torn_off: [
+    '{other} hat {object} aus den geschlossenen Fingern von {robot} gerissen: Es glitt {way:length} gegen {force:number} N, und {other} hält es mit einer Reserve von {margin:share}.',
   ],
   unknown_form: ["Die Form des Exports ist '{form}'; erwartet wird {known:either}."],
   unpacking_ended: [

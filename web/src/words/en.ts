@@ -571,6 +571,7 @@ export const en = {
       grasps_nothing: 'Closes on nothing',
       missed_hand_over: 'Missed hand-over',
       drops_object: 'Lets go in the air',
+      failed_hand_over: 'Failed hand-over',
       payload: 'Too heavy',
       misses_point: 'Misses a point',
       point_out_of_order: 'Points out of order',

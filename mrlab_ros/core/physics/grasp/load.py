@@ -16,6 +16,7 @@ from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.geometry import (
     Pose,
     Vector,
+    add,
     compose,
     cross,
     dot,
@@ -123,16 +124,18 @@ def bears(
     payload: float,
     friction: float,
     force: float,
+    drag: Vector = (0.0, 0.0, 0.0),
 ) -> Load:
     """Return what a grasp bears.
 
     hand: its pose in world; tool0: its origin in world; centre: of mass of the held object, in
     world, at the same instant; acceleration: m/s^2 of that centre; mass: kg; friction: of the
-    object's surface; force: N of all fingers together, or of the cup. What pulls and peels at a
+    object's surface; force: N of all fingers together, or of the cup; drag: N, of another hand at
+    the object's centre. What pulls and peels at a
     cup takes from its friction, so it counts as friction needed: the margin is by how much the
     load may grow before the cup slips or comes off.
     """
-    load = scale(subtract(GRAVITY, acceleration), mass)
+    load = add(scale(subtract(GRAVITY, acceleration), mass), drag)
     turn = hand.orientation
     point = compose(hand, Pose(grip.point)).position
     moment = cross(subtract(centre, point), load)

@@ -16,9 +16,11 @@ from mrlab_ros.core.physics.diagnostics import (
     NO_SEAL_AT_EDGE,
     NO_SEAL_CURVED,
     OVER_PAYLOAD,
+    PULLED_THROUGH,
     SLIPPED_OUT,
     SLIPS,
     TOO_WIDE,
+    TORN_OFF,
 )
 from mrlab_ros.core.physics.engine import Kind
 from mrlab_ros.core.physics.grasp.kinds import FINGERS
@@ -311,6 +313,63 @@ def a_rod_goes_from_hand_to_hand(cell):
     assert cell.grasps("a") == [*HELD, EMPTY, OPEN]
     assert cell.grasps("b") == HELD
     assert not cell.hits()
+
+
+def in_two_hands(cell, *, effort: float = 62.5) -> float:
+    """Let a and b close on one bar, a first; return the height of its middle.
+
+    effort: N, of each of a's fingers.
+    """
+    bar = cell.put("bar", (0.0, 0.0, 0.02))
+    grasp = 0.02 + PADS
+    text = cell.library.description("gantry", "parallel_gripper")
+    text = text.replace('effort="62.5"', f'effort="{effort}"')
+    cell.join("a", text, JOINTS, (0.0, 0.0, grasp + ABOVE, 0.0, 0.0), FINGERS, Tool(5.0))
+    cell.go("a", (0.0, 0.0, grasp), 0.4)
+    cell.close("a", 0.9)
+    cell.go("a", (0.0, 0.0, grasp + 0.3), 0.5)
+    height = cell.place(bar)[2]
+    cell.add("b", at=(0.12, 0.0, height + PADS + ABOVE))
+    cell.go("b", (0.12, 0.0, height + PADS), 0.5)
+    cell.close("b", 0.9)
+    assert cell.world.object(bar).held_by == "b"
+    cell.events = []
+    return height
+
+
+@scene
+def a_hand_that_stays_closed_keeps_what_another_cannot_pull_out(cell):
+    height = in_two_hands(cell)
+    cell.go("b", (0.32, 0.0, height + PADS), 1.0)
+    assert PULLED_THROUGH.code in cell.reasons("a")
+    assert SLIPPED_OUT.code in cell.reasons("b")
+    assert (cell.grasps("a"), cell.grasps("b")) == ([HOLDING], [EMPTY])
+    assert cell.world.object("bar_1").held_by == "a"
+
+
+@scene
+def a_weak_hand_that_stays_closed_has_it_torn_off(cell):
+    height = in_two_hands(cell, effort=10.0)
+    cell.go("b", (0.32, 0.0, height + PADS), 1.0)
+    torn = cell.reasons("a")[TORN_OFF.code].values
+    assert torn["force"] == pytest.approx(20 * 0.9)
+    assert torn["way"] == pytest.approx(0.012, abs=0.002)
+    assert cell.reasons("b") == {}
+    assert cell.world.object("bar_1").held_by == "b"
+
+
+@scene
+def pulling_against_a_closed_finger_halts(cell):
+    height = in_two_hands(cell)
+    cell.go("b", (0.12, 0.12, height + PADS), 1.0)
+    assert cell.hits()[0] == ("b", "gripper_base_link", "bar_1", "a")
+
+
+@scene
+def a_hand_keeps_what_the_other_one_lets_go_again(cell):
+    in_two_hands(cell)
+    cell.open("b", 0.3)
+    assert cell.world.object("bar_1").held_by == "a"
 
 
 @scene

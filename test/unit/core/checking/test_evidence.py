@@ -6,6 +6,7 @@ import pytest
 
 from mrlab_ros.core.checking.evidence import of_grasps
 from mrlab_ros.core.checking.rehearsal_record import Drop, GraspChange, Rehearsed
+from mrlab_ros.core.physics.diagnostics import TORN_OFF
 from mrlab_ros.core.physics.grasp.states import Grasp
 
 TAKES = GraspChange(2.0, "giver", Grasp.HOLDING, "rod")
@@ -42,3 +43,16 @@ def test_what_is_let_go_in_the_air_drops_and_what_is_set_down_does_not() -> None
     drops = [Drop(1.0, "r", "cube", 0.3), Drop(2.0, "r", "rod", 0.004)]
     (found,) = of_grasps(Rehearsed(drops=drops), [])
     assert (found.code, found.other, found.value) == ("drops_object", "cube", 0.3)
+
+
+def test_a_giver_that_stays_closed_fails_the_hand_over() -> None:
+    torn = TORN_OFF(object="rod", robot="giver", other="taker", way=0.012, force=90.0, margin=0.1)
+    changes = [
+        TAKES,
+        GraspChange(4.0, "taker", Grasp.HOLDING, "rod"),
+        GraspChange(4.0, "giver", Grasp.EMPTY, ""),
+        GraspChange(5.0, "giver", Grasp.EMPTY, "", torn),
+    ]
+    (found,) = of_grasps(Rehearsed(grasps=changes), ["rod"])
+    assert (found.code, found.robot, found.other) == ("failed_hand_over", "giver", "rod")
+    assert found.values["why"] == torn
