@@ -82,10 +82,14 @@ def words_of(options: Options) -> list[str]:
 
 
 def command_with(words: list[str], options: Options, field: str, value: str) -> str:
-    """Return the command that repeats `words` with the options given and one more."""
+    """Return the command that repeats `words` with the options given and one more.
+
+    value: empty leaves the option out.
+    """
     kept = [each for each in vars(options) if each != field]
     rest = Options(**{each: getattr(options, each) for each in kept})
-    return for_shell([*words, *words_of(rest), *option_words(field, value)])
+    more = option_words(field, value) if value else []
+    return for_shell([*words, *words_of(rest), *more])
 
 
 def convert_words(file: Path | str, robot: str, end_effector: str = "") -> list[str]:

@@ -169,17 +169,17 @@ def no_trajectory(survey: Survey, file: str) -> Diagnostic:
         joints=joints,
         looks=[described(a, _looks(a)) for a in others],
         **contents(survey.workspace),
-        fixes=tuple(_naming(a) for a in others) or (Fix(matlab="save('traj.mat', 'q')"),),
+        fixes=tuple(dict.fromkeys(map(_naming, others))) or (Fix(matlab="save('traj.mat', 'q')"),),
     )
 
 
 def _naming(a: Assessment) -> Fix:
-    """Return what takes a matrix all the same; no command plays what is known to be no positions.
+    """Return what takes a matrix all the same; nothing calls q what is known to be no positions.
 
-    Who follows commands one after the other would see velocities played as a motion.
+    Who follows commands or lines one after the other would see velocities played as a motion.
     """
     if a.name.hint is Hint.AGAINST or a.velocity_of:
-        return Fix(matlab=saving(a.path))
+        return Fix(matlab="save('traj.mat', 'q')")
     return Fix("variable", a.path, saving(a.path))
 
 

@@ -66,7 +66,7 @@ CLASSES = {
         координата координаты положение положения 位置 위치 positionen coordinate coordinates
         koordinaten coords coordonnee coordonnees coordenadas coordinata value values
         waarden waarde valeur valeurs valor valores valore valori
-        state states zustand point points punkt punkte
+        state states zustand estado estados etat etats stato point points punkt punkte
         pt pts pose punto puntos punti ponto pontos stuetzpunkte observation observations""",
     Class.MOTION: """
         traj trajs trajectory trajectories trj path paths bahn bahnen pfad pfade bahndaten motion
@@ -138,7 +138,7 @@ CLASSES = {
         intervallo cycle cycletime zyklus zykluszeit ciclo pas paso passo delta schrittweite ech
         tsample tcycle tabtast tastzeit zhouqi shuki 周期 okres krok""",
     Class.RATE: """
-        fs fe fa fm fc freq freqs frequency frequenz frequence frequencia frecuencia frequenza
+        fs fe fa fm fc freq frec freqs frequency frequenz frequence frequencia frecuencia frequenza
         frequentie rate rates hz khz fps framerate samplerate takte pinlv pinlu shuuhasuu
         czestotliwosc frekans frekvence 频率 周波数 cadence taux
         tasa tasso taxa fsample fsampling f sps""",

@@ -105,6 +105,7 @@ TIMED = re.compile(
     re.I,
 )
 LEAST_STEP, MOST_STEP = 1e-4, 0.5  # s; of a number that no word explains
+MOST_EVERY = 1000
 ENOUGH = 8  # numbers of a vector that rises
 ANGLE_FACTORS = (np.pi / 180, 180 / np.pi, np.pi / 200, 200 / np.pi)
 NOTHING = frozenset(("none", "no", "off", "false", "linear", "0", "keine", "aus", "aucun"))
@@ -251,7 +252,11 @@ def _number(s: Statement, matrix: _Matrix) -> Entry:
     if timed and (words[-1].text in TIME_UNITS or not factor):
         likely = rate_scalars.LIKELY_RATES[0] <= rate <= rate_scalars.LIKELY_RATES[1]
         rated = any(w.can_be(Class.PERIOD, Class.RATE) and len(w.text) > 1 for w in words)
-        return Entry(v, End.TIME if likely and rated else End.HARMLESS, rate=rate)
+        if likely and rated:
+            return Entry(v, End.TIME, rate=rate)
+        # every n-th row, in words that are not understood
+        unread = _unread(words) if number % 1 == 0 and 2 <= number <= MOST_EVERY else ()
+        return Entry(v, End.FACTOR if unread else End.HARMLESS, unread)
     if touching or factor or of_angles or (not settled and _unread(words)):
         return Entry(v, End.FACTOR, _unread(words))
     return Entry(v, End.HARMLESS)

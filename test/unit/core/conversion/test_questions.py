@@ -325,6 +325,11 @@ def test_numbers_beside_a_motion_say_its_rate(numbers, rate, sure):
     assert sure is not any(d.code.startswith("rate_") for d in result.trajectory.warnings)
 
 
+def test_a_number_in_unread_words_is_named_although_one_says_time():
+    result = convert(var("q", Q), var("fs", [200]), var("jeder_n_te", [10]))
+    assert "unused_beside" in [d.code for d in result.diagnostics]
+
+
 def test_limits_beside_a_motion_are_harmless():
     limits = {"q_min": Q.min(0) - 1, "q_max": Q.max(0) + 1, "v_max": Q.max(0) * 0 + 3}
     result = convert(var("q", Q), *(var(name, [n]) for name, n in limits.items()))
