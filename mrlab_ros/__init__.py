@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from mrlab_ros.app.check.array import check as check
     from mrlab_ros.client.lab import FileRefused as FileRefused
     from mrlab_ros.client.lab import Lab as Lab
-    from mrlab_ros.client.lab import Recording as Recording
+    from mrlab_ros.client.recording import Recording as Recording
     from mrlab_ros.client.robot import JointSample as JointSample
     from mrlab_ros.client.robot import LabRobot as LabRobot
     from mrlab_ros.client.robot import Motion as Motion
@@ -45,7 +45,7 @@ _MODULES = {
     "LabRobot": "client.robot",
     "Motion": "client.robot",
     "Options": "core.conversion.options",
-    "Recording": "client.lab",
+    "Recording": "client.recording",
     "Run": "client.robot",
 }
 __all__ = [

@@ -16,6 +16,7 @@ from mrlab_msgs.srv import Trigger
 
 from mrlab_ros.client.connect import open_graph
 from mrlab_ros.client.diagnostics import BAD_BASE_PLACE, NAME_A_ROBOT, NO_SINGLE_BAG
+from mrlab_ros.client.recording import STOP_RECORDING_TIMEOUT_S, Recording
 from mrlab_ros.client.robot import LabRobot, Motion, Run, motion_of, standing, surviving
 from mrlab_ros.core.base.diagnostic import heard
 from mrlab_ros.core.base.errors import BadInput, Misuse
@@ -28,7 +29,6 @@ if TYPE_CHECKING:
     from mrlab_ros.core.conversion.convert import ConversionResult
 
 CONVERT_TIMEOUT_S = 60.0
-STOP_RECORDING_TIMEOUT_S = 30.0
 # Endings of what a recorded bag's folder holds.
 BAG_FILES = (".mcap", ".db3", ".mcap.zstd", ".db3.zstd")
 
@@ -221,32 +221,6 @@ class Lab:
         from mrlab_ros.messages import qos
 
         self.graph.subscribe(kind, topic, surviving(callback), qos.LATCHED)
-
-
-class Recording:
-    """A recording that runs. bag: its folder."""
-
-    def __init__(self, graph: GraphClient, bag: str) -> None:
-        self._graph = graph
-        self.bag = Path(bag)
-
-    def stop(self) -> str:
-        """End it; return what the recorder says of the bag."""
-        answer = self._graph.order(
-            Trigger, "/recorder/stop", Trigger.Request(), STOP_RECORDING_TIMEOUT_S
-        )
-        return str(answer.message)
-
-    def __enter__(self) -> Recording:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.stop()
 
 
 def one_file(path: Path) -> Path:

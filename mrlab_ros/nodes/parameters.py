@@ -228,6 +228,9 @@ class RecorderParameters:
 @dataclass(frozen=True)
 class BridgeParameters:
     lab_id: str = _lab_id()
+    state_dir: str = _state_dir(
+        "Folder of the orders for a recorder that does not run; empty: none is kept."
+    )
     allow_list: str = field(TEXT, "YAML file with the rules; empty: config/bridge.yaml.", "")
     prefix: str = field(PREFIX, "What every key begins with.", "")
     mode: str = field(

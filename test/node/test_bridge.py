@@ -6,12 +6,21 @@ import re
 import signal
 import subprocess
 import threading
+import time
+from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
 from child_process import HOST, start_child
 from graph import wait_for
-from mrlab_msgs.msg import Robot, Robots, RobotSystems
+from mrlab_msgs.msg import (
+    LabProcess,
+    LabProcesses,
+    RecorderState,
+    Robot,
+    Robots,
+    RobotSystems,
+)
 from mrlab_msgs.srv import SetLoop, Trigger
 from rclpy.serialization import deserialize_message, serialize_message
 from refusals import refused
@@ -29,13 +38,16 @@ from zenoh_side import (
     tokens,
 )
 
+from mrlab_ros.adapters.stop_orders import StopOrders
 from mrlab_ros.adapters.zenoh.diagnostics import BAD_ZENOH_FILE, ENDPOINT_TAKEN
 from mrlab_ros.core.base.diagnostics import BAD_VALUE
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.diagnostics import ALLOW_LIST_NOT_READ, OPEN_ENDPOINT
 from mrlab_ros.core.bridge.rules import Congestion
+from mrlab_ros.core.recording.diagnostics import STOP_LEFT
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes.bridge.node import BridgeNode
+from mrlab_ros.ros.services import create_deferred_service
 
 ROOT = Path(__file__).parents[2]
 
@@ -401,3 +413,50 @@ def test_the_process_ends_when_asked_and_tells_what_it_carried(graph, endpoint, 
     rest, _ = process.communicate(timeout=60)
     assert process.returncode == 0, rest
     assert re.search(r"carried \d+ messages and \d+ bytes over \d+ keys", rest)
+
+
+@pytest.fixture
+def recorder_bridge(graph, endpoint, tmp_path):
+    graph.add(BridgeNode, listen=[endpoint], discovery_period=0.02, state_dir=str(tmp_path))
+    with connect(endpoint) as session:
+        yield session
+
+
+def test_a_stop_for_a_recorder_that_died_or_froze_is_left_for_the_next(
+    graph, recorder_bridge, tmp_path
+):
+    states = graph.client.create_publisher(RecorderState, "/recorder/state", qos.LATCHED_EVENTS)
+    processes = graph.client.create_publisher(LabProcesses, "/processes", qos.LATCHED_EVENTS)
+    never = Future()
+    service = create_deferred_service(graph.client, Trigger, "/recorder/stop", lambda *_: never)
+
+    def stop():
+        reply, _ = ask(recorder_bridge, "recorder/stop", serialize_message(Trigger.Request()))
+        return deserialize_message(reply, Trigger.Response)
+
+    states.publish(RecorderState(state=RecorderState.RECORDING, bag="/bags/class"))
+    wait_for(lambda: "recorder/stop" in statistics(recorder_bridge)["keys"], "the route")
+    waiting = StopOrders(str(tmp_path)).waiting
+
+    with ThreadPoolExecutor() as pool:
+        asked = pool.submit(stop)
+        key = "recorder/stop"
+        wait_for(lambda: statistics(recorder_bridge)["keys"][key]["messages"], "the call")
+        down = LabProcess(
+            name="recorder",
+            state=LabProcess.FROZEN,
+            nodes=["recorder"],
+            down_steady_ns=time.monotonic_ns(),
+        )
+        processes.publish(LabProcesses(processes=[down]))
+        # It does not wait for the time-out of the service, which is 30 s.
+        answer = asked.result(10.0)
+    assert (answer.success, answer.code) == (True, STOP_LEFT.code)
+    assert [order.bag for order in waiting()] == ["/bags/class"]
+    assert stop().code == STOP_LEFT.code
+    graph.client.destroy_service(service)
+    down.state = LabProcess.RUNNING
+    processes.publish(LabProcesses(processes=[down]))
+    wait_for(lambda: not graph.client.count_services("/recorder/stop"), "the recorder gone")
+    wait_for(lambda: stop().code == STOP_LEFT.code, "a third order")
+    assert len(waiting()) >= 3

@@ -33,7 +33,7 @@ from mrlab_ros.commands.output import say
 from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, heard
 from mrlab_ros.core.base.errors import LabError, Misuse, WrongUsage
 from mrlab_ros.core.base.foreign_text import for_shell
-from mrlab_ros.core.recording.diagnostics import ENDING, NO_RECORDING
+from mrlab_ros.core.recording.diagnostics import ENDING, NO_RECORDING, STOP_LEFT
 from mrlab_ros.core.recording.recorder import RecorderState
 
 if TYPE_CHECKING:
@@ -307,10 +307,13 @@ def _stop(graph: GraphClient, bag: str) -> Diagnostic:
         return graph.call(Trigger, "/recorder/stop", request, ANSWER_S, find_timeout=find_timeout)
 
     try:
-        return _said(ask(ANSWER_S))
+        said = _said(ask(ANSWER_S))
+        if said.code != STOP_LEFT.code:
+            return said
+        waits = True
     except NoAnswer:
-        silent = time.monotonic() - signs.last
-    waits = bool(bag) and _leave(graph.domain, bag)
+        waits = bool(bag) and _leave(graph.domain, bag)
+    silent = time.monotonic() - signs.last
     if silent <= FROZEN_S:
         return _closed(graph, STOP_TIMEOUT_S)
     if size_of(bag) > before:
@@ -338,12 +341,9 @@ def _closed(graph: GraphClient, timeout: float) -> Diagnostic:
 
 
 def _leave(domain: int, bag: str) -> bool:
-    """Leave the order to end the recording into `bag` with the lab; return whether it waits."""
-    from mrlab_ros.adapters.stop_orders import StopOrders
-    from mrlab_ros.processes.run_file import RunFile
+    from mrlab_ros.client.recording import leave_stop
 
-    facts = RunFile(domain).read() or {}
-    return StopOrders(facts.get("state_dir", "")).leave(bag)
+    return leave_stop(domain, bag)
 
 
 def _stop_elsewhere() -> Diagnostic:

@@ -5,6 +5,13 @@ from __future__ import annotations
 from mrlab_ros.core.base.diagnostic import INFO, WARNING, Code, Fix
 from mrlab_ros.core.base.foreign_text import for_shell
 
+STOP_LEFT = Code(
+    "stop_left",
+    "The recorder does not run now; the order to end the recording into {bag} waits for it, and "
+    "is carried out as soon as it runs.",
+    severity=WARNING,
+)
+
 # the runs of a session
 SESSION_SUMMARY = Code(
     "session_summary",

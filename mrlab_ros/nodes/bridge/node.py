@@ -55,6 +55,7 @@ from mrlab_ros.nodes.bridge.inward import GuestWatch, Inward
 from mrlab_ros.nodes.bridge.outward import Outward
 from mrlab_ros.nodes.bridge.routes import BridgeContext, Kept
 from mrlab_ros.nodes.bridge.services import Services
+from mrlab_ros.nodes.bridge.stops import STOP, StopsLeft
 from mrlab_ros.nodes.parameters import AUTOMATIC, BridgeParameters
 from mrlab_ros.ros.clock import LabClock, every
 from mrlab_ros.ros.decoding import subscribe
@@ -165,8 +166,15 @@ class BridgeNode(
                 subscribe(self, said, topic, self._on_lab, qos.LATCHED)
         # By service: how many servers it had at the last check.
         self._servers: dict[str, int] = {}
+        self._stops = StopsLeft(
+            self, self.parameters.state_dir, self.parameters.lab_id, self._server_gone
+        )
         self._service_routes = Services(
-            self._bridge, self._why_not, keyed=bool(self.parameters.keys)
+            self._bridge,
+            self._why_not,
+            keyed=bool(self.parameters.keys),
+            left={STOP: self._stops.leave},
+            is_down=lambda service: service == STOP and self._stops.down,
         )
         self._assets = AssetRoutes(self._bridge, share.directory(), self._rules.types)
         self._streams = SpunNode(streams)
@@ -243,6 +251,9 @@ class BridgeNode(
         """Return why a service is not called now: another lab would carry out the call, too."""
         servers = self._servers.get(service, 0)
         return self._neighbours.why_not(service, servers, time.monotonic())
+
+    def _server_gone(self, service: str) -> None:
+        self._service_routes.server_gone(service)
 
     def _on_lab(self, message: Robots | RobotSystems) -> None:
         self._neighbours.notice(message.lab, time.monotonic())

@@ -9,7 +9,7 @@ from __future__ import annotations
 import threading
 import time
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
@@ -24,6 +24,7 @@ from mrlab_ros.core.bridge import diagnostics as say
 from mrlab_ros.core.bridge import rules
 from mrlab_ros.core.bridge.rules import ServiceRule
 from mrlab_ros.messages import qos
+from mrlab_ros.messages.texts import tell
 from mrlab_ros.nodes.bridge.outward import Sender
 from mrlab_ros.nodes.bridge.routes import BridgeContext, Count
 from mrlab_ros.ros import clock
@@ -46,7 +47,8 @@ class Call:
 class ServiceRoute:
     """The route of one service; it is offered to zenoh once its server is matched.
 
-    in_flight: calls that were sent to the server; waiting: calls that were not.
+    in_flight: calls that were sent to the server; waiting: calls that were not. served: a server
+    was in the graph at the last check.
     """
 
     name: str
@@ -57,13 +59,17 @@ class ServiceRoute:
     declared: list[Declared] = field(default_factory=list)
     in_flight: set[Call] = field(default_factory=set)
     waiting: deque[Call] = field(default_factory=deque)
+    served: bool = True
 
 
 class Services:
     """The routes of services.
 
     why_not: gets a service that moves something and returns why it is not called now; None: it is.
-    keyed: the lab has keys, and clients on other machines.
+    keyed: the lab has keys, and clients on other machines. left: by service, what leaves a call
+    for the server that comes next, and returns what its caller is told; None: it cannot be left.
+    The route of such a service stays when its server has gone. is_down: returns whether the server
+    of a service is known not to run.
     """
 
     def __init__(
@@ -72,8 +78,12 @@ class Services:
         why_not: Callable[[str], Diagnostic | None] = lambda service: None,
         *,
         keyed: bool = False,
+        left: Mapping[str, Callable[[], Diagnostic | None]] | None = None,
+        is_down: Callable[[str], bool] = lambda service: False,
     ) -> None:
         self._keyed = keyed
+        self._left = left or {}
+        self._is_down = is_down
         self._bridge = bridge
         self._why_not = why_not
         # Reentrant: add_done_callback may run at once when the response is already there.
@@ -83,14 +93,19 @@ class Services:
 
     def stop(self) -> None:
         """Close all routes; end once all replies are sent."""
-        self.keep({})
+        for name in list(self._routes):
+            self._close(name)
         self._replies.stop()
 
     def keep(self, wanted: dict[str, tuple[ServiceRule, str]]) -> None:
         """Open and close routes until they are those of `wanted`: name -> rule and type."""
         for name, route in list(self._routes.items()):
-            if name not in wanted or wanted[name][1] != route.type:
+            route.served = name in wanted
+            stays = route.served or name in self._left
+            if not stays or (route.served and wanted[name][1] != route.type):
                 self._close(name)
+            elif not route.served:
+                self.server_gone(name)
         for name, (rule, type_name) in wanted.items():
             self._renew(name, rule, type_name)
 
@@ -118,13 +133,36 @@ class Services:
         for declared in route.declared:
             declared.undeclare()
         with self._lock:
-            calls = [*route.in_flight, *route.waiting]
-            route.in_flight.clear()
-            route.waiting.clear()
+            self._drop(route)
             self._bridge.streams.destroy_client(route.client)
         self._bridge.close(self._bridge.key(name))
+
+    def server_gone(self, name: str) -> None:
+        """Take that the server of a service ended or froze: its calls wait no longer."""
+        route = self._routes.get(name)
+        if route is not None:
+            with self._lock:
+                self._drop(route)
+
+    def _drop(self, route: ServiceRoute) -> None:
+        """Give up all calls of a route. The lock must be held."""
+        calls = [*route.in_flight, *route.waiting]
+        route.in_flight.clear()
+        route.waiting.clear()
         for call in calls:
-            self._refuse(route, call.query, say.SERVICE_GONE(service=name))
+            self._give_up(route, call.query, say.SERVICE_GONE(service=route.name))
+
+    def _give_up(self, route: ServiceRoute, query: Query, why: Diagnostic) -> None:
+        """Leave a call for the next server where that is possible; else refuse it with `why`."""
+        leave = self._left.get(route.name)
+        said = leave() if leave is not None else None
+        if said is None:
+            self._refuse(route, query, why)
+            return
+        service: Any = route.client.srv_type
+        response = service.Response()
+        tell(response, True, said)
+        self._reply(query, serialize_message(response))
 
     def _on_query(self, route: ServiceRoute) -> Callable[[Query], None]:
         read = _reader(route)
@@ -152,6 +190,9 @@ class Services:
             if why_not is not None:
                 self._refuse(route, query, why_not)
                 return
+            if not route.served or self._is_down(route.name):
+                self._give_up(route, query, say.SERVICE_GONE(service=route.name))
+                return
             timeout = round(route.rule.timeout * rules.SECOND)
             with self._lock:
                 why_not = self._why_full(route)
@@ -165,6 +206,9 @@ class Services:
             route.count.bytes += size
 
         return on_query
+
+    def _reply(self, query: Query, payload: bytes) -> None:
+        self._replies.send(partial(query.reply, payload), len(payload))
 
     def _why_full(self, route: ServiceRoute) -> Diagnostic | None:
         if self._routes.get(route.name) is not route:
@@ -190,7 +234,7 @@ class Services:
         if expected and response is not None:
             payload = serialize_message(response)
             route.count.bytes += len(payload)
-            self._replies.send(partial(call.query.reply, payload), len(payload))
+            self._reply(call.query, payload)
 
     def refuse_late(self) -> None:
         """Refuse the calls whose deadline has passed."""
@@ -207,7 +251,7 @@ class Services:
                 if call.future is not None:
                     route.client.remove_pending_request(call.future)
                 silent = say.SERVER_SILENT(service=route.name, timeout=route.rule.timeout)
-                self._refuse(route, call.query, silent)
+                self._give_up(route, call.query, silent)
 
     def _refuse(self, route: ServiceRoute, query: Query, reason: Diagnostic) -> None:
         """Reply to a query with an error that says the reason."""

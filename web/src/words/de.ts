@@ -3753,6 +3753,9 @@ export const diagnostics: Templates = {
     'stoppe es; dabei fahren seine Arme an ihren Anfang zurück; sind alle frei, spiele ab',
   ],
   stop_first: ['stoppe zuerst'],
+  stop_left: [
+    'Die Aufnahme kann gerade nicht beendet werden, weil ihr Prozess nicht läuft; der Auftrag, die Aufnahme in {bag} zu beenden, wartet und wird ausgeführt, sobald er läuft.',
+  ],
   stopped: ['gestoppt'],
   store_failed: [
     'Die Ablage {store} hat versagt ({why:problem}); nichts wurde geändert.',
