@@ -11,7 +11,7 @@ from functools import partial
 from itertools import groupby
 from math import nan
 from operator import attrgetter
-from typing import Protocol
+from typing import Any, Protocol
 
 from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.bridge.rules import Congestion, Direction, Rules, TopicRule
@@ -37,6 +37,12 @@ class Topic:
     latched: bool
     each: bool
     history: deque[Message]
+    # What clients are told of it, as JSON.
+    facts: dict[str, Any] = field(init=False)
+
+    def __post_init__(self) -> None:
+        named = ("id", "key", "type", "latched", "each")
+        self.facts = {"op": "topic", **{name: getattr(self, name) for name in named}}
 
 
 @dataclass(slots=True, eq=False)

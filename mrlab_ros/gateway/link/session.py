@@ -76,11 +76,14 @@ class LinkSession:
         self._subscriptions: dict[int, Subscription] = {}
         self._newest = Newest()
         self._large: dict[int, Message] = {}
+        # Topics with messages in the lossless channel that may be unacknowledged.
+        self._in_pieces: set[int] = set()
         self._reliable = ReliableSender(budget)
         self._credit = Credit(BATCHES)
         self._texts: deque[bytes] = deque()
         self._texts_size = 0
-        self._announced: dict[int, Topic] = {}
+        # What the client was told of each topic.
+        self._announced: dict[int, Mapping[str, Any]] = {}
         self._lab = b""
         self._requests: OrderedDict[int, None] = OrderedDict()
         self._batch_is_next = True
@@ -113,8 +116,8 @@ class LinkSession:
         self._credit = Credit(BATCHES)
         self._texts.clear()
         self._texts_size = 0
-        for topic in self._announced.values():
-            self._announce(topic)
+        for facts in self._announced.values():
+            self.text(facts)
         self._reliable.rewind(received)
         for number in [n for n, s in self._subscriptions.items() if wanted.get(n) != s.expression]:
             self.unsubscribe(number)
@@ -178,13 +181,21 @@ class LinkSession:
                 message = message.with_payload(limited)
         if topic.each:
             self._push(topic, RecordKind.MESSAGE, message)
-        elif len(message.sample.payload) > LARGE:
+        elif len(message.sample.payload) > LARGE or self._goes_in_pieces(topic.id):
+            self._newest.forget(message.stream)
             self._large[topic.id] = message
         else:
             self._newest.offer(message.stream, topic.priority, message.encoded())
-        if topic.id not in self._announced:
-            self._announce(topic)
+        if self._announced.get(topic.id) != topic.facts:
+            self._announced[topic.id] = topic.facts
+            self.text(topic.facts)
         self.wake()
+
+    def _goes_in_pieces(self, topic: int) -> bool:
+        """Return whether an older message of a topic goes in pieces: a batch would overtake it."""
+        if not self._reliable.size:
+            self._in_pieces.clear()
+        return topic in self._in_pieces or topic in self._large
 
     def respond(self, request: int, payload: bytes) -> None:
         """Send a service's response; an error where too much waits for this person's pages."""
@@ -243,6 +254,7 @@ class LinkSession:
         if self._large and self._reliable.idle:
             topic, message = next(iter(self._large.items()))
             del self._large[topic]
+            self._in_pieces.add(topic)
             self._push(message.topic, RecordKind.VALUE, message)
         return self._reliable.next()
 
@@ -255,19 +267,6 @@ class LinkSession:
         except Overflow as error:
             self.failed = error.diagnostic
         self.wake()
-
-    def _announce(self, topic: Topic) -> None:
-        self._announced[topic.id] = topic
-        self.text(
-            {
-                "op": "topic",
-                "id": topic.id,
-                "key": topic.key,
-                "type": topic.type,
-                "latched": topic.latched,
-                "each": topic.each,
-            }
-        )
 
     def _why_not(self, expression: str) -> tuple[str, Diagnostic] | None:
         if len(self._subscriptions) >= SUBSCRIPTIONS:

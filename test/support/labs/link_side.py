@@ -10,7 +10,15 @@ from typing import Any
 
 from fastapi import FastAPI
 
-from mrlab_ros.gateway.link.frames import CALL, ENTRY, HEAD, NUMBER, ToClient, ToGateway
+from mrlab_ros.gateway.link.frames import (
+    CALL,
+    ENTRY,
+    HEAD,
+    NUMBER,
+    RecordKind,
+    ToClient,
+    ToGateway,
+)
 from mrlab_ros.gateway.link.socket import PROTOCOL
 
 HOST = "localhost:8080"
@@ -22,7 +30,55 @@ class Closed(Exception):
     """The gateway closed the socket, with this code and reason."""
 
 
-class LinkSide:
+class Decoder:
+    """What a client makes of the frames of the gateway."""
+
+    def __init__(self) -> None:
+        self.topics: dict[int, dict[str, Any]] = {}
+        self.values: list[tuple[str, bytes]] = []
+        # Those of topics by both channels, in the order in which they came.
+        self.came: list[tuple[str, bytes]] = []
+        self.texts: list[dict[str, Any]] = []
+        self.records: list[tuple[int, int, bytes]] = []
+        self.batches: list[int] = []
+        self.received = 0
+        self._piece = b""
+
+    def take_text(self, data: str) -> None:
+        text = json.loads(data)
+        self.texts.append(text)
+        if text["op"] == "topic":
+            self.topics[text["id"]] = text
+
+    def take_bytes(self, data: bytes) -> None:
+        kind, flags, count, number = HEAD.unpack_from(data)
+        if kind == ToClient.FRAGMENT:
+            if number != self.received + 1:
+                assert number <= self.received
+                return
+            self.received = number
+            self._piece += data[HEAD.size :]
+            if flags:
+                about, length, _, what = ENTRY.unpack_from(self._piece)
+                payload = self._piece[ENTRY.size :][:length]
+                self.records.append((what, about, payload))
+                if what in (RecordKind.MESSAGE, RecordKind.VALUE):
+                    self.came.append((self.topics[about]["key"], payload))
+                self._piece = b""
+            return
+        self.batches.append(number)
+        at = HEAD.size
+        for _ in range(count):
+            topic, length, _, _ = ENTRY.unpack_from(data, at)
+            start = at + ENTRY.size
+            assert start % 8 == 4
+            self.values.append((self.topics[topic]["key"], data[start : start + length]))
+            self.came.append(self.values[-1])
+            at = -(-(start + length) // 8) * 8
+        assert at == len(data)
+
+
+class LinkSide(Decoder):
     """A socket of an application; it decodes what comes and grants no credit by itself."""
 
     def __init__(
@@ -32,6 +88,7 @@ class LinkSide:
         protocols: tuple[str, ...] = (PROTOCOL,),
         origin: str = f"http://{HOST}",
     ) -> None:
+        super().__init__()
         headers = [("host", HOST), ("origin", origin), ("cookie", cookie)]
         self._scope = {
             "type": "websocket",
@@ -52,13 +109,6 @@ class LinkSide:
         self.frozen = False
         self.thaw = asyncio.Event()
         self.subprotocol: str | None = None
-        self.topics: dict[int, dict[str, Any]] = {}
-        self.values: list[tuple[str, bytes]] = []
-        self.texts: list[dict[str, Any]] = []
-        self.records: list[tuple[int, int, bytes]] = []
-        self.batches: list[int] = []
-        self.received = 0
-        self._piece = b""
         self._task = asyncio.create_task(self._run())
         self._in.put_nowait({"type": "websocket.connect"})
 
@@ -131,35 +181,9 @@ class LinkSide:
         elif message["type"] == "websocket.close":
             raise Closed(message.get("code"), message.get("reason"))
         elif message.get("text") is not None:
-            text = json.loads(message["text"])
-            self.texts.append(text)
-            if text["op"] == "topic":
-                self.topics[text["id"]] = text
+            self.take_text(message["text"])
         else:
-            self._binary(message["bytes"])
-
-    def _binary(self, data: bytes) -> None:
-        kind, flags, count, number = HEAD.unpack_from(data)
-        if kind == ToClient.FRAGMENT:
-            if number != self.received + 1:
-                assert number <= self.received
-                return
-            self.received = number
-            self._piece += data[HEAD.size :]
-            if flags:
-                about, length, _, what = ENTRY.unpack_from(self._piece)
-                self.records.append((what, about, self._piece[ENTRY.size :][:length]))
-                self._piece = b""
-            return
-        self.batches.append(number)
-        at = HEAD.size
-        for _ in range(count):
-            topic, length, _, _ = ENTRY.unpack_from(data, at)
-            start = at + ENTRY.size
-            assert start % 8 == 4
-            self.values.append((self.topics[topic]["key"], data[start : start + length]))
-            at = -(-(start + length) // 8) * 8
-        assert at == len(data)
+            self.take_bytes(message["bytes"])
 
 
 def error_of(record: tuple[int, int, bytes]) -> dict[str, str]:
