@@ -2,6 +2,7 @@
 
 A robot is spawned, plays until its first joint state, and is removed, one every PERIOD_S. Each has
 a name of its own, so that tables by name show. The first fifth fills caches and is left out.
+Fast DDS keeps some 200 bytes of each topic name for ever, so that names used again cost less.
 Target: below 0.05 MB a minute with six robots a minute, which is 8 kB a robot.
 """
 

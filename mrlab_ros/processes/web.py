@@ -10,6 +10,7 @@ from urllib.parse import urlsplit
 
 from mrlab_ros.adapters.sandbox import python_process
 from mrlab_ros.core.bridge.links import from_here
+from mrlab_ros.core.runtime.process_states import GATEWAY
 from mrlab_ros.processes.child_process import ProcessSpec
 from mrlab_ros.processes.options import LabOptions
 
@@ -27,7 +28,7 @@ HEALTH_TIMEOUT_S = 2.0
 class GatewayProcess:
     """The process that serves the pages."""
 
-    name: str = "web"
+    name: str = GATEWAY
     nodes: tuple[str, ...] = ()
 
     def wanted(self, options: LabOptions) -> bool:

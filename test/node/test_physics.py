@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import time
 from types import SimpleNamespace
 
 import numpy as np
@@ -25,6 +26,7 @@ from mrlab_ros.core.trajectory.trajectory import Channels, Source, Trajectory
 from mrlab_ros.messages import qos, trajectories
 from mrlab_ros.nodes.coordinator.node import CoordinatorNode
 from mrlab_ros.nodes.lab.node import LabNode
+from mrlab_ros.nodes.physics import node
 from mrlab_ros.nodes.physics.node import PhysicsNode
 from mrlab_ros.nodes.playback.host import PlaybackHostNode
 
@@ -267,6 +269,33 @@ def test_objects_come_and_go_by_service_and_bad_requests_are_refused_in_words(gr
     wait_for(lambda: where(objects, "cube_1")[0] > 1.9, "the throw")
     assert graph.call(Trigger, "/physics/clear_objects").success
     wait_for(lambda: not objects[-1].objects, "an empty room")
+
+
+def test_what_a_page_carries_falls_when_its_gateway_dies_unless_its_hand_moves_on(
+    graph, lab, monkeypatch
+):
+    monkeypatch.setattr(node, "RETURN_S", 1.0)
+    objects = graph.listen(msg.SceneObjects, "/objects", qos.LATCHED)
+    hand = graph.client.create_publisher(msg.Move, "/moves", qos.NEWEST)
+    processes = graph.client.create_publisher(msg.LabProcesses, "/processes", qos.LATCHED_EVENTS)
+    cubes = [place(graph, "cube", (1.0, y, 0.025)) for y in (1.0, 2.0)]
+    for cube in cubes:
+        take = {"name": cube, "pose": pose((2, 2, 0.5)), "held": True, "hand": cube}
+        assert graph.call(srv.MoveObject, "/physics/move_object", **take).success
+    wait_for(lambda: processes.get_subscription_count(), "the reader of deaths")
+    wait_for(lambda: hand.get_subscription_count() > 1, "the readers of moves")
+    down = msg.LabProcess(
+        name="web", state=msg.LabProcess.WAITING, down_steady_ns=time.monotonic_ns()
+    )
+    processes.publish(msg.LabProcesses(processes=[down]))
+    sequence = itertools.count(1)
+
+    def fallen() -> list[str]:
+        to = {"object": cubes[1], "hand": cubes[1], "pose": pose((2, 2, 0.5))}
+        hand.publish(msg.Move(sequence=next(sequence), **to))
+        return [each.name for each in objects[-1].objects if not each.held_by]
+
+    wait_for(lambda: fallen() == cubes[:1], "the fall of the one that nobody moves")
 
 
 def test_a_restarted_physics_has_its_objects_and_robots_back(graph, lab, tmp_path):

@@ -35,7 +35,7 @@ from mrlab_ros.core.physics.diagnostics import (
 from mrlab_ros.core.physics.engine import Body, BodyState, Part, Shape
 from mrlab_ros.core.physics.grippers import Grippers
 from mrlab_ros.core.physics.world_state import HAND, ObjectRemoved, SceneObject, WorldState
-from mrlab_ros.core.scene.carrier import carrier
+from mrlab_ros.core.scene.carrier import Carrier, carrier
 from mrlab_ros.core.scene.surfaces import Surface
 
 # A detected plane gets this thickness behind it, m: a headset sees no back side.
@@ -159,6 +159,24 @@ class Inventory:
         thing.hand = BodyState(pose)
         self._engine.set_object(name, thing.hand)
         return True
+
+    def carried(self) -> dict[str, tuple[Carrier, int]]:
+        """Return by object the hand that carries it, and the number of its newest move."""
+        return {
+            name: (thing.carrier, thing.carrier.sequence)
+            for name, thing in self._objects.items()
+            if thing.hand is not None and thing.carrier is not None
+        }
+
+    def let_go(self, carried: Mapping[str, tuple[Carrier, int]]) -> list[str]:
+        """Release the objects of hands that have not moved since `carried`; return their names."""
+        still = self.carried()
+        left = [name for name, hand in carried.items() if still.get(name) == hand]
+        for name in left:
+            hand = self._objects[name].hand
+            assert hand is not None
+            self.move(name, hand.pose, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), held=False)
+        return left
 
     def keep_in_hand(self) -> None:
         """Reset the pose of what a person holds."""

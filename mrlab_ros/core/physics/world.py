@@ -8,7 +8,7 @@ the same events. An object that a robot held before a restart is pending until i
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.base.diagnostic import Diagnostic
@@ -28,6 +28,7 @@ from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.simulated_robot import GripperProgram, Playing, Robot
 from mrlab_ros.core.physics.stepping import ROOM_STEPS, SLOW_STEPS, ArmMotion, Rest, StepGrid
 from mrlab_ros.core.physics.world_state import Contact, Event, SceneObject, WorldState
+from mrlab_ros.core.scene.carrier import Carrier
 from mrlab_ros.core.scene.surfaces import Surface
 
 # A gap longer than this between two calls of advance(), ns, counts as a stall, not as silence of
@@ -240,6 +241,14 @@ class World:
         It counts where that hand holds the object, and no newer one has come. Raises BadInput.
         """
         return self._inventory.follow(name, hand, sequence, pose)
+
+    def carried(self) -> dict[str, tuple[Carrier, int]]:
+        """Return by object the hand that carries it, and the number of its newest move."""
+        return self._inventory.carried()
+
+    def let_go(self, carried: Mapping[str, tuple[Carrier, int]]) -> list[str]:
+        """Release the objects of hands that have not moved since `carried`; return their names."""
+        return self._inventory.let_go(carried)
 
     def remove(self, name: str) -> None:
         """Remove an object."""

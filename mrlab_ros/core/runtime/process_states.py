@@ -11,6 +11,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from enum import Enum
 
+# The name of the process that serves the pages; it holds no node.
+GATEWAY = "web"
+
 
 class Phase(Enum):
     """The phase of a supervised process, in the order of the constants of LabProcess.msg."""

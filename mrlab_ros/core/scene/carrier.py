@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 
-@dataclass
+@dataclass(eq=False)
 class Carrier:
     """hand: an id that its client chose. sequence: of the last move that counted."""
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import sys
 import threading
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -24,10 +26,14 @@ from mrlab_ros.core.base.errors import BadInput, LabError
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.world import World
+from mrlab_ros.core.runtime.identity import Identity
+from mrlab_ros.core.runtime.process_states import GATEWAY, Deaths
+from mrlab_ros.core.scene.carrier import Carrier
 from mrlab_ros.messages import physics as messages
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.poses import pose_from_message
 from mrlab_ros.messages.scenes import placement_to_message, placements_from_messages
+from mrlab_ros.messages.status import processes_from_message
 from mrlab_ros.nodes import parameters
 from mrlab_ros.nodes.parameters import PhysicsParameters
 from mrlab_ros.nodes.physics.contents import Contents
@@ -65,6 +71,9 @@ TURN_NS = SECOND // 240
 # After this many steps the lock is released and events are published.
 MOST_STEPS = 24
 SAVE_PERIOD = 2.0  # s
+# Pages are back by then after their gateway was started again, and take anew what they carry, s.
+RETURN_S = 5.0
+LET_GO_PERIOD_S = 0.5
 FILE = "physics.json"
 
 
@@ -125,6 +134,13 @@ class PhysicsNode(
         ):
             create_service(self, kind, f"~/{name}", callback)
         subscribe(self, msg.Move, "/moves", self._on_follow, qos.NEWEST)
+        self._identity = Identity(self.parameters.lab_id, lambda _: None)
+        self._deaths = Deaths(time.monotonic_ns())
+        # What hands of pages carried when the gateway went down; they may come back until then.
+        self._orphans: dict[str, tuple[Carrier, int]] = {}
+        self._let_go_at = math.inf
+        subscribe(self, msg.LabProcesses, "/processes", self._on_processes, qos.LATCHED)
+        every(self, LET_GO_PERIOD_S, self._let_go)
         every(self, SAVE_PERIOD, self._contents.save)
         # With Python's default of 5 ms another thread could delay a halt.
         sys.setswitchinterval(SWITCH_INTERVAL_S)
@@ -206,6 +222,25 @@ class PhysicsNode(
         with suppress(LabError), self._lock:
             pose = pose_from_message(move.pose)
             self._world.follow(move.object, move.hand, move.sequence, pose)
+
+    def _on_processes(self, message: msg.LabProcesses) -> None:
+        """Note what is carried through a gateway that died or froze: nobody lets go of it."""
+        if not self._identity.accepts(message.lab):
+            return
+        down = self._deaths.new(processes_from_message(message))
+        if any(process.name == GATEWAY for process in down):
+            with self._lock:
+                self._orphans = self._world.carried()
+            self._let_go_at = time.monotonic() + RETURN_S
+
+    def _let_go(self) -> None:
+        if time.monotonic() < self._let_go_at:
+            return
+        self._let_go_at = math.inf
+        with self._lock:
+            fallen = self._world.let_go(self._orphans)
+        if fallen:
+            self.get_logger().warning(f"the gateway went down: {', '.join(fallen)} let go")
 
     @answered
     def _on_remove(self, request: srv.Remove.Request, response: srv.Remove.Response) -> Diagnostic:

@@ -754,9 +754,15 @@ def test_a_world_at_rest_is_stepped_less_often_and_goes_on_at_once():
         world.follow("ball", "left", 3, Pose((1e9, 0, 0.5)))
     steps(100 * MS)
     assert steps(SECOND) == 240
+    # A hand that moves on keeps what it has, one that does not lets go.
+    carried = world.carried()
+    assert world.follow("ball", "left", 4, Pose((2.0, 0, 0.5)))
+    assert world.let_go(carried) == []
+    assert world.let_go(world.carried()) == ["ball"]
+    assert world.object("ball").held_by == ""
     world.move("ball", Pose((0.15, 0, 0.5)), (0, 0, 0), (0, 0, 0), held=False)
     # A move that was on its way when it was let go.
-    assert not world.follow("ball", "left", 4, Pose((2.0, 0, 0.5)))
+    assert not world.follow("ball", "left", 5, Pose((2.0, 0, 0.5)))
     # An arm that moves has every step at once, and halts at what it meets.
     steps(SECOND)
     lab.play()
