@@ -28,6 +28,7 @@ from mrlab_ros.adapters import share
 from mrlab_ros.adapters.bullet.support import missing
 from mrlab_ros.adapters.parent_exit import LAUNCHER
 from mrlab_ros.adapters.sandbox import python_process
+from mrlab_ros.adapters.scenes.files import SceneFiles
 from mrlab_ros.commands.up.keys import free_endpoint
 from mrlab_ros.commands.up.surroundings import graph_range
 from mrlab_ros.commands.up.web import checked_web, prepare_keys
@@ -158,6 +159,8 @@ def processes(context):
         web=web,
         sim_time=given("use_sim_time"),
     )
+    if value("scene"):
+        check_scene(value("scene"), options.state_dir)
     found = lab_processes(options)
     reach = graph_range(value("discovery"))
     # The processes end with this one, which would leave them behind at a SIGTERM.
@@ -224,6 +227,11 @@ def check_namespace(namespace):
             "/systems and the names of its robots are the same for all its parts. Include "
             "lab.launch.py outside push_ros_namespace; a second lab has a ROS_DOMAIN_ID of its own"
         )
+
+
+def check_scene(name, state_dir):
+    """Raise BadInput where the lab has no such scene: it would begin without one."""
+    SceneFiles(share.directory() / "config" / "scenes", state_dir / "scenes").load(name)
 
 
 def unknown(given):

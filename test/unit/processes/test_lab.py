@@ -20,6 +20,7 @@ from mrlab_ros.adapters.diagnostics import FOLDER_UNUSABLE
 from mrlab_ros.adapters.keys.folder import Keys, now
 from mrlab_ros.adapters.robots.diagnostics import NO_ROBOT_MODEL
 from mrlab_ros.adapters.sandbox import python_process
+from mrlab_ros.adapters.scenes.diagnostics import NO_SCENE
 from mrlab_ros.commands.demo.lab import free_port
 from mrlab_ros.commands.up.speaker import COLOURS
 from mrlab_ros.commands.up.surroundings import DISCOVERY, folder_for_state
@@ -460,6 +461,8 @@ def test_the_launch_file_leaves_out_and_refuses_what_it_is_told_to(
         launched(robots="ur6", web="false")
     with refused(NO_PARAMETER_FILE, BadInput, path="/nowhere.yaml"):
         launched(config="/nowhere.yaml", web="false")
+    with refused(NO_SCENE, BadInput, scene="nope"):
+        launched(scene="nope")
     monkeypatch.setattr(physics_support, "missing", lambda: "pybullet is not installed")
     with refused(NO_PHYSICS, BadInput):
         launched(physics="true", web="false")
