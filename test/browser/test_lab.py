@@ -70,7 +70,9 @@ def test_two_clicks_make_a_robot_move(
     expect(topics.get_by_role("listitem")).to_have_count(1)
     row.click()
     # a number of the newest message, plotted
-    topics.locator("summary", has_text="position").locator("..").get_by_role("checkbox").first.check()
+    topics.locator("summary", has_text="position").locator("..").get_by_role(
+        "checkbox"
+    ).first.check()
     expect(topics.locator("figure .sparkline")).to_be_visible()
     topics.get_by_role("button", name="Hold").click()
     expect(topics.get_by_role("button", name="Go on")).to_be_visible()

@@ -101,6 +101,25 @@ def test_every_link_has_a_frame_and_moves_with_its_joints(stage):
     assert not [c for c in children(newest(fixed)) if c.startswith("ur5e_1/")]
 
 
+def test_the_frames_of_an_arm_that_stands_are_never_old(stage):
+    robot = spawn(stage, model="ur5e")
+    moving = stage.listen(TFMessage, "/tf", 100)
+    arm = stage.client.create_publisher(JointState, f"/{robot.name}/joint_states", qos.STREAM)
+    wait_for(arm.get_subscription_count, "the frames node")
+    heard = stage.client.get_clock().now()
+    names = list(robot.joint_names)
+    state = JointState(header=Header(stamp=heard.to_msg()), name=names, position=[0.1] * 6)
+    arm.publish(state)
+
+    def later():
+        stamps = sorted({time_from_message(t.header.stamp) for m in moving for t in m.transforms})
+        return stamps if stamps and stamps[-1] - heard.nanoseconds > 0.5 * SECOND else []
+
+    stamps = np.array(wait_for(later, "frames half a second after the joint state"))
+    assert len(stamps) > 4
+    assert np.diff(stamps).min() >= SECOND // 20
+
+
 def test_a_robot_that_is_placed_has_its_base_there(stage):
     fixed = stage.listen(TFMessage, "/tf_static", qos.LATCHED)
     robot = spawn(stage, model="kuka_kr3_r540")

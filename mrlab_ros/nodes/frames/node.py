@@ -19,7 +19,7 @@ from tf2_msgs.msg import TFMessage
 
 from mrlab_ros.adapters.robots import urdf
 from mrlab_ros.adapters.robots.exporting import together
-from mrlab_ros.core.base.clock import STEP_NS
+from mrlab_ros.core.base.clock import SECOND, STEP_NS
 from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.base.geometry import Array, Pose
 from mrlab_ros.core.robots.frames import WORLD, LinkFrames
@@ -40,13 +40,21 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
 
+# An arm that stands sends two joint states a second; its frames are repeated this often, so that a
+# look-up at "now" with tf2's usual patience of 0.1 s succeeds.
+REPEATED_NS = SECOND // 20
+# An arm that was not heard for this long may be anywhere.
+HEARD_NS = 3 * SECOND // 2
+
+
 @dataclass(eq=False)
 class ShownRobot:
     """A robot whose frames are published.
 
     base: T_world_base. description: its published URDF, empty until it arrived. positions: rad or
     m by joint. placed: whether a joint state of its arm has come. stamp_ns: of the newest joint
-    state; sent_ns: of the one that was published last. subscriptions: what is destroyed with it.
+    state, or the instant for which it was repeated; heard_ns: of the newest one of the arm;
+    sent_ns: of the one that was published last. subscriptions: what is destroyed with it.
     """
 
     name: str
@@ -57,6 +65,7 @@ class ShownRobot:
     positions: dict[str, float] = field(default_factory=dict)
     placed: bool = False
     stamp_ns: int = 0
+    heard_ns: int = 0
     sent_ns: int = 0
     subscriptions: list[Any] = field(default_factory=list)
 
@@ -69,12 +78,17 @@ class ShownRobot:
     def take_arm(self, data: bytes) -> None:
         """Take a joint state of the arm, CDR; raise BadInput where it is none."""
         stamp_ns, positions, _ = joint_states.read(data, self.joint_names)
-        self.stamp_ns, self.placed = stamp_ns, True
+        self.stamp_ns, self.heard_ns, self.placed = stamp_ns, stamp_ns, True
         self.positions.update(zip(self.joint_names, positions, strict=True))
 
     def take_fingers(self, stamp_ns: int, positions: Mapping[str, float]) -> None:
         self.stamp_ns = max(self.stamp_ns, stamp_ns)
         self.positions.update(positions)
+
+    def still_there(self, now_ns: int) -> None:
+        """Take that an arm that was heard lately stands where it did: tf2 knows it now."""
+        if now_ns - self.stamp_ns >= REPEATED_NS and now_ns - self.heard_ns < HEARD_NS:
+            self.stamp_ns = now_ns
 
     @property
     def moved(self) -> bool:
@@ -223,6 +237,9 @@ class FramesNode(
             self._described = False
             descriptions = {name: robot.description for name, robot in self._robots.items()}
             self._together.publish(text_to_message(together(descriptions)))
+        now_ns = self._lab_clock.now_ns()
+        for robot in self._robots.values():
+            robot.still_there(now_ns)
         moved = self._batch.message(self._robots)
         if moved is not None:
             self._moving.publish(moved)
