@@ -18,7 +18,7 @@ from mrlab_ros.commands.diagnostics import DATA_OF_ANOTHER_LAB, GIVEN_OR_ERASED,
 from mrlab_ros.commands.output import say
 from mrlab_ros.commands.up.web import qr_lines
 from mrlab_ros.core.base.diagnostic import Fix
-from mrlab_ros.core.base.errors import BadInput, Misuse
+from mrlab_ros.core.base.errors import BadInput, Misuse, WrongUsage
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.gateway.people.diagnostics import ONE_LOCAL_USER, PAIRED_ROLE_TOO_HIGH, WITH_KEYS
 
@@ -166,7 +166,7 @@ def remove(
     instructors.
     """
     if erase and give_to:
-        raise BadInput(GIVEN_OR_ERASED())
+        raise WrongUsage(GIVEN_OR_ERASED())
     removed = list(dict.fromkeys(names))
     with opened(folder, "") as users:
         leaving = [users.accounts.check_leaves(name) for name in removed]
