@@ -8,6 +8,7 @@ comments, stand beside the motion, as in a file of JSON.
 from __future__ import annotations
 
 import itertools
+import math
 import re
 from collections.abc import Iterator, Sequence
 from types import SimpleNamespace
@@ -26,6 +27,8 @@ SUFFIXES = (".yaml", ".yml")
 # Levels of a document in which a trajectory is looked for.
 DEEPEST = 6
 COMMENT = re.compile(r"(?:^|\s)#(.*)$", re.M)
+# A few bytes of aliases of aliases stand for any number of values.
+MOST_VALUES = 20_000_000
 # Fields of messages and goals, which say nothing more of the motion.
 OWN_FIELDS = ("header", "joint_names", "points", "name", "position", "velocity", "effort")
 OF_GOALS = ("path_tolerance", "goal_tolerance", "goal_time_tolerance", "component_path_tolerance")
@@ -70,10 +73,27 @@ def _documents(data: memoryview) -> list[Any]:
     # Written in C where that is there; it reads 1e-1 as a text, which float() takes.
     loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
     try:
-        return list(yaml.load_all(bytes(data), Loader=loader))
+        found = list(yaml.load_all(bytes(data), Loader=loader))
+        if _values(found, {}) > MOST_VALUES:
+            raise ValueError("its aliases stand for more than a file can hold")
+        return found
     except (yaml.YAMLError, ValueError, RecursionError) as error:
         why = getattr(error, "problem", "") or str(error)
         raise Damaged(LIBRARY_FAILED(part="yaml", error=why)) from None
+
+
+def _values(document: Any, known: dict[int, float]) -> float:
+    """Return how many values a document has where each alias counts as what it stands for.
+
+    known: by id of a list or mapping its values; one that holds itself has infinitely many.
+    """
+    if not isinstance(document, dict | list):
+        return 1
+    if id(document) not in known:
+        known[id(document)] = math.inf
+        inside = document.values() if isinstance(document, dict) else document
+        known[id(document)] = 1 + sum(_values(each, known) for each in inside)
+    return known[id(document)]
 
 
 def _holds_numbers(document: Any) -> bool:

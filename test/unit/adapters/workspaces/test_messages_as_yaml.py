@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -84,6 +86,13 @@ def test_several_trajectories_are_numbered(reader: WorkspaceReader) -> None:
         ("robots: [{name: a}]\n", NO_MESSAGES),
         (ECHOED.replace("- 1.5", "- '...'"), LIBRARY_FAILED),
         ("joint_names: [a]\npoints: [1]\n", LIBRARY_FAILED),
+        # Aliases of a list that holds itself, and a few that stand for 9**9 values.
+        (f"&a [{'*a,' * 100}]", LIBRARY_FAILED),
+        (
+            "a: &a [1, 2, 3]\n"
+            + "".join(f"{new}: &{new} [{f'*{old},' * 9}]\n" for old, new in pairwise("abcdefghi")),
+            LIBRARY_FAILED,
+        ),
         ("joint_names: [a]\npoints: [{positions: [1], time_from_start: 3}]\n", LIBRARY_FAILED),
     ],
 )
