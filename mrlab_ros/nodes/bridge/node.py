@@ -8,7 +8,6 @@ from __future__ import annotations
 import json
 import sys
 import time
-import traceback
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,7 +15,7 @@ import yaml
 from diagnostic_msgs.msg import DiagnosticArray
 from mrlab_msgs.msg import Latency, Robots, RobotSystems
 
-from mrlab_ros.adapters import share
+from mrlab_ros.adapters import share, threads
 from mrlab_ros.adapters.yaml_files import Loader
 from mrlab_ros.adapters.zenoh.configuration import LOOPBACK, configuration, log_logins
 from mrlab_ros.adapters.zenoh.port import Query, Session
@@ -221,10 +220,10 @@ class BridgeNode(
             if self._pace.wait(now) == 0.0:
                 self._check(thorough=self._pace.check(now))
             self._outward.match()
-        except Exception:
+        except Exception as error:
             # A failure after the shutdown of the context is no mistake.
             if self.context.ok():
-                self.get_logger().error(traceback.format_exc(), throttle_duration_sec=1.0)
+                threads.name_error("bridge_graph", error)
         return self._pace.wait(time.monotonic())
 
     def _check(self, thorough: bool) -> None:

@@ -17,7 +17,7 @@ from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.recording.diagnostics import STOP_LEFT
 from mrlab_ros.core.recording.recorder import RecorderState
 from mrlab_ros.core.runtime.identity import Identity
-from mrlab_ros.core.runtime.process_states import Deaths, Phase
+from mrlab_ros.core.runtime.process_states import Deaths
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.status import processes_from_message
 from mrlab_ros.ros.decoding import subscribe
@@ -40,7 +40,8 @@ class StopsLeft:
         self._deaths = Deaths(time.monotonic_ns())
         self._announce = down
         self._bag = ""
-        # Whether the recorder's process is known not to run.
+        # From the recorder's end or freeze until it says again what it does: DDS lets a client
+        # call a server that is dead for seconds more.
         self.down = False
         subscribe(node, msg.RecorderState, f"{RECORDER}/state", self._on_state, qos.LATCHED)
         subscribe(node, msg.LabProcesses, "/processes", self._on_processes, qos.LATCHED)
@@ -54,12 +55,13 @@ class StopsLeft:
         return STOP_LEFT(bag=bag) if bag and self._orders.leave(bag) else None
 
     def _on_state(self, message: msg.RecorderState) -> None:
+        self.down = False
         self._bag = message.bag if message.state == RecorderState.RECORDING.value else ""
 
     def _on_processes(self, message: msg.LabProcesses) -> None:
         if not self._identity.accepts(message.lab):
             return
         states = [s for s in processes_from_message(message) if s.holds(RECORDER)]
-        self.down = any(state.phase != Phase.RUNNING.value for state in states)
         if self._deaths.new(states):
+            self.down = True
             self._announce(STOP)
