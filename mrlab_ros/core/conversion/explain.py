@@ -179,7 +179,7 @@ def _naming(a: Assessment) -> Fix:
     Who follows commands or lines one after the other would see velocities played as a motion.
     """
     if a.name.hint is Hint.AGAINST or a.velocity_of:
-        return Fix(matlab="save('traj.mat', 'q')")
+        return Fix(matlab=f"plot({matlab_name(a.path)})")
     return Fix("variable", a.path, saving(a.path))
 
 

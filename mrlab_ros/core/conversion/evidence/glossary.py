@@ -359,7 +359,7 @@ PENDING = frozenset(_PENDING.split())
 _FOREIGN = """
     controller regler filter cutoff emg eeg cam camera kamera camara fotocamera force kraft ft imu
     audio plot video mocap optitrack vicon lidar mic microphone mikrofon sound forces torque
-    webcam gopro realsense kinect
+    webcam gopro realsense kinect timeout sine sinus excitation
     """
 FOREIGN = frozenset(_FOREIGN.split())
 # words of flags of a program that change no numbers

@@ -43,7 +43,7 @@ PLACE_WORDS = {
     "wrist": "wrist handgelenk poignet muneca polso pulso punho pols nadgarstek",
 }
 FEWEST_NUMBERED = 3  # of one name, such as q1 to q3
-ORDERED = re.compile(r"\d+|[轴軸]|から|まで|[到至]|[^\W\d_]+|\.(?=\d)")
+ORDERED = re.compile(r"\d+|[轴軸]|から|まで|[到至]|[<>↔⇄]|[^\W\d_]+|\.(?=\d)")
 # what stands between the first and the last joint of an order
 TO = words(
     "to down bis zu a au al all ao ate hasta fino jusqu jusque till until naar tot til 到 至 から "
@@ -116,7 +116,9 @@ def numbers_in_order(text: str, joints: int) -> list[float]:
 
 
 def _is_joint(token: str) -> bool:
-    return len(token) == 1 or all(w.can_be(Class.JOINT) for w in words_in(token))
+    return (len(token) == 1 and token.isalpha()) or all(
+        w.can_be(Class.JOINT) for w in words_in(token)
+    )
 
 
 @dataclass(frozen=True)

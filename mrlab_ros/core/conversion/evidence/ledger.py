@@ -106,6 +106,7 @@ TIMED = re.compile(
 )
 LEAST_STEP, MOST_STEP = 1e-4, 0.5  # s; of a number that no word explains
 MOST_EVERY = 1000
+SWAPPED = re.compile(r"<-*>|<=>|[↔⇄]")
 ENOUGH = 8  # numbers of a vector that rises
 ANGLE_FACTORS = (np.pi / 180, 180 / np.pi, np.pi / 200, 200 / np.pi)
 NOTHING = frozenset(("none", "no", "off", "false", "linear", "0", "keine", "aus", "aucun"))
@@ -392,6 +393,7 @@ def _words_that_matter(s: Statement, matrix: _Matrix) -> Iterator[str]:
     Those that name another quantity, a motor, a factor, an order; in a description, also the
     unread ones.
     """
+    yield from SWAPPED.findall(s.text)
     spoken = statements.words_of_text(s.text)
     if not NOTHING & set(s.text.lower().split()):
         yield from (w.text for w in s.words if w.text in PENDING)

@@ -22,6 +22,8 @@ EVERY = words(
 )
 # between what is counted and a time, or a time and what is counted
 PER = EVERY | words("/ per pro par por al alla au a in")
+# a rate beside such words is that of a filter
+PROCESSED = ("filt", "gefilt", "smooth", "liss", "suav", "glaett", "geglaett", "lowpass")
 ARTICLES = words("der la el the un una ein")
 TIMES_OVER = words("times mal fois veces volte vezes")
 IMAGES = words("fps frames bilder bildern images imagenes immagini imagens")
@@ -44,11 +46,13 @@ def rate_in(text: str) -> Stated | None:
     """Return the rate that a text states, None where it states none, or several."""
     found_in = (TOKEN.findall(spelled(c.replace("1/s", " hz"))) for c in CLAUSE.split(text))
     clauses = [[token for token in c if token not in ARTICLES] for c in found_in]
-    ours = [c for c in clauses if not FOREIGN.intersection(c)]
+    ours = [c for c in clauses if not any(t in FOREIGN or t.startswith(PROCESSED) for t in c)]
     found = {rate for clause in ours for rate in _rates(clause) if LEAST <= rate <= MOST}
     if len(found) != 1:
         return None
-    sure = len(ours) == len(clauses) and not any(map(_is_unread, {w for c in ours for w in c}))
+    spoken = [token for clause in ours for token in clause]
+    alone = sum(token[0].isdecimal() for token in spoken) == 1  # 1 of 10 samples at 500 Hz
+    sure = alone and len(ours) == len(clauses) and not any(map(_is_unread, set(spoken)))
     return Stated(found.pop(), sure)
 
 

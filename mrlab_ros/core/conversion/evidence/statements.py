@@ -20,6 +20,9 @@ ELEMENT = re.compile(r"[({][^.]*$")
 # words of a text: letters with the signs of units inside
 TOKEN = re.compile(r"[^\W\d_]+|°(?![cCfF])")
 QUOTIENT = re.compile(r"\s*(/|per\b|\*|·|\^|-?[²2]|s\b|pro\b)")
+FACTORS = frozenset(
+    ("resolution", "aufloesung", "auflösung", "résolution", "resolución", "risoluzione")
+)
 # a word that may be something else is a unit behind these, at the end
 BEHIND = re.compile(r"(?:\b(?:in|en|em)|[:=(])$")
 # a unit behind one of these is another one
@@ -198,11 +201,13 @@ def _spoken(text: str) -> Iterator[Unit]:
         ends = BEHIND.search(before) and not text[match.end() :].strip(" .)")
         if word in AMBIGUOUS and not ends:
             continue
-        if QUOTIENT.match(text, match.end()) or before[-1:].isdigit():
-            continue  # another unit, or an angle by itself
+        if QUOTIENT.match(text, match.end()):
+            continue
         last = before.split()[-3:]
         parts = (units.parse(" ".join((*last[-n:], word))) for n in range(len(last), 0, -1))
         part = next((p for p in parts if p is not None), None)
+        if before[-1:].isdigit() and (part is None or FACTORS & {*last}):
+            continue  # an angle by itself, or a resolution
         if part is not None or not before.endswith(PREFIXES):
             yield part or unit
 

@@ -294,7 +294,7 @@ def test_an_order_in_words_is_obeyed_and_said(words):
     np.testing.assert_array_equal(result.trajectory.positions, Q)
 
 
-@pytest.mark.parametrize("words", ["angles en tours", "unit: rev", "手首から基部"])
+@pytest.mark.parametrize("words", ["angles en tours", "unit: rev", "手首から基部", "a1 <-> a6"])
 def test_units_and_orders_in_a_text_are_never_passed_over(words):
     result = convert(var("q", Q / (2 * np.pi)), Variable("memo", "char", text=words))
     assert {"converted_unit", "text_unread"} & {d.code for d in result.diagnostics}

@@ -29,7 +29,8 @@ def test_a_sentence_that_is_understood_states_its_rate(text, rate):
 
 
 @pytest.mark.parametrize(
-    "text", ["30 fps", "20 Bilder pro Sekunde", "camera 30 fps, joints 20 Hz"]
+    "text",
+    ["30 fps", "20 Bilder pro Sekunde", "camera 30 fps, joints 20 Hz", "1 of 10 points at 500 Hz"],
 )
 def test_images_and_words_of_other_data_leave_a_doubt(text):
     assert rate_in(text).sure is False
@@ -43,6 +44,7 @@ def test_images_and_words_of_other_data_leave_a_doubt(text):
         "speed 50 %",
         "50 Hz or 100 Hz",
         "¹ Hz",
+        "filtered at 10 Hz",
         "Experiment 12",
     ],
 )
