@@ -263,6 +263,7 @@ export class FakeApi implements Api {
         joints: ['a1', 'a2', 'a3', 'a4', 'a5', 'a6'],
         home: [0, 0, 0, 0, 0, 0],
         reach: 0.85,
+        payload: 5,
         urdf: `/assets/robots/${model}.urdf`,
         thumbnail: `${GALLERY}/${model}.png`,
       })),

@@ -35,6 +35,7 @@ interface LibraryDocument {
     readonly joints: readonly { readonly name: string }[]
     readonly home: readonly number[]
     readonly reach: number
+    readonly payload: number
     readonly urdf: string
     readonly thumbnail: string | null
   }[]
@@ -84,6 +85,7 @@ export class HttpApi implements Api {
         joints: robot.joints.map(({ name }) => name),
         home: robot.home,
         reach: robot.reach,
+        payload: robot.payload,
         urdf: `/${robot.urdf}`,
         thumbnail: address(robot.thumbnail),
       })),

@@ -34,6 +34,8 @@ export interface Robot {
   readonly home: readonly number[]
   /** m */
   readonly reach: number
+  /** kg */
+  readonly payload: number
   /** URL of its description. */
   readonly urdf: string
   /** URL of a picture; null: none. */

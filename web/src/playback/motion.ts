@@ -46,6 +46,12 @@ export interface MotionJoint {
   readonly velocity: number | null
 }
 
+/** Return whether two motions are of the same robot: their joints can be compared. */
+export function sameJoints(motion: MotionDocument, other: MotionDocument): boolean {
+  const { model, joints } = motion.robot
+  return model === other.robot.model && joints.length === other.robot.joints.length
+}
+
 /** A finding of the converter, `mrlab_msgs/msg/Diagnostic`; its number is its place in the list,
  * from 1. */
 /** A numeric array as base64 of its little-endian bytes. */

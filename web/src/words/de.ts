@@ -145,7 +145,12 @@ export const words: Words = {
   qrCode: (url) => `QR-Code von ${url}`,
   plots: {
     title: 'Kurven',
-    channels: { angles: 'Winkel', velocities: 'Geschwindigkeiten', proxies: 'Ersatzmomente' },
+    channels: {
+      angles: 'Winkel',
+      velocities: 'Geschwindigkeiten',
+      proxies: 'Ersatzmomente',
+      difference: 'Unterschied',
+    },
     proxyNote: 'Nominelle Werte zur Anzeige: eine Ersatzgröße, kein Drehmoment.',
     at: (time, row) => `${time} s · Zeile ${row}`,
     joint: (number) => `Gelenk ${number}`,
@@ -291,6 +296,9 @@ export const words: Words = {
       loading: 'Die Bewegung wird geladen …',
     },
     stageNames: { sending: 'Senden', converting: 'Lesen und prüfen', loading: 'Zeigen' },
+    joints: 'Gelenke',
+    jointCount: (count) => `${count} Gelenke`,
+    reach: (metres, kilograms) => `${metres} m · ${kilograms} kg`,
     robot: 'Roboter',
     endEffector: 'Was er hält',
     noEndEffector: 'Nichts',
@@ -386,8 +394,9 @@ export const words: Words = {
     comparison: 'Vergleich',
     endComparison: 'Vergleich beenden',
     same: 'Sie sind in jeder Zeile gleich.',
-    otherJoints: (count, other) =>
-      `Sie haben ${count} und ${other} Gelenke und lassen sich nicht vergleichen.`,
+    otherRobot: 'Es ist die Bewegung eines anderen Roboters als die gewählte',
+    otherJoints: (robot, other) =>
+      `Es sind Bewegungen von ${robot} und ${other}, deren Gelenke nicht vergleichbar sind.`,
     deviation: (joint, amount, time, row) =>
       `Am weitesten auseinander in ${joint}: ${amount} bei ${time} s, Zeile ${row}.`,
   },

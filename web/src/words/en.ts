@@ -93,7 +93,12 @@ export const en = {
   qrCode: (url: string) => `QR code of ${url}`,
   plots: {
     title: 'Plots',
-    channels: { angles: 'Angles', velocities: 'Velocities', proxies: 'Torque proxies' },
+    channels: {
+      angles: 'Angles',
+      velocities: 'Velocities',
+      proxies: 'Torque proxies',
+      difference: 'Difference',
+    },
     proxyNote: 'Nominal values for display, a proxy and no torque.',
     at: (time: string, row: string) => `${time} s · row ${row}`,
     joint: (number: string) => `Joint ${number}`,
@@ -238,6 +243,9 @@ export const en = {
       loading: 'Loading the motion…',
     },
     stageNames: { sending: 'Send', converting: 'Read and check', loading: 'Show' },
+    joints: 'Joints',
+    jointCount: (count: string) => `${count} joints`,
+    reach: (metres: string, kilograms: string) => `${metres} m · ${kilograms} kg`,
     robot: 'Robot',
     endEffector: 'What it holds',
     noEndEffector: 'Nothing',
@@ -335,8 +343,9 @@ export const en = {
     comparison: 'Comparison',
     endComparison: 'End the comparison',
     same: 'They are the same at every row.',
-    otherJoints: (count: number, other: number) =>
-      `They have ${count} and ${other} joints and cannot be compared.`,
+    otherRobot: 'It is a motion of another robot than the chosen one',
+    otherJoints: (robot: string, other: string) =>
+      `They are motions of ${robot} and ${other}, whose joints cannot be compared.`,
     deviation: (joint: string, amount: string, time: string, row: number) =>
       `Farthest apart in ${joint}: ${amount} at ${time} s, row ${row}.`,
   },

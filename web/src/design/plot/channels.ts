@@ -5,7 +5,7 @@ import type { Diagnostic } from '../../words/diagnostic'
 import { jointName } from '../../words/words'
 import type { Mark, Strip } from './strip'
 
-export type Channel = 'angles' | 'velocities' | 'proxies'
+export type Channel = 'angles' | 'velocities' | 'proxies' | 'difference'
 
 const DEGREES = 180 / Math.PI
 
@@ -13,7 +13,9 @@ function unitOf(joint: MotionJoint, channel: Channel): { unit: string; scale: nu
   const linear = joint.kind === 'prismatic'
   if (channel === 'proxies') return { unit: linear ? 'N' : 'N·m', scale: 1 }
   const base = linear ? { unit: 'mm', scale: 1000 } : { unit: '°', scale: DEGREES }
-  return channel === 'angles' ? base : { unit: `${base.unit}/s`, scale: base.scale }
+  return channel === 'angles' || channel === 'difference'
+    ? base
+    : { unit: `${base.unit}/s`, scale: base.scale }
 }
 
 function limitsOf(joint: MotionJoint, channel: Channel): [number | null, number | null] {
@@ -23,7 +25,7 @@ function limitsOf(joint: MotionJoint, channel: Channel): [number | null, number 
 }
 
 function packedOf(motion: MotionDocument, channel: Channel): PackedArray | null {
-  if (channel === 'angles') return motion.positions
+  if (channel === 'angles' || channel === 'difference') return motion.positions
   return channel === 'velocities' ? motion.velocities : motion.effort_proxies
 }
 
@@ -46,7 +48,7 @@ function column(values: ArrayLike<number>, index: number, count: number, scale: 
 }
 
 /** Return a strip for each joint, in degrees or mm; compared: positions of another motion, (frames
- * of `motion`, joints) rad or m, for angles only. */
+ * of `motion`, joints) rad or m, for angles and differences only. */
 export function stripsOf(
   motion: MotionDocument,
   channel: Channel,
@@ -54,7 +56,12 @@ export function stripsOf(
 ): Strip[] {
   const packed = packedOf(motion, channel)
   if (packed === null) return []
-  const values = unpack(packed)
+  let values: ArrayLike<number> = unpack(packed)
+  let second = compared
+  if (channel === 'difference' && compared !== null) {
+    values = Float64Array.from(values, (value, i) => value - (compared[i] as number))
+    second = null
+  }
   const { joints } = motion.robot
   return joints.map((joint, index) => {
     const { unit, scale } = unitOf(joint, channel)
@@ -63,7 +70,7 @@ export function stripsOf(
       label: jointName(joint.name, index),
       unit,
       values: column(values, index, joints.length, scale),
-      compared: compared && column(compared, index, joints.length, scale),
+      compared: second && column(second, index, joints.length, scale),
       lower: lower === null ? null : lower * scale,
       upper: upper === null ? null : upper * scale,
       colour: index,

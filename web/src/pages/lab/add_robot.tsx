@@ -8,6 +8,7 @@ import { useApi } from '../../shell/session'
 import { sentence } from '../../words/diagnostic'
 import { words } from '../../words/words'
 import { EffectorPicker, RobotPicker } from '../motion/library_pickers'
+import { countUse } from '../motion/used_robots'
 import { useLab } from './context'
 
 const FIRST = 'ur5e'
@@ -36,7 +37,9 @@ export function AddRobot({ onClose }: { onClose: () => void }) {
     }
     const answer = await order({ link, say: setError }, 'lab/spawn_robot', spawnRobotType, request)
     setBusy(false)
-    if (answer !== null) onClose()
+    if (answer === null) return
+    countUse(model)
+    onClose()
   }
   return (
     <Dialog title={w.lab.addRobot} onClose={onClose}>

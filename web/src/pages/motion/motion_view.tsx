@@ -12,7 +12,7 @@ import {
 } from '../../design/plot/channels'
 import { Strips } from '../../design/plot/strips'
 import { courseOf } from '../../playback/course'
-import type { MotionDocument } from '../../playback/motion'
+import { type MotionDocument, sameJoints } from '../../playback/motion'
 import type { MotionPreview } from '../../scene/preview/preview'
 import { language, words } from '../../words/words'
 import './motion.css'
@@ -27,11 +27,6 @@ interface MotionViewProps {
   selected: Signal<number>
 }
 
-/** Return whether two motions have the same joints. */
-function comparable(motion: MotionDocument, other: MotionDocument | null): boolean {
-  return motion.robot.joints.length === other?.robot.joints.length
-}
-
 /** A motion in 3D and as plots, at the same time and with the same numbers of findings. */
 export function MotionView({ motion, compared = null, note = '', selected }: MotionViewProps) {
   const w = words.value.plots
@@ -41,18 +36,22 @@ export function MotionView({ motion, compared = null, note = '', selected }: Mot
   const [wanted, setChannel] = useState<Channel>('angles')
   const [failed, setFailed] = useState(false)
   const course = useMemo(() => courseOf(motion), [motion])
-  const channels = useMemo(() => channelsOf(motion), [motion])
+  const comparable = compared !== null && sameJoints(motion, compared)
+  const channels = useMemo(
+    () => [...channelsOf(motion), ...(comparable && note === '' ? (['difference'] as const) : [])],
+    [motion, comparable, note],
+  )
   const channel = channels.includes(wanted) ? wanted : 'angles'
   const newest = useRef({ motion, selected })
   newest.current = { motion, selected }
   const times = useMemo(() => timesOf(course), [course])
   const strips = useMemo(() => {
     const other =
-      compared && channel === 'angles' && comparable(motion, compared)
+      compared && comparable && (channel === 'angles' || channel === 'difference')
         ? positionsAt(course, courseOf(compared))
         : null
     return stripsOf(motion, channel, other)
-  }, [motion, compared, channel, course])
+  }, [motion, compared, comparable, channel, course])
   const marks = useMemo(
     () => marksOf(motion.findings, motion.robot.joints, course),
     [motion, course],
@@ -94,7 +93,7 @@ export function MotionView({ motion, compared = null, note = '', selected }: Mot
     }
   }, [motion.robot.urdf, language.value])
   const ghost = useRef<MotionDocument | null>(null)
-  ghost.current = comparable(motion, compared) ? compared : null
+  ghost.current = comparable ? compared : null
   // Another motion of the same robot takes the place of the one before: the view stays.
   useEffect(() => preview.current?.show(motion), [motion])
   useEffect(() => preview.current?.compare(ghost.current), [motion, ghost.current])

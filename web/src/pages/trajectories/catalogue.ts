@@ -1,6 +1,6 @@
 import { computed, signal } from '@preact/signals'
 import type { Api } from '../../api/api'
-import type { TrajectoryInfo } from '../../api/types'
+import type { Robot, TrajectoryInfo } from '../../api/types'
 import { sentence, spoken } from '../../words/diagnostic'
 
 /** A list that others change is read this often. */
@@ -55,6 +55,8 @@ export class Catalogue {
   readonly error = signal('')
   readonly text = signal('')
   readonly scope = signal<Scope>('all')
+  /** The library's robots; empty until they are loaded. */
+  readonly robots = signal<readonly Robot[]>([])
   /** Ids to compare, two at most. */
   readonly chosen = signal<readonly string[]>([])
   readonly found = computed(() =>
@@ -88,12 +90,25 @@ export class Catalogue {
       if (document.visibilityState === 'visible') void this.load()
     }
     void this.load()
+    // without them the rows have no pictures
+    this.api.robots().then(
+      ({ robots }) => {
+        this.robots.value = robots
+      },
+      () => undefined,
+    )
     const timer = setInterval(look, EVERY_MS)
     document.addEventListener('visibilitychange', look)
     return () => {
       clearInterval(timer)
       document.removeEventListener('visibilitychange', look)
     }
+  }
+
+  /** Return whether it can be compared with the one that is chosen: motions of other robots cannot. */
+  comparable(info: TrajectoryInfo): boolean {
+    const first = this.all.value?.find(({ id }) => id === this.chosen.value[0])
+    return first === undefined || first.robot_model === info.robot_model
   }
 
   toggle(id: string): void {

@@ -2,8 +2,8 @@ import { useMemo } from 'preact/hooks'
 import { Button } from '../../design/button'
 import { Icon } from '../../design/icons'
 import { courseOf } from '../../playback/course'
-import type { MotionDocument } from '../../playback/motion'
-import { number, words } from '../../words/words'
+import { type MotionDocument, sameJoints } from '../../playback/motion'
+import { jointName, number, words } from '../../words/words'
 import { shortName } from './catalogue'
 import { largestDeviation } from './deviation'
 
@@ -20,8 +20,8 @@ interface ComparisonProps {
 function inWords(motion: MotionDocument, otherMotion: MotionDocument): string {
   const w = words.value.trajectories
   const { joints } = motion.robot
-  if (joints.length !== otherMotion.robot.joints.length)
-    return w.otherJoints(joints.length, otherMotion.robot.joints.length)
+  if (!sameJoints(motion, otherMotion))
+    return w.otherJoints(motion.robot.model, otherMotion.robot.model)
   const largest = largestDeviation(courseOf(motion), courseOf(otherMotion))
   if (largest === null) return w.same
   const joint = joints[largest.joint]
@@ -29,7 +29,12 @@ function inWords(motion: MotionDocument, otherMotion: MotionDocument): string {
     joint?.kind === 'prismatic'
       ? `${number(largest.amount * 1000, 2)} mm`
       : `${number(largest.amount * DEGREES, 2)}°`
-  return w.deviation(joint?.name ?? '', amount, number(largest.time, 2), largest.row)
+  return w.deviation(
+    jointName(joint?.name ?? '', largest.joint),
+    amount,
+    number(largest.time, 2),
+    largest.row,
+  )
 }
 
 /** Return the deviation of two motions, in words. */

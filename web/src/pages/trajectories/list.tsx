@@ -9,7 +9,7 @@ import { dateTime, number, words } from '../../words/words'
 import { type Catalogue, type Scope, shortName, trajectoryPage } from './catalogue'
 import { TrajectoryMenu } from './menu'
 
-const ROW_HEIGHT = 76
+const ROW_HEIGHT = 84
 
 interface ListProps {
   catalogue: Catalogue
@@ -32,23 +32,31 @@ export function audience(info: TrajectoryInfo, user: string): string {
 
 function Row({ catalogue, info, user }: ListProps & { info: TrajectoryInfo }) {
   const w = words.value.trajectories
+  const robot = catalogue.robots.value.find(({ model }) => model === info.robot_model)
   return (
     <div class="trajectory">
-      <label class="check trajectory-choose" title={w.chooseToCompare}>
+      <label
+        class="check trajectory-choose"
+        title={catalogue.comparable(info) ? w.chooseToCompare : w.otherRobot}
+      >
         <input
           type="checkbox"
           checked={catalogue.chosen.value.includes(info.id)}
+          disabled={!catalogue.comparable(info)}
           onChange={() => catalogue.toggle(info.id)}
         />
         <span class="spoken">{w.compareWith(info.id)}</span>
       </label>
+      <span class="trajectory-picture">
+        {robot?.thumbnail && <img src={robot.thumbnail} alt="" loading="lazy" />}
+      </span>
       <a class="trajectory-link" href={trajectoryPage(info.id)}>
         <span class="trajectory-name">
           <strong>{shortName(info.id)}</strong>
           {info.version > 1 && <span class="second tiny">{w.version(info.version)}</span>}
         </span>
         <span class="trajectory-note second small">
-          {info.robot_model}
+          {robot?.name ?? info.robot_model}
           {info.end_effector && ` + ${info.end_effector}`} · {number(info.duration, 1)} s
           {info.warnings.length > 0 && ` · ${w.warnings(info.warnings.length)}`}
         </span>

@@ -12,6 +12,7 @@ import type {
 import type { MotionDocument } from '../../playback/motion'
 import { sentence } from '../../words/diagnostic'
 import { applied } from '../motion/fixes'
+import { countUse, FIRST_ROBOT } from '../motion/used_robots'
 
 export type Stage =
   | { readonly kind: 'idle' }
@@ -36,7 +37,6 @@ export interface Result {
 
 const ROBOT_KEY = 'mrlab.robot'
 const EFFECTOR_KEY = 'mrlab.end_effector'
-const FIRST_ROBOT = 'ur5e'
 /** ms until a gateway that did not answer is asked again. */
 const AGAIN_MS = 2000
 
@@ -213,6 +213,7 @@ export class UploadFlow {
   async publish(id: string, shared: boolean): Promise<void> {
     const draft = this.result.value?.conversion.draft
     if (!draft) return
+    countUse(this.robot.value)
     this.published.value = await this.api.publish(draft, id, shared)
   }
 

@@ -68,7 +68,9 @@ export function UploadPage() {
       ) : (
         <DropZone over={over} onFile={(chosen) => void flow.choose(chosen)} />
       )}
-      <Pickers flow={flow} />
+      <div class="upload-robot">
+        <Pickers flow={flow} />
+      </div>
     </div>
   )
 }
