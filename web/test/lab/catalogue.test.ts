@@ -2,7 +2,7 @@
 import { expect, test, vi } from 'vitest'
 import type { Api } from '../../src/api/api'
 import { fits, LabCatalogue, playable } from '../../src/lab/catalogue'
-import { reachable } from '../../src/pages/motion/link_with_code'
+import { originOf, reachable } from '../../src/pages/motion/link_with_code'
 import { FakeApi } from '../fake_api'
 
 test('a robot plays what is for its model, and for what it carries or for nothing', async () => {
@@ -32,4 +32,7 @@ test('an address of this machine alone is no address for a phone', () => {
     expect(reachable(host)).toBe(false)
   for (const host of ['192.168.1.20', 'lab.uni.example', '[fd00::1]'])
     expect(reachable(host)).toBe(true)
+  expect(originOf('https://lab.uni.example:8765/lab?x=1')).toBe('https://lab.uni.example:8765')
+  expect(originOf('http://127.0.0.1:8765')).toBe('')
+  expect(originOf('no address')).toBe('')
 })

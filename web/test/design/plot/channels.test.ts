@@ -4,6 +4,7 @@ import { channelsOf, marksOf, stripsOf } from '../../../src/design/plot/channels
 import { sparkPaths } from '../../../src/design/plot/sparkline'
 import { visibleRows } from '../../../src/design/virtual_list'
 import { courseOf } from '../../../src/playback/course'
+import { unpack } from '../../../src/playback/motion'
 import { JOINT_LIMIT } from '../../fake_api'
 import { fakeMotion } from '../../fake_motion'
 
@@ -35,6 +36,15 @@ test('angles are degrees with the limits of the joint', () => {
   expect(elbow?.label).toBe('Elbow (J3)')
   expect(elbow?.values[0]).toBeCloseTo(89.95, 1)
   expect(elbow?.upper).toBeCloseTo(180)
+})
+
+test('the difference of two motions has no limits', () => {
+  const motion = fakeMotion({ verdict: 'accepted', message: '' })
+  const same = Float64Array.from(unpack(motion.positions))
+  const [first] = stripsOf(motion, 'difference', same)
+  expect(first?.compared).toBeNull()
+  expect(first?.upper).toBeNull()
+  expect(Math.max(...(first?.values ?? []))).toBe(0)
 })
 
 test('a motion that was refused has angles alone', () => {

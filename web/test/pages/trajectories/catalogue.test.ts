@@ -115,3 +115,13 @@ test.each([
 ])('for %s a private one of ada is %s', (user, words) => {
   expect(audience(trajectory({ id: 'ada/wave', owner: 'ada', shared: false }), user)).toBe(words)
 })
+
+test('only a motion of the same robot is offered for a comparison', () => {
+  const catalogue = new Catalogue(new FakeApi(), 'ada')
+  catalogue.all.value = ALL
+  const [quintic, , spiral] = ALL as [(typeof ALL)[0], unknown, (typeof ALL)[0]]
+  expect(catalogue.comparable(spiral)).toBe(true)
+  catalogue.toggle(quintic.id)
+  expect(catalogue.comparable(spiral)).toBe(false)
+  expect(catalogue.comparable(quintic)).toBe(true)
+})

@@ -1,5 +1,5 @@
 // @vitest-environment jsdom
-import { BoxGeometry, Mesh, MeshStandardMaterial, Object3D, Vector3 } from 'three'
+import { BoxGeometry, Matrix4, Mesh, MeshStandardMaterial, Object3D, Vector3 } from 'three'
 import { describe, expect, it, test } from 'vitest'
 import { Course } from '../../../src/playback/course'
 import { trackOf } from '../../../src/scene/preview/tool_path'
@@ -46,6 +46,16 @@ test('joints go past their limits: a refused pose looks refused', () => {
   expect(tool.x).toBeCloseTo(-1)
   expect(tool.y).toBeCloseTo(-0.5)
   expect(tool.z).toBeCloseTo(1)
+})
+
+test('a joint turns about its axis, from where the next joint is', () => {
+  const turn = robot().turnOf('turn')
+  expect(turn?.length).toBeCloseTo(1)
+  const at = new Vector3(Math.cos(0.5), Math.sin(0.5), 0).applyMatrix4(
+    turn?.frame ?? new Matrix4(),
+  )
+  expect(at.toArray()).toEqual([Math.cos(0.5), Math.sin(0.5), 1].map((v) => expect.closeTo(v)))
+  expect(robot().turnOf('slide')).toBeNull()
 })
 
 test('fingers open and close, and what mimics them follows', () => {
