@@ -161,3 +161,32 @@ class Hands:
         """Note that a client's hands let go of an object; another one may have it since."""
         if self._held.get(name, ("",))[0] == token:
             del self._held[name]
+
+
+MEASURED = "physics/set_surfaces"
+SURFACES = "mrlab_msgs/srv/SetSurfaces_Request"
+
+
+class Measurers:
+    """The client that measured the surfaces of each source, by the calls that succeeded."""
+
+    def __init__(self, definitions: Definitions) -> None:
+        self._definitions = definitions
+        self._owners: dict[str, str] = {}
+
+    def note(self, token: str, payload: bytes) -> None:
+        """Note a SetSurfaces of a client, as CDR, that the lab has carried out."""
+        request = self._definitions.decode(SURFACES, payload)
+        if not request.source:
+            self._owners.clear()
+        elif request.surfaces:
+            self._owners[request.source] = token
+        else:
+            self._owners.pop(request.source, None)
+
+    def leave(self, token: str) -> list[bytes]:
+        """Forget a client; return the calls, as CDR, that take its surfaces out of the room."""
+        gone = [source for source, owner in self._owners.items() if owner == token]
+        for source in gone:
+            del self._owners[source]
+        return [self._definitions.encode(SURFACES, {"source": source}) for source in gone]

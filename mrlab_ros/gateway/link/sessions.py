@@ -49,6 +49,7 @@ class Sessions:
         self.visibility = Visibility(lab.definitions)
         self.displays = presence.Displays(lab.definitions)
         self.hands = presence.Hands(lab.definitions)
+        self.measurers = presence.Measurers(lab.definitions)
         self._letting_go: set[asyncio.Task[None]] = set()
         self._may = may
         self._limits = limits
@@ -146,6 +147,13 @@ class Sessions:
             said = "%s, which %s held, stays in the air: %s"
             log.warning(said, name, client.session.person.name, error)
             self.hands.forget(client.session.token, name)
+        # A page that crashed took nothing with it: others would go on around its furniture.
+        for call in self.measurers.leave(client.session.token):
+            try:
+                await self.lab.query(presence.MEASURED, call)
+            except LabError as error:
+                said = "surfaces that %s measured stay in the room: %s"
+                log.warning(said, client.session.person.name, error)
         self.end(client)
 
     async def _let_go(self, session: LinkSession) -> dict[str, LabError]:

@@ -344,6 +344,8 @@ class _Socket:
                 sessions.tell_of(session, frame.key)
             elif done and frame.key == presence.SERVICE:
                 sessions.hands.note(session.token, frame.payload)
+            elif done and frame.key == presence.MEASURED:
+                sessions.measurers.note(session.token, frame.payload)
         except TimedOut as error:
             session.fail(frame.request, "timeout", error.diagnostic)
         except NoAnswer as error:

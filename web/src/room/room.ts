@@ -47,6 +47,9 @@ const MOST_AHEAD_S = 0.05
 /** s */
 const LONGEST_STEP = 0.1
 
+/** Height of robots' names, as a part of the distance: their letters have 0.9 degrees. */
+const NAME = 0.03
+
 const matrix = new Matrix4()
 const scale = new Vector3()
 const tip = new Vector3()
@@ -106,6 +109,7 @@ export class Room {
     this.scene = new LabScene(this.stage, this.meshes, () => {
       this.troubles.value = [...this.scene.troubles]
     })
+    this.scene.setNames(NAME)
     this.scene.setStill(() => this.settings.still.value)
     this.sound = soundFeedback((signal, strength, ms) =>
       this.visit.inputs?.pulse(signal.pointer, strength, ms),
@@ -122,7 +126,7 @@ export class Room {
     const repaint = () => this.board.panel.repaint()
     this.creation = new Creation(repaint)
     this.stats = new Stats(ports, this.board.panel.group)
-    this.boardPlace = new BoardPlace(this.board, ports)
+    this.boardPlace = new BoardPlace(this.board, ports, () => this.placing.active)
     const stick = (pointer: Pointer, axis: 'x' | 'y') =>
       this.visit.inputs?.stick(pointer, axis) ?? 0
     this.placing = new Placing(ports, targets, stick, repaint)
@@ -212,7 +216,7 @@ export class Room {
       pauseNews(link, (who, names) =>
         ports.say(words.room.pausedBy(named(who), names.join(', '))),
       ),
-      applySettings(this.settings, this.visit, () => this.repaint()),
+      applySettings(this.settings, this.visit, this.stage, () => this.repaint()),
       link.subscribe('trajectories', trajectoryCatalogueReader, ({ trajectories }) => {
         this.trajectories = trajectories
         this.panels.repaint()
@@ -296,6 +300,8 @@ export class Room {
     this.supports = supportsOf(surfaces)
     this.walls = wallsOf(surfaces)
     this.surfaces = surfaces.filter(({ vertices }) => vertices.length > 0)
+    this.stage.grounds.set(this.surfaces)
+    this.common.keep(surfaces)
     this.showSurfaces()
     this.board.panel.repaint()
   }

@@ -777,7 +777,8 @@ export const words: Words = {
     axes: (count: number) => `${count} Achsen`,
     placed: (name: string) => `${name} steht dort. Halte seinen Sockel, um ihn zu tragen.`,
     placing:
-      'Zeige auf den Boden oder einen Tisch; der Stick dreht. Der Abzug stellt auf, die Greiftaste legt weg.',
+      'Zeige auf den Boden oder einen Tisch; der Stick dreht. Der Abzug stellt auf; in die Luft gezogen legt er weg.',
+    placingShort: 'Abzug: hier aufstellen · Stick: drehen',
     hindered: {
       edge: 'Es stünde über der Kante. Zeige weiter nach innen.',
       thing: 'Es stünde in einem anderen Ding. Zeige daneben.',
@@ -885,7 +886,11 @@ export const words: Words = {
     still: 'Weniger Bewegung',
     stillAbout: 'Nichts pulsiert oder gleitet; Tafeln springen an ihren Ort.',
     occlusion: 'Echtes verdeckt',
-    occlusionAbout: 'Wo das Headset Tiefe misst; ab dem nächsten Betreten.',
+    occlusionAbout:
+      'Durch Flächen, die die Brille kennt; durch gemessene Tiefe ab dem nächsten Betreten.',
+    brightness: ['Dunkel', 'Schattig', 'Hell'],
+    warmth: ['Tageslicht', 'Gemischt', 'Lampe'],
+    lightAbout: 'Das Licht deines Raums, da die Brille es nicht schätzt.',
     tour: {
       title: (number: number, count: number) => `Erste Schritte · ${number} von ${count}`,
       next: 'Weiter',

@@ -727,7 +727,8 @@ export const en = {
     axes: (count: number) => `${count} axes`,
     placed: (name: string) => `${name} stands there. Hold its base to carry it.`,
     placing:
-      'Point at the floor or a table; the stick turns it. The trigger places it, the grip puts it away.',
+      'Point at the floor or a table; the stick turns it. The trigger places it; pulled into the air, it puts it away.',
+    placingShort: 'Trigger: place here · stick: turn',
     hindered: {
       edge: 'It would stand over the edge. Point further in.',
       thing: 'It would stand in another thing. Point beside it.',
@@ -833,7 +834,11 @@ export const en = {
     still: 'Reduced motion',
     stillAbout: 'Nothing pulses or glides; panels move at once.',
     occlusion: 'Hide behind real things',
-    occlusionAbout: 'Where the headset measures depth; from the next time you enter.',
+    occlusionAbout:
+      'By the surfaces the headset knows; by measured depth from the next time you enter.',
+    brightness: ['Dim', 'Shaded', 'Bright'],
+    warmth: ['Daylight', 'Mixed', 'Lamp'],
+    lightAbout: 'The light of your room, as the headset does not estimate it.',
     tour: {
       title: (number: number, count: number) => `First steps · ${number} of ${count}`,
       next: 'Next',

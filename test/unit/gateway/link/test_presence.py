@@ -12,7 +12,7 @@ from mrlab_ros.gateway.errors import NotAllowed
 from mrlab_ros.gateway.lab.definitions import installed_definitions
 from mrlab_ros.gateway.link import presence
 from mrlab_ros.gateway.link.diagnostics import BAD_DISPLAY_ID, DISPLAY_TAKEN, DISPLAY_TOO_FAR
-from mrlab_ros.gateway.link.presence import Displays, display
+from mrlab_ros.gateway.link.presence import Displays, Measurers, display
 from mrlab_ros.gateway.people.person import Person
 
 pytestmark = pytest.mark.fast
@@ -87,3 +87,22 @@ def test_the_display_is_read_from_the_message_itself():
     payload = said(id="quest_7")
     for length in range(16):
         assert display(payload[:length]) == ""
+
+
+def test_the_surfaces_of_a_page_that_is_gone_leave_with_it():
+    def measured(source: str, count: int) -> bytes:
+        surfaces = [{"name": f"table_{i}"} for i in range(count)]
+        return DEFINITIONS.encode(presence.SURFACES, {"source": source, "surfaces": surfaces})
+
+    measurers = Measurers(DEFINITIONS)
+    measurers.note("a", measured("quest", 2))
+    measurers.note("a", measured("phone", 1))
+    measurers.note("a", measured("phone", 0))
+    measurers.note("b", measured("pico", 1))
+    (call,) = measurers.leave("a")
+    request = DEFINITIONS.decode(presence.SURFACES, call)
+    assert (request.source, list(request.surfaces)) == ("quest", [])
+    assert measurers.leave("a") == []
+    # Who forgot the surfaces of all took those of the others, too.
+    measurers.note("a", measured("", 0))
+    assert measurers.leave("b") == []

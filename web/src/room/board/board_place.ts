@@ -10,6 +10,8 @@ const SIDE = (36 * Math.PI) / 180
 /** m */
 const AWAY = 0.95
 const BELOW_EYES = 0.22
+/** Of the board: body text has 1.0 degree, the whole 34 x 27. */
+const SIZE = 0.76
 
 const at = new Vector3()
 
@@ -19,11 +21,13 @@ export class BoardPlace {
   private yaw = 0
   private asideSince = Number.NaN
 
+  /** away: true while something is placed. */
   constructor(
     private readonly board: Board,
     private readonly ports: Preferences,
+    private readonly away: () => boolean,
   ) {
-    this.stand = new Stand(board.panel.group, 'top')
+    this.stand = new Stand(board.panel.group, 'top', SIZE)
   }
 
   /** Take the direction of a look as straight ahead. */
@@ -33,6 +37,8 @@ export class BoardPlace {
 
   /** Before each picture. now, step: s. Returns whether the board moves. */
   update({ head, look }: Viewer, now: number, step: number): boolean {
+    // On a screen it lies at the edge; in a headset it would stand before what is placed.
+    this.board.panel.group.visible = this.ports.screen !== null || !this.away()
     const yaw = yawOf(look)
     const off = Math.abs(Math.atan2(Math.sin(yaw - this.yaw), Math.cos(yaw - this.yaw)))
     if (this.ports.screen !== null) this.yaw = yaw

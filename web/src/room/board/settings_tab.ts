@@ -6,6 +6,9 @@ import type { Settings, Switch } from '../session/settings'
 import { BOARD_WIDTH, BOTTOM, EDGE, type Tab, TOP } from './board'
 
 const SWITCH = 270
+/** Height of a row, and the gap between two. */
+const ROW = 47
+const BETWEEN = 6
 const ABOUT = EDGE + SWITCH + 20
 
 /** The tab of a person's own settings. */
@@ -23,16 +26,26 @@ export function settingsTab(ports: Speech, settings: Settings, tour: () => void)
     id: 'settings',
     words: w.settings,
     draw: (pen) => {
-      let y = TOP
+      let y = TOP - 10
       const about = (words: string) =>
-        pen.lines(ABOUT, y + 18, words, TEXT.small, BOARD_WIDTH - ABOUT - EDGE, 'second', 2)
+        pen.lines(ABOUT, y + 12, words, TEXT.small, BOARD_WIDTH - ABOUT - EDGE, 'second', 2)
       for (const [id, each, words, why] of rows) {
         const look = { chosen: each.value, tick: each.value }
-        pen.button(id, EDGE, y, SWITCH, words, () => each.toggle(), look)
+        pen.button(id, EDGE, y, SWITCH, words, () => each.toggle(), look, ROW)
         about(why)
-        y += HIT + GAP
+        y += ROW + BETWEEN
       }
-      pen.button('tour', EDGE, y, SWITCH, w.tour.again, tour)
+      const half = (SWITCH - BETWEEN) / 2
+      const { brightness, warmth } = settings
+      const small = { small: true }
+      const bright = w.brightness[brightness.value] ?? ''
+      pen.button('brightness', EDGE, y, half, bright, () => brightness.next(), small, ROW)
+      const warm = w.warmth[warmth.value] ?? ''
+      const right = EDGE + half + BETWEEN
+      pen.button('warmth', right, y, half, warm, () => warmth.next(), small, ROW)
+      about(w.lightAbout)
+      y += ROW + BETWEEN
+      pen.button('tour', EDGE, y, SWITCH, w.tour.again, tour, {}, ROW)
       about(w.tour.about)
     },
   }

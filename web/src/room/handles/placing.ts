@@ -8,12 +8,14 @@ import {
   type Vector3,
 } from 'three'
 import type { Pose } from '../../protocol/geometry_msgs'
+import { Label } from '../../scene/stage/labels'
 import { place } from '../../scene/stage/pose'
 import { FARTHEST, TURN_SPEED } from '../grab/base'
 import { type Foot, type Hindrance, hindranceAt, squared } from '../grab/clearance'
 import type { Hit, Pointer, Signal, Target } from '../input/pointer'
 import type { Targets } from '../input/targets'
 import { Panel, type Surroundings } from '../panels/panel'
+import { PANEL_THEME } from '../panels/pen'
 import { type Ground, landing, type Place } from '../place/supports'
 import type { Frames, Speech } from '../ports'
 import { upright } from '../scene/frames'
@@ -22,6 +24,11 @@ import { BLOCKED, CLEAR } from './robot_handle'
 /** m: width of the ring that shows a reach, and least distance above a surface. */
 const RING = 0.012
 const ABOVE = 0.004
+/** Height of the sentence over what is placed, as a part of the distance to it; and m above its foot. */
+const PROMPT = 0.032
+const OVER = 0.8
+/** m along a ray that meets no surface: there what is placed is put away. */
+const AIR = 4
 /** rad: at a smaller bearing from the vertical the viewer is above, and says no direction. */
 const BELOW = 0.05
 
@@ -48,7 +55,7 @@ export interface Placeable {
 }
 
 /** Carries a chosen robot or object as a ghost on the surface that the ray meets, until the trigger
- * places it or the grip puts it away. */
+ * places it, or the grip, or a press into the air, puts it away. */
 export class Placing implements Target {
   private chosen: Placeable | null = null
   private ghost: Ghost | null = null
@@ -63,6 +70,7 @@ export class Placing implements Target {
   private turned = 0
   private heading = 0
   private hindrance: Hindrance | null = null
+  private prompt: Label | null = null
 
   /** stick: of a pointer's controller, -1 to 1. changed: something was chosen or placed. */
   constructor(
@@ -116,6 +124,7 @@ export class Placing implements Target {
     this.ghost = null
     this.pointer = null
     this.landed = this.ring.visible = false
+    this.say(false)
     this.targets.remove(this)
     this.targets.widen()
     this.ports.stir()
@@ -123,9 +132,10 @@ export class Placing implements Target {
   }
 
   cast(ray: Ray, hit: Hit): boolean {
-    if (!this.lands(ray)) return false
-    const { world } = this.ports
-    world.localToWorld(hit.point.set(this.land.x, this.land.y, this.land.z))
+    if (this.lands(ray)) {
+      const { x, y, z } = this.land
+      this.ports.world.localToWorld(hit.point.set(x, y, z))
+    } else ray.at(AIR, hit.point)
     hit.distance = hit.point.distanceTo(ray.origin)
     return true
   }
@@ -148,6 +158,7 @@ export class Placing implements Target {
     this.aim()
     ghost.root.visible = this.landed
     this.ring.visible = this.landed && chosen.reach > 0
+    this.say(this.landed)
     if (!this.landed) return
     const { x, y, z } = this.land
     place(ghost.root, upright(x, y, z, this.heading))
@@ -163,6 +174,26 @@ export class Placing implements Target {
     this.ring.removeFromParent()
     this.ring.geometry.dispose()
     this.ring.material.dispose()
+  }
+
+  /** Show over the ghost why it cannot stand there, else what the buttons do. */
+  private say(shown: boolean): void {
+    const { room } = this.ports.words
+    const { hindrance } = this
+    const text = hindrance === null ? room.placingShort : room.hindered[hindrance]
+    if (this.prompt !== null && (!shown || this.prompt.text !== text)) {
+      this.prompt.dispose()
+      this.prompt = null
+    }
+    if (!shown) return
+    if (this.prompt === null) {
+      const { colours, states } = PANEL_THEME
+      this.prompt = new Label(text, PROMPT)
+      this.prompt.paint(colours.card, hindrance === null ? colours.ink : states.COLLISION_HALT)
+      this.ports.world.add(this.prompt.sprite)
+    }
+    const { x, y, z } = this.land
+    this.prompt.sprite.position.set(x, y, z + OVER)
   }
 
   private lands(ray: Ray): boolean {
@@ -186,7 +217,11 @@ export class Placing implements Target {
   private put(): void {
     const { chosen, ports } = this
     this.aim()
-    if (chosen === null || !this.landed) return
+    if (chosen === null) return
+    if (!this.landed) {
+      this.end()
+      return
+    }
     const { pose, hindrance, land } = this
     if (pose === null) {
       ports.say(ports.words.room.hindered[hindrance ?? 'thing'])

@@ -13,9 +13,10 @@ const BEFORE_ROBOT = 0.25
 /** Size of a panel of the scene: 640 mm are 24 degrees at reading distance. */
 const SHRUNK = 0.594
 const MM = 0.001
-/** m: half a person's width, and half the thickness of an arm. */
+/** m: half a person's width, half the thickness of an arm, and from one point on it to the next. */
 const PERSON = 0.3
-const ARM = 0.06
+const ARM = 0.08
+const EVERY = 0.05
 
 const at = new Vector3()
 const point = new Vector3()
@@ -149,17 +150,20 @@ function directionOf(place: Vector3, head: Vector3): { az: number; el: number } 
   return { az: Math.atan2(x, -z), el: Math.atan2(y, Math.hypot(x, z)) }
 }
 
-/** Return directions of points on both edges of an arm, from link to link. */
+/** Return directions of points on both edges of an arm, evenly from each link to its parent. */
 function silhouette(links: readonly Object3D[], head: Vector3): number[] {
   const found: number[] = []
-  links.forEach((link, i) => {
+  for (const link of links) {
+    // a link is below its joint, which is below its parent
+    const parent = link.parent?.parent
+    if (parent == null) continue
     point.setFromMatrixPosition(link.matrixWorld)
-    if (i > 0) {
-      for (const share of [0.33, 0.67]) push(found, at2.lerpVectors(before, point, share), head)
+    before.setFromMatrixPosition(parent.matrixWorld)
+    const steps = Math.floor(point.distanceTo(before) / EVERY)
+    for (let i = 0; i < steps; i++) {
+      push(found, at2.lerpVectors(before, point, (i + 0.5) / steps), head)
     }
-    push(found, point, head)
-    before.copy(point)
-  })
+  }
   return found
 }
 

@@ -83,7 +83,8 @@ export function settle(wish: Wish, crowd: Crowd): Box {
       const cost = Math.hypot(across, el - wish.el) + wrong + rest
       if (cost >= least) continue
       const box = { az, el, width, height }
-      const whole = cost + 10 * harm(box, crowd)
+      const seen = crowd.robots.reduce((sum, robot) => sum + covered(box, robot), 0)
+      const whole = cost + 10 * harm(box, crowd) + seen
       if (whole >= least) continue
       least = whole
       best = box

@@ -111,7 +111,7 @@ export class GlyphText {
     const index = new Uint16Array(most * 6)
     for (let i = 0; i < most; i++) {
       index.set(
-        [0, 1, 2, 2, 1, 3].map((corner) => corner + 4 * i),
+        [0, 2, 1, 1, 2, 3].map((corner) => corner + 4 * i),
         6 * i,
       )
     }

@@ -15,7 +15,7 @@ import type { Pose } from '../../scene/stage/pose'
 const HEAD = 0.11
 const HAND = 0.045
 const ABOVE = 0.17
-const NAME = 0.026 // of a name, as a part of the distance to it
+const NAME = 0.03 // of a name, as a part of the distance to it
 /** Time constant, s, with which an avatar follows its messages, which arrive at 20 Hz at most. */
 const EASE = 0.06
 const JUMP = 0.6 // m

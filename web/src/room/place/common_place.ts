@@ -15,6 +15,8 @@ export class CommonPlace {
   private enteredAt = Number.NaN
   private first = false
   private known = false
+  /** True while the lab has surfaces of this headset. */
+  private told = false
 
   /** device: the source of this headset's surfaces. */
   constructor(
@@ -58,8 +60,17 @@ export class CommonPlace {
     }
   }
 
+  /** Take over the surfaces of the lab: give it those of this headset again if it lost them, as
+   * after a long break of the link. */
+  keep(surfaces: readonly { readonly source?: string }[]): void {
+    const here = surfaces.some(({ source }) => source === this.device)
+    if (this.told && this.aligned && !here) this.scan.tellAgain()
+  }
+
   /** Give the lab the surfaces of this headset once it is aligned. */
   tell(surfaces: Surface[]): void {
-    if (this.aligned) orderSurfaces(this.ports, this.device, surfaces)
+    if (!this.aligned) return
+    this.told = surfaces.length > 0
+    orderSurfaces(this.ports, this.device, surfaces)
   }
 }

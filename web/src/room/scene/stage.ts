@@ -1,6 +1,8 @@
 import {
   CircleGeometry,
+  Color,
   DirectionalLight,
+  DoubleSide,
   Group,
   HemisphereLight,
   Mesh,
@@ -23,6 +25,7 @@ import { NoWebGL } from '../../scene/stage/renderer'
 import { ShadowFit } from '../../scene/stage/shadow_fit'
 import { onTheme, type SceneTheme, themeNow } from '../../scene/stage/theme'
 import { stand } from './frames'
+import { Grounds } from './grounds'
 import { Occlusion } from './occlusion'
 
 /** m above the floor, of the eyes of the desktop view. */
@@ -35,6 +38,8 @@ const LONGEST_PAUSE = 0.4
 const SMOOTH = 0.04
 /** 0 is sharp everywhere; three's 1 blurs text. */
 const FOVEATION = 0.4
+const DAYLIGHT = new Color(0xffffff)
+const LAMP = new Color(0xffc98a)
 /** Of the sun beside an estimate of the real light. */
 const FAINT_SUN = 0.5
 
@@ -60,8 +65,10 @@ export class RoomStage implements SceneHost {
   readonly shadow = new ShadowFit(this.sun, SUN)
   private readonly shadowFloor = new Mesh(
     new CircleGeometry(6, 48),
-    new ShadowMaterial({ color: 0x0a1420, opacity: 0.35 }),
+    new ShadowMaterial({ color: 0x0a1420, opacity: 0.35, side: DoubleSide }),
   )
+  readonly grounds = new Grounds(this.shadowFloor.material)
+  private readonly sky = new HemisphereLight(0xffffff, 0x8895a5, 0.2)
   private readonly themed = new Set<(theme: SceneTheme) => void>()
   private readonly undo: (() => void)[] = []
   private stirred = true
@@ -90,7 +97,7 @@ export class RoomStage implements SceneHost {
     stand(this.world)
     this.anchor.add(this.world)
     this.shadowFloor.receiveShadow = true
-    this.world.add(this.floor.group, this.shadowFloor)
+    this.world.add(this.floor.group, this.shadowFloor, this.grounds.group)
     this.scene.add(this.anchor, this.panels)
     this.lightUp()
     this.followLight()
@@ -115,7 +122,7 @@ export class RoomStage implements SceneHost {
       }),
     )
     this.floor.setTheme(this.theme)
-    this.setGrid(true)
+    this.setPassthrough(false)
     this.resize()
   }
 
@@ -158,6 +165,7 @@ export class RoomStage implements SceneHost {
   /** Show the real floor with shadows on it, or a grid. */
   setPassthrough(on: boolean): void {
     this.setGrid(!on)
+    this.grounds.group.visible = on
   }
 
   get grid(): boolean {
@@ -167,6 +175,14 @@ export class RoomStage implements SceneHost {
   setGrid(on: boolean): void {
     this.floor.group.visible = on
     this.shadowFloor.visible = !on
+  }
+
+  /** Fit the light to the real room by hand: few headsets estimate it. brightness: 1 is a bright
+   * day. warmth: 0 is daylight, 1 a lamp. */
+  setLight(brightness: number, warmth: number): void {
+    this.renderer.toneMappingExposure = brightness
+    for (const light of [this.sun, this.sky]) light.color.set(DAYLIGHT).lerp(LAMP, warmth)
+    this.invalidate()
   }
 
   /** Keep light and shadow about the middle of robots' bases. */
@@ -191,6 +207,7 @@ export class RoomStage implements SceneHost {
     this.controls.dispose()
     this.occlusion.dispose()
     this.floor.dispose()
+    this.grounds.dispose()
     this.shadowFloor.geometry.dispose()
     this.shadowFloor.material.dispose()
     this.sun.shadow.dispose()
@@ -242,7 +259,7 @@ export class RoomStage implements SceneHost {
     this.sun.castShadow = true
     shadow.mapSize.set(1024, 1024)
     shadow.radius = 5
-    this.scene.add(new HemisphereLight(0xffffff, 0x8895a5, 0.2), this.sun, this.sun.target)
+    this.scene.add(this.sky, this.sun, this.sun.target)
   }
 }
 

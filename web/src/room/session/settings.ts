@@ -1,7 +1,10 @@
 import { effect, signal } from '@preact/signals'
 import { setContrast } from '../panels/pen'
+import type { RoomStage } from '../scene/stage'
 import type { Visit } from './visit'
 
+/** Exposure of each level of brightness. */
+const BRIGHTNESS = [0.5, 0.75, 1] as const
 const PREFIX = 'mrlab.room.'
 
 /** A switch that the browser remembers. */
@@ -31,6 +34,30 @@ export class Switch {
   }
 }
 
+/** One of three levels that the browser remembers: 0 is the least. */
+export class Level {
+  private readonly at = signal(2)
+
+  /** usually: its default. */
+  constructor(
+    private readonly key: string,
+    usually = 2,
+  ) {
+    const kept = Number.parseInt(localStorage.getItem(PREFIX + key) ?? '', 10)
+    this.at.value = kept >= 0 && kept <= 2 ? kept : usually
+  }
+
+  get value(): number {
+    return this.at.value
+  }
+
+  /** Go to the next level, from the last to the first. */
+  next(): void {
+    this.at.value = (this.at.value + 1) % 3
+    localStorage.setItem(PREFIX + this.key, String(this.at.value))
+  }
+}
+
 /** A person's settings, kept in the browser. */
 export class Settings {
   readonly leftHanded = new Switch('left')
@@ -39,7 +66,10 @@ export class Settings {
   readonly contrast = new Switch('contrast', matchMedia('(prefers-contrast: more)').matches)
   readonly still = new Switch('still', matchMedia('(prefers-reduced-motion: reduce)').matches)
   /** True if real things hide robots and objects behind them. */
-  readonly occlusion = new Switch('occlusion')
+  readonly occlusion = new Switch('occlusion', true)
+  /** The light of the real room, few of whose headsets estimate it. */
+  readonly brightness = new Level('brightness')
+  readonly warmth = new Level('warmth', 0)
   /** True once the tour was taken or skipped. */
   readonly toured = new Switch('toured')
 }
@@ -62,7 +92,12 @@ export function randomId(bytes: number): string {
 
 /** Apply the settings to the room whenever they change; returns a function that ends it. repaint:
  * all panels. */
-export function applySettings(settings: Settings, visit: Visit, repaint: () => void): () => void {
+export function applySettings(
+  settings: Settings,
+  visit: Visit,
+  stage: Pick<RoomStage, 'setLight'>,
+  repaint: () => void,
+): () => void {
   const undo = [
     effect(() => {
       setContrast(settings.contrast.value)
@@ -70,6 +105,10 @@ export function applySettings(settings: Settings, visit: Visit, repaint: () => v
     }),
     effect(() => visit.seat(settings.seated.value)),
     effect(() => visit.hide(settings.occlusion.value)),
+    effect(() => {
+      const { brightness, warmth } = settings
+      stage.setLight(BRIGHTNESS[brightness.value] ?? 1, warmth.value / 2)
+    }),
   ]
   return () => {
     for (const each of undo) each()

@@ -88,6 +88,7 @@ export class Visit {
   hide(behind: boolean): void {
     this.depth = behind
     this.stage.occlusion.wanted = behind
+    this.stage.grounds.hide(behind)
   }
 
   leave(): void {

@@ -10,7 +10,7 @@ import { STEPS, type Tour } from './tour'
 const HEIGHT = 176
 const MM = 0.001
 const BELOW = 24 // mm, of the board
-const PROMPT = 0.024 // of the distance to it
+const PROMPT = 0.032 // of the distance to it
 const OVER = 0.07 // m, of a prompt over the hand
 
 /** The input device of a person, on which the text of a prompt depends. */

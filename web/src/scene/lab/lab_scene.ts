@@ -176,7 +176,12 @@ export class LabScene {
 
   /** Large names for a projector. */
   setProjected(on: boolean): void {
-    this.nameHeight = on ? NAME_PROJECTED : NAME
+    this.setNames(on ? NAME_PROJECTED : NAME)
+  }
+
+  /** Set the height of names, as a part of the distance to them. */
+  setNames(height: number): void {
+    this.nameHeight = height
     for (const [name, entry] of this.robots) {
       entry.label?.dispose()
       entry.label = null

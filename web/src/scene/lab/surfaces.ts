@@ -23,6 +23,8 @@ const FAINT = new Set(['wall', 'door', 'window', 'global_mesh'])
 /** A surface of the room: the fields of mrlab_msgs/msg/Surface. */
 export interface ShownSurface {
   readonly name: string
+  /** Who measured it; empty: the lab's own. */
+  readonly source?: string
   readonly label: string
   readonly pose: Pose
   /** Of a plane its outline, m. */

@@ -1,5 +1,5 @@
 import { Group, Object3D, Vector3 } from 'three'
-import { beforeEach, describe, expect, test } from 'vitest'
+import { beforeEach, describe, expect, test, vi } from 'vitest'
 import { Placing } from '../../../src/room/handles/placing'
 import { RayPointer } from '../../../src/room/input/pointer'
 import { Targets } from '../../../src/room/input/targets'
@@ -14,6 +14,16 @@ const TABLE = {
   outline: Float64Array.from([0.8, -0.6, 1.6, -0.6, 1.6, 0.6, 0.8, 0.6]),
 }
 const FLOOR = { name: 'floor', height: 0, outline: new Float64Array() }
+
+// There is no canvas to paint it on.
+vi.mock('../../../src/scene/stage/labels', () => ({
+  Label: class {
+    readonly sprite = new Object3D()
+    constructor(readonly text: string) {}
+    paint(): void {}
+    dispose(): void {}
+  },
+}))
 
 describe('a robot that is placed', () => {
   const pointer = new RayPointer('ray', 'right')

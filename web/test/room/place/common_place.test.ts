@@ -81,4 +81,16 @@ describe('the common place of headsets', () => {
     place.update(20)
     expect([place.aligned, tellings]).toEqual([true, 1])
   })
+
+  it('gives the lab its surfaces again where the lab lost them', () => {
+    place.begin(10)
+    place.update(11.5)
+    place.keep([])
+    expect(tellings).toBe(1)
+    place.tell([createSurface()])
+    place.keep([{ source: 'quest' }, { source: 'pico' }])
+    expect(tellings).toBe(1)
+    place.keep([{ source: 'pico' }])
+    expect(tellings).toBe(2)
+  })
 })
