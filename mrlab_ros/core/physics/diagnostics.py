@@ -12,6 +12,12 @@ TOO_WIDE = Code(
     severity=WARNING,
     meaning="Fingers stalled at their open end on what lies between them.",
 )
+LOOSE_BETWEEN = Code(
+    "loose_between",
+    "Between the fingers, and not held: {objects:list}.",
+    severity=WARNING,
+    meaning="More than one object lies between closed fingers; a gripper holds one.",
+)
 SIDE_OF_CUP = Code(
     "side_of_cup",
     "The cup touches {object} with its side.",

@@ -22,6 +22,7 @@ from mrlab_ros.core.physics.diagnostics import (
     FIXED_OBJECT,
     HOLDS_ALREADY,
     HOLDS_NOTHING,
+    LOOSE_BETWEEN,
     NOT_MOVED_YET,
     OUT_OF_ATTACH_REACH,
     TOO_WIDE,
@@ -237,15 +238,20 @@ class Grippers:
                 robot.watch.all_stalled_for(now_ns) > self._world_state.settings.grasp_timeout
             )
             shut = timeout or (bool(stalled) and robot.watch.shut(states))
+        between = robot.watch.between(now_ns) if robot.gripper.closes else []
         if found is not None and self._may_take(robot, found[0]):
             giver = self._world_state.robots.get(found[0].held_by)
             before = giver.holding if giver is not None and giver.closed else None
             self._seize(robot, *found)
             if giver is not None and before is not None and before.grip is not None:
                 giver.still_grips = Gripped(found[0].name, before.in_hand, before.grip)
+            loose = [name for name in between if name != found[0].name]
+            if loose:
+                self._holding.remark(robot, LOOSE_BETWEEN(objects=loose))
         elif shut and robot.grasp is Grasp.CLOSING:
             # The touched object may be gone by now: keep the reason why it was not held.
-            robot.reason = reason or robot.reason
+            together = LOOSE_BETWEEN(objects=between) if len(between) > 1 else None
+            robot.reason = reason or together or robot.reason
             robot.fire(GraspEvent.SHUT)
             self.announce(robot)
         elif reason is not None and robot.gripper.pulls:

@@ -31,6 +31,8 @@ OWN = {
     "fits": {"shape": "box", "size": [0.06, 0.084, 0.06], "mass": 0.2},
     "heavy": {"shape": "box", "size": [0.06, 0.06, 0.06], "mass": 20.0},
     "lead": {"shape": "box", "size": [0.06, 0.06, 0.06], "mass": 7.0},
+    "nut": {"shape": "box", "size": [0.02, 0.02, 0.02], "mass": 0.02},
+    "die": {"shape": "box", "size": [0.03, 0.03, 0.03], "mass": 0.05},
     "thin": {"shape": "box", "size": [0.1, 0.003, 0.06], "mass": 0.05},
     "slick": {"shape": "box", "size": [0.06, 0.06, 0.06], "mass": 4.0, "friction": 0.15},
     "slab": {"shape": "box", "size": [0.3, 0.3, 0.02], "mass": 1.0},

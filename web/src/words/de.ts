@@ -2041,6 +2041,7 @@ export const diagnostics: Templates = {
     'Sichere die Gelenkwinkel, eine Zeile je Messpunkt. Ist es doch das Gewünschte, nenne die Variable beim Namen.',
   ],
   loops: ['läuft in Schleife'],
+  loose_between: ['Zwischen den Fingern und nicht gehalten: {objects:list}.'],
   loses_object: [
     'Der Greifer verliert {other}[: {why:problem}].',
     'Greif näher am Schwerpunkt, bewege sanfter, oder nimm einen stärkeren Greifer.',

@@ -153,6 +153,16 @@ class StallWatch:
                 return name, tuple(pressed + palm)
         return None
 
+    def between(self, now_ns: int) -> list[str]:
+        """Return the names of all objects that a stalled finger touches inwards."""
+        return sorted(
+            {
+                other
+                for (link, other), (seen_ns, _) in self._touched.items()
+                if link in self._stalled and now_ns - seen_ns <= self._span_ns
+            }
+        )
+
     def wedged(self, states: Sequence[FingerState]) -> bool:
         """Return whether a finger is at its open end: what lies between them is too wide."""
         return any(

@@ -13,6 +13,7 @@ from mrlab_ros.adapters.bullet.objects import LOOKED_AT
 from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.physics.diagnostics import (
     CAME_OFF_CUP,
+    LOOSE_BETWEEN,
     NO_SEAL_AT_EDGE,
     NO_SEAL_CURVED,
     OVER_PAYLOAD,
@@ -396,6 +397,27 @@ def one_jaw_holds_against_the_hand(cell):
         load = cell.world.robot(name).holding.load
         assert load.friction_needed < 1.03 * load.mass * G / 40
     assert not cell.hits()
+
+
+@scene
+def of_two_parts_in_one_grip_the_loose_ones_are_named(cell):
+    # Side by side: one is held. One behind the other: none is.
+    half = 0.0105
+    rows = {
+        "r0": ("nut", ((-half, 0.0), (half, 0.0))),
+        "r1": ("die", ((0.0, -1.5 * half), (0.0, 1.5 * half))),
+    }
+    for y, (name, (kind, places)) in enumerate(rows.items()):
+        height = TYPES.get(kind).size[2]
+        for i, (dx, dy) in enumerate(places):
+            cell.put(kind, (dx, y + dy, height / 2), name=f"{name}_{i}")
+        cell.add(name, at=(0.0, y, 0.02 + PADS + ABOVE))
+        cell.go(name, (0.0, y, 0.02 + PADS), 0.4)
+        cell.close(name, 1.5)
+    assert cell.grasps("r0") == HELD
+    assert cell.reasons("r0")[LOOSE_BETWEEN.code].values["objects"] == ["r0_1"]
+    assert cell.grasps("r1") == [OPEN, CLOSING, EMPTY]
+    assert cell.reasons("r1")[LOOSE_BETWEEN.code].values["objects"] == ["r1_0", "r1_1"]
 
 
 @scene
