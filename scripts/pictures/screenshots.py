@@ -59,7 +59,8 @@ class Stage:
 def start(page: Page, stage: Stage) -> None:
     page.goto(stage.gateway.url)
     page.locator(".picker-choice").first.wait_for()
-    page.wait_for_load_state("networkidle")
+    # not the network's silence: the page always waits for the next motion of a program
+    page.wait_for_function("[...document.images].every((image) => image.complete)")
 
 
 def sent(page: Page, stage: Stage, file: Path) -> UploadPage:
