@@ -1,11 +1,12 @@
 import { Box3, type Object3D, Vector3 } from 'three'
 import type { Panel, Surroundings } from '../panels/panel'
 import type { Frames, Preferences } from '../ports'
-import { type Box, type Crowd, settle, stays, turn, type Wish } from './layout'
+import { type Box, type Crowd, clear, settle, stays, turn, type Wish } from './layout'
 import { Stand } from './stand'
 
-/** s between two looks at whether a panel still stands well. */
+/** s between two looks at whether a panel still stands well, and after none was found for it. */
 const PERIOD = 0.25
+const PAUSE = 1
 /** m from the eyes: nearer than the robot, and never farther. */
 const NEAREST = 0.8
 const FARTHEST = 1.3
@@ -48,14 +49,16 @@ interface Entry {
   readonly stand: Stand
   /** Its place in the scene, m. */
   readonly place: Vector3
-  placed: boolean
+  /** What it takes of the view there; null: it has no place. */
+  taken: Box | null
+  /** When its place is looked at again, s. */
+  due: number
 }
 
 /** Keeps the panels of the scene beside their things, off robots, people, the board and each other,
  * at a constant size in the view. */
 export class Arrangement {
   private readonly entries: Entry[] = []
-  private lookedAt = Number.NEGATIVE_INFINITY
 
   constructor(
     private readonly ports: Frames & Preferences & Surroundings,
@@ -64,7 +67,7 @@ export class Arrangement {
 
   add(shown: Shown): void {
     const stand = new Stand(shown.panel.group, 'bottom', SHRUNK, true)
-    this.entries.push({ shown, stand, place: new Vector3(), placed: false })
+    this.entries.push({ shown, stand, place: new Vector3(), taken: null, due: 0 })
   }
 
   remove(shown: Shown): void {
@@ -74,20 +77,21 @@ export class Arrangement {
 
   /** Before each picture, once robots are posed. now, step: s. */
   update(now: number, step: number): void {
-    const looks = now - this.lookedAt > PERIOD
-    if (looks) this.lookedAt = now
-    let crowd: (Crowd & { readonly boxes: Box[] }) | null = null
+    let crowd: Crowd | null = null
+    // one search a picture: several would be seen as a stutter
+    let searched = false
     for (const entry of this.entries) {
       const { shown, stand } = entry
       const { group } = shown.panel
       group.visible = shown.visible && shown.about(at)
       if (!group.visible) {
-        entry.placed = false
+        entry.taken = null
         continue
       }
-      if (looks || !entry.placed || shown.carried) {
+      if (entry.taken === null || shown.carried || (now >= entry.due && !searched)) {
+        searched = true
         crowd ??= this.crowd()
-        this.place(entry, crowd)
+        entry.due = now + (this.place(entry, crowd) ? PERIOD : PAUSE)
       }
       const held = shown.panel.pointers > 0 && !shown.carried
       const { head } = this.ports
@@ -95,8 +99,8 @@ export class Arrangement {
     }
   }
 
-  /** Find a place for an entry whose thing is at `at`, and note it for those after it. */
-  private place(entry: Entry, crowd: { readonly boxes: Box[] } & Crowd): void {
+  /** Find a place for an entry whose thing is at `at`; return whether it covers nothing there. */
+  private place(entry: Entry, around: Crowd): boolean {
     const { head, leftHanded, textScale } = this.ports
     const { panel } = entry.shown
     const size = (MM * SHRUNK * textScale) / this.ports.readAt
@@ -107,15 +111,18 @@ export class Arrangement {
       height: 2 * Math.atan((panel.height * size) / 2),
       side: leftHanded ? -1 : 1,
     }
-    if (entry.placed) {
-      const now: Box = { ...wish, ...directionOf(entry.place, head) }
-      if (stays(now, wish, crowd)) {
-        crowd.boxes.push(now)
-        return
-      }
+    const others = this.entries.flatMap((other) =>
+      other === entry || other.taken === null
+        ? []
+        : [{ ...other.taken, ...directionOf(other.place, head) }],
+    )
+    const crowd = { robots: around.robots, boxes: [...around.boxes, ...others] }
+    if (entry.taken !== null) {
+      entry.taken = { ...wish, ...directionOf(entry.place, head) }
+      if (stays(entry.taken, wish, crowd)) return true
     }
     const found = settle(wish, crowd)
-    crowd.boxes.push(found)
+    entry.taken = found
     const away = Math.min(Math.max(distance - BEFORE_ROBOT, NEAREST), FARTHEST)
     const flat = Math.cos(found.el) * away
     entry.place.set(
@@ -123,10 +130,10 @@ export class Arrangement {
       head.y + Math.sin(found.el) * away,
       head.z - Math.cos(found.az) * flat,
     )
-    entry.placed = true
+    return clear(found, crowd)
   }
 
-  private crowd(): Crowd & { readonly boxes: Box[] } {
+  private crowd(): Crowd {
     const { head } = this.ports
     const robots: number[][] = []
     for (const links of this.surround.robots()) robots.push(silhouette(links, head))

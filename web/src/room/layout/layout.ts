@@ -48,8 +48,8 @@ const GAP = 1 * deg
 export function covered(box: Box, robot: Silhouette): number {
   let inside = 0
   for (let i = 0; i < robot.length; i += 2) {
-    const across = Math.abs(turn((robot[i] as number) - box.az)) < box.width / 2
-    if (across && Math.abs((robot[i + 1] as number) - box.el) < box.height / 2) inside++
+    if (Math.abs((robot[i + 1] as number) - box.el) >= box.height / 2) continue
+    if (Math.abs(turn((robot[i] as number) - box.az)) < box.width / 2) inside++
   }
   return inside / Math.max(robot.length / 2, 1)
 }
@@ -65,6 +65,11 @@ export function overlaps(a: Box, b: Box): boolean {
 /** Return whether a panel may stay where it is. */
 export function stays(box: Box, wish: Wish, crowd: Crowd): boolean {
   if (Math.hypot(turn(box.az - wish.az), box.el - wish.el) > FARTHEST) return false
+  return clear(box, crowd)
+}
+
+/** Return whether a box covers nothing that it must not. */
+export function clear(box: Box, crowd: Crowd): boolean {
   return harm(box, crowd) === 0
 }
 
@@ -106,5 +111,5 @@ function harm(box: Box, { robots, boxes }: Crowd): number {
 
 /** Return an angle between -pi and pi. */
 export function turn(angle: number): number {
-  return Math.atan2(Math.sin(angle), Math.cos(angle))
+  return angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI))
 }
