@@ -1,4 +1,4 @@
-import { useEffect, useId, useState } from 'preact/hooks'
+import { useEffect, useRef, useState } from 'preact/hooks'
 import type { ClassAct, ClassDifference } from '../api/types'
 import { Button, ButtonLink } from '../design/button'
 import { Select } from '../design/field'
@@ -35,6 +35,8 @@ export function Desk({ steps }: DeskProps) {
     return () => clearInterval(timer)
   }, [steps, running])
   const [form, setForm] = useState<string | null>(null)
+  // Open where something is to be done; from then on as its teacher leaves it.
+  const [open, setOpen] = useState(!graded?.marked || running || graded.desk.proposed !== null)
   if (graded === null) return null
   const { desk } = graded
   const act = (
@@ -47,7 +49,11 @@ export function Desk({ steps }: DeskProps) {
   const fixed = desk.locked !== ''
   const formName = (each: string) => (each === 'folder' ? w.forms.folder : each)
   return (
-    <details class="card desk" open={!graded.marked || undefined}>
+    <details
+      class="card desk"
+      open={open}
+      onToggle={(event) => setOpen((event.currentTarget as HTMLDetailsElement).open)}
+    >
       <summary>
         <h2>{w.title}</h2>
       </summary>
@@ -193,7 +199,7 @@ function Source({
   readonly accept: string
 }) {
   const w = words.value.grades.desk
-  const id = useId()
+  const input = useRef<HTMLInputElement>(null)
   const [share, setShare] = useState<number | null>(null)
   const sources = steps.graded.value?.desk.sources ?? []
   const known: readonly string[] = SOURCES.map(([, each]) => each)
@@ -212,7 +218,7 @@ function Source({
   return (
     <div class="desk-source">
       <span>
-        <label for={id}>{w[kind]}</label>
+        {w[kind]}
         {there.map((each) => (
           <small key={each.name} class="second">
             <Icon name="check" /> {w.there(each.name, fileSize(each.size))}
@@ -222,15 +228,24 @@ function Source({
           <progress class="progress" max={1} value={share} aria-label={w[kind]} />
         )}
       </span>
-      <input
-        id={id}
-        type="file"
-        accept={accept}
+      <Button
+        icon="upload"
         disabled={share !== null || steps.graded.value?.desk.locked !== ''}
+        onClick={() => input.current?.click()}
+        label={`${there.length > 0 ? w.another : w.choose}: ${w[kind]}`}
+      >
+        {there.length > 0 ? w.another : w.choose}
+      </Button>
+      <input
+        type="file"
+        hidden
+        ref={input}
+        accept={accept}
+        aria-label={w[kind]}
         onChange={(event) => {
-          const input = event.currentTarget
-          void take(input.files?.[0]).then(() => {
-            input.value = ''
+          const chosen = event.currentTarget
+          void take(chosen.files?.[0]).then(() => {
+            chosen.value = ''
           })
         }}
       />

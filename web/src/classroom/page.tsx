@@ -151,7 +151,7 @@ export function ClassPage() {
     return (
       <section class="stack">
         <h1>{graded.value.title || words.value.nav.grades}</h1>
-        <p>{w.none}</p>
+        {graded.value.marked && <p>{w.none}</p>}
         <Desk steps={steps} />
       </section>
     )
