@@ -50,7 +50,8 @@ FORM = "form"  # the file that keeps the form of the export, where it was said
 
 @dataclass
 class Run:
-    """A run of the class. how: as `job` takes it; who: started it; problem: why it failed."""
+    """A run of the class. how: as `job` takes it; who: started it; problem: why it failed;
+    notes: what its teacher has to know."""
 
     how: str
     who: str
@@ -59,6 +60,7 @@ class Run:
     running: bool = True
     stopped: bool = False
     problem: Diagnostic | None = None
+    notes: tuple[Diagnostic, ...] = ()
 
 
 class Desk:
@@ -176,6 +178,7 @@ class Desk:
                 told = json.loads(line)
                 ended = ended or "ended" in told
                 run.done, run.all = told.get("done", run.done), told.get("all", run.all)
+                run.notes = tuple(map(from_plain, told.get("notes", ())))
                 if "problem" in told:
                     run.problem = from_plain(told["problem"])
             status = await process.wait()

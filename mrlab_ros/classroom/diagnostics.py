@@ -160,6 +160,12 @@ SCHEDULER_NEEDS_CLUSTER = Code(
     "scheduler_needs_cluster",
     "A scheduler needs the backend dask or ray; loky uses this machine alone.",
 )
+WORKERS_DIFFER = Code(
+    "workers_differ",
+    "Workers at {address} have another MR-Lab than this machine[: {workers:list}]"
+    "[ ({why:problem})].",
+    "Install the same version on all machines.",
+)
 SCHEDULER_NOT_REACHED = Code(
     "scheduler_not_reached",
     "The dask scheduler {address} is not reached ({why:problem}).",

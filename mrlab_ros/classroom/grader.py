@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import contextlib
+import hashlib
 import itertools
 import json
 import os
@@ -23,6 +24,7 @@ from typing import Any, TypeVar
 
 import orjson
 
+import mrlab_ros
 from mrlab_ros.adapters import threads
 from mrlab_ros.adapters.sandbox.warm_process import WarmProcess
 from mrlab_ros.adapters.workspaces.content import death
@@ -33,6 +35,7 @@ from mrlab_ros.classroom.diagnostics import (
     SCHEDULER_NEEDS_CLUSTER,
     SCHEDULER_NOT_REACHED,
     UNKNOWN_BACKEND,
+    WORKERS_DIFFER,
 )
 from mrlab_ros.classroom.marks.diagnostics import (
     SUBMISSION_CRASHED,
@@ -82,7 +85,7 @@ def run(
     import joblib
 
     with contextlib.ExitStack() as stack:
-        stack.enter_context(_backend(backend, jobs, scheduler))
+        jobs = stack.enter_context(_backend(backend, jobs, scheduler))
         call = joblib.delayed(function)
         options: dict[str, Any] = {"batch_size": 1, "pre_dispatch": AHEAD * jobs}
         try:
@@ -98,7 +101,8 @@ def run(
 
 
 @contextlib.contextmanager
-def _backend(backend: str, jobs: int, scheduler: str) -> Iterator[None]:
+def _backend(backend: str, jobs: int, scheduler: str) -> Iterator[int]:
+    """Yield how many processors there are, while joblib uses them. Raises BadInput."""
     import joblib
 
     try:
@@ -120,8 +124,9 @@ def _backend(backend: str, jobs: int, scheduler: str) -> Iterator[None]:
                         SCHEDULER_NOT_REACHED(address=scheduler, why=str(error))
                     ) from None
                 stack.enter_context(client)
+                _check_versions(client, scheduler)
                 stack.enter_context(joblib.parallel_config(backend="dask"))
-                yield
+                yield sum(client.nthreads().values()) or jobs
         elif backend == "ray":
             import ray
             from ray.util.joblib import register_ray
@@ -130,7 +135,7 @@ def _backend(backend: str, jobs: int, scheduler: str) -> Iterator[None]:
             ray.init(address=scheduler or None, num_cpus=None if scheduler else jobs)
             try:
                 with joblib.parallel_config(backend="ray", n_jobs=jobs):
-                    yield
+                    yield jobs
             finally:
                 ray.shutdown()
         else:
@@ -140,7 +145,7 @@ def _backend(backend: str, jobs: int, scheduler: str) -> Iterator[None]:
                 with joblib.parallel_config(
                     backend="loky", n_jobs=jobs, inner_max_num_threads=1, idle_worker_timeout=IDLE
                 ):
-                    yield
+                    yield jobs
             finally:
                 get_reusable_executor().shutdown(wait=False, kill_workers=True)
     except ImportError as error:
@@ -148,6 +153,25 @@ def _backend(backend: str, jobs: int, scheduler: str) -> Iterator[None]:
         raise BadInput(
             BACKEND_NOT_INSTALLED(backend=backend, missing=str(error.name), fixes=(install,))
         ) from None
+
+
+def fingerprint() -> str:
+    """Return the sha256 of this package's own modules, by which a changed copy is known."""
+    found = hashlib.sha256()
+    for path in sorted(Path(mrlab_ros.__file__).parent.rglob("*.py")):
+        found.update(path.read_bytes())
+    return found.hexdigest()
+
+
+def _check_versions(client: Any, address: str) -> None:
+    """Raise BadInput where a worker of dask has another mrlab_ros, or none."""
+    try:
+        found = client.run(fingerprint)
+    except (ImportError, AttributeError) as error:
+        raise BadInput(WORKERS_DIFFER(address=address, why=str(error))) from None
+    own = fingerprint()
+    if others := sorted(worker for worker, said in found.items() if said != own):
+        raise BadInput(WORKERS_DIFFER(address=address, workers=others))
 
 
 START_LIMIT = 120.0  # s for the process to import and to check the reference, on a busy machine

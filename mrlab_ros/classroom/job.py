@@ -19,7 +19,7 @@ from mrlab_ros.classroom.folder import HELD, PROPOSED, SOURCES, WORKSHEET
 from mrlab_ros.classroom.mark import read_rubric
 from mrlab_ros.classroom.run import Request, form_of, marked, of_rubric
 from mrlab_ros.classroom.setup import Bounds
-from mrlab_ros.core.base.diagnostic import plain
+from mrlab_ros.core.base.diagnostic import Diagnostic, Severity, plain
 from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.conversion.options import Options
 
@@ -27,8 +27,8 @@ PROPOSE, HOLD, FINAL = "propose", "hold", "final"
 EXPORT, RUBRIC, SHEET = "export.zip", "rubric.yaml", "worksheet.csv"
 
 
-def work(folder: Path, how: str, form: str) -> None:
-    """Mark the class from its sources. Raises LabError.
+def work(folder: Path, how: str, form: str) -> list[Diagnostic]:
+    """Mark the class from its sources; return what its teacher has to know. Raises LabError.
 
     PROPOSE writes no page and changes no mark that holds; HOLD and FINAL let the marks hold.
     """
@@ -38,7 +38,7 @@ def work(folder: Path, how: str, form: str) -> None:
     scene = scene_of(rubric.scene, share.directory())
     setup = of_rubric(rubric, scene, Options(), Bounds(), pages=not proposes)
     sheet = folder / SOURCES / SHEET
-    marked(
+    *_, problems = marked(
         Request(
             sources / EXPORT,
             setup,
@@ -54,6 +54,7 @@ def work(folder: Path, how: str, form: str) -> None:
     if how == HOLD:
         hold(folder / SOURCES, folder / HELD)
         shutil.rmtree(folder / PROPOSED, ignore_errors=True)
+    return [each for each in problems if each.severity is not Severity.INFO]
 
 
 def hold(source: Path, target: Path) -> None:
@@ -72,11 +73,11 @@ def said(**values: Any) -> None:
 def main() -> None:
     """Run as the arguments say: the folder, how, and the form of the export."""
     try:
-        work(Path(sys.argv[1]), sys.argv[2], sys.argv[3])
+        notes = work(Path(sys.argv[1]), sys.argv[2], sys.argv[3])
     except LabError as error:
         said(problem=plain(error.diagnostic))
     else:
-        said(ended=True)
+        said(ended=True, notes=plain(notes))
 
 
 if __name__ == "__main__":

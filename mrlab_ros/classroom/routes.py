@@ -19,14 +19,14 @@ from starlette.background import BackgroundTask
 from mrlab_ros.adapters.trajectories import formats
 from mrlab_ros.app.show import document
 from mrlab_ros.classroom import job
-from mrlab_ros.classroom.desk import Desk
+from mrlab_ros.classroom.desk import Desk, Run
 from mrlab_ros.classroom.diagnostics import NO_CLASS
 from mrlab_ros.classroom.folder import CLASS, TABLE, WORKSHEET
 from mrlab_ros.classroom.marks import changes
 from mrlab_ros.classroom.marks.exports import REFERENCE
 from mrlab_ros.classroom.marks.journal import RELEASE, Entry, State, differing, state_of
 from mrlab_ros.classroom.shown import findings
-from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, from_plain, plain
+from mrlab_ros.core.base.diagnostic import Fix, from_plain, plain
 from mrlab_ros.gateway.checks.desk import CheckFinding
 from mrlab_ros.gateway.errors import NotFound
 from mrlab_ros.gateway.people.person import CurrentPerson
@@ -91,13 +91,15 @@ class Source(BaseModel):
 
 
 class Running(BaseModel):
-    """A run of the class. how: propose, hold or final. problem: why it failed."""
+    """A run of the class. how: propose, hold or final. problem: why it failed;
+    notes: what its teacher has to know."""
 
     how: str
     running: bool
     done: int
     all: int
     problem: CheckFinding | None
+    notes: list[CheckFinding]
 
 
 class ChangedTest(BaseModel):
@@ -238,7 +240,7 @@ def _overview(desk: Desk) -> Class:
                 "sources": [{"name": name, "size": size} for name, size in desk.sources()],
                 "missing": desk.missing(),
                 "form": desk.form(),
-                "run": desk.run and asdict(desk.run) | {"problem": _told(desk.run.problem)},
+                "run": desk.run and _run(desk.run),
                 "proposed": desk.differences(),
                 "journal": latest,
                 "locked": state.locked.who if state.locked else "",
@@ -375,5 +377,6 @@ def _change(entry: Entry | None, mark: Mapping[str, Any]) -> dict[str, Any] | No
     return {**asdict(entry), "given": given, "reason": entry.text}
 
 
-def _told(problem: Diagnostic | None) -> dict[str, Any] | None:
-    return None if problem is None else plain(problem)
+def _run(run: Run) -> dict[str, Any]:
+    problem = None if run.problem is None else plain(run.problem)
+    return {**vars(run), "problem": problem, "notes": plain(run.notes)}

@@ -30,7 +30,7 @@ tests:
   - {name: Takes the cube, expect: grasps cube_1 between 1 s and 4 s, points: 2}
   - {name: In time, expect: cycle < 30 s, points: POINTS}
 """
-SHEET = "Identifier,Full name,Grade\nParticipant 1,Anna,\nParticipant 2,Ben,\n"
+SHEET = "Identifier,Full name,Grade,Maximum Grade\nParticipant 1,Anna,,3\nParticipant 2,Ben,,3\n"
 
 
 @pytest.fixture
@@ -140,6 +140,7 @@ def test_a_class_is_marked_changed_marked_again_released_and_downloaded(gateway,
     assert teacher.send("POST", "/api/class/release").status_code == 202
     shown = ran(teacher)
     assert shown["desk"]["released"] == "grace"
+    assert [note["code"] for note in shown["desk"]["run"]["notes"]] == ["maximum_differs"]
     assert act(teacher, **mark).json()["error"]["code"] == "class_is_locked"
     rows = list(csv.DictReader(io.StringIO(teacher.get("/api/class/grades.csv").text[1:])))
     assert [row["points"] for row in rows] == ["6", "1.5"]

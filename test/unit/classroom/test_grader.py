@@ -5,8 +5,10 @@ from __future__ import annotations
 import signal
 
 import pytest
+from refusals import refused
 
-from mrlab_ros.classroom.grader import Grader
+from mrlab_ros.classroom.diagnostics import WORKERS_DIFFER
+from mrlab_ros.classroom.grader import Grader, _check_versions, fingerprint
 from mrlab_ros.classroom.marks.result import FAILED, TO_REPEAT
 from mrlab_ros.classroom.rubrics.rubric import Rubric
 from mrlab_ros.classroom.setup import Setup
@@ -30,3 +32,19 @@ def test_what_ends_a_check_is_the_machines_or_the_submissions_fault(
     assert grader._lost(status)[0] == outcome
     assert grader._lost(status)[1].code == code
     grader.close()
+
+
+class Cluster:
+    """Workers of dask, that say what they have."""
+
+    def __init__(self, **said):
+        self.said = said
+
+    def run(self, function):
+        return self.said
+
+
+def test_workers_of_a_changed_copy_are_noticed():
+    _check_versions(Cluster(a=fingerprint(), b=fingerprint()), "tcp://x")
+    with refused(WORKERS_DIFFER, workers=["b"]):
+        _check_versions(Cluster(a=fingerprint(), b="another"), "tcp://x")

@@ -337,6 +337,7 @@ export interface ClassRun {
   readonly done: number
   readonly all: number
   readonly problem: Diagnostic | null
+  readonly notes: readonly Diagnostic[]
 }
 
 /** Points before and after; null: the student or the test is not there. */

@@ -102,6 +102,11 @@ export function Desk({ steps }: DeskProps) {
               <p>{say(desk.run.problem).message}</p>
             </Notice>
           )}
+          {desk.run?.notes.map((note) => (
+            <Notice key={note.message} severity="warning">
+              <p>{say(note).message}</p>
+            </Notice>
+          ))}
           {!running && desk.proposed && (
             <Differences
               differences={desk.proposed}

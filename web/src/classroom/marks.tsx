@@ -94,15 +94,14 @@ function Change({ mark, ...rest }: Rest & { readonly mark: ClassMark }) {
   if (rest.steps.graded.value?.desk.locked) return null
   if (points === null)
     return (
-      <div class="row">
-        <Button
-          look="quiet"
-          label={`${w.change}: ${mark.name}`}
-          onClick={() => setPoints(number(mark.points))}
-        >
-          {w.change}
-        </Button>
-      </div>
+      <button
+        type="button"
+        class="class-jump small"
+        aria-label={`${w.change}: ${mark.name}`}
+        onClick={() => setPoints(number(mark.points))}
+      >
+        {w.change}
+      </button>
     )
   const value = Number(points.trim().replace(',', '.'))
   const wrong = points.trim() === '' || !Number.isFinite(value)

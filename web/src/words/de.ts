@@ -2586,6 +2586,10 @@ export const diagnostics: Templates = {
   ],
   unpacking_not_started: ['Der Prozess, der entpackt, startet nicht: {why:problem}.'],
   unreadable_submission: ['Keine Datei dieser Abgabe lässt sich lesen.'],
+  workers_differ: [
+    'Worker bei {address} haben ein anderes MR-Lab als dieser Rechner[: {workers:list}][ ({why:problem})].',
+    'Installiere auf allen Rechnern dieselbe Version.',
+  ],
   worksheet_failed: [
     '{file} ist nicht lesbar, oder {out} kann nicht geschrieben werden: {why:problem}.',
   ],
