@@ -306,7 +306,10 @@ export const words: Words = {
     otherRobot: 'Anderen Roboter wählen',
     checkedFor: 'Geprüft für',
     change: 'ändern',
-    several: (count) => `${count} Matrizen dieser Datei könnten die Bewegung sein`,
+    several: (count) =>
+      count === 1
+        ? 'Eine Matrix dieser Datei könnte die Bewegung sein'
+        : `${count} Matrizen dieser Datei könnten die Bewegung sein`,
     which: 'Welche ist die Bewegung?',
     drawn: (variable) => `Gezeigt: ${variable}, die wahrscheinlichste, als Radiant gelesen.`,
     wouldBe: (fix) => `Der Geist zeigt sie berichtigt: ${fix}`,

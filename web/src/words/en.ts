@@ -253,7 +253,10 @@ export const en = {
     otherRobot: 'Choose another robot',
     checkedFor: 'Checked for',
     change: 'change',
-    several: (count: number) => `${count} matrices of this file could be the motion`,
+    several: (count: number) =>
+      count === 1
+        ? 'One matrix of this file could be the motion'
+        : `${count} matrices of this file could be the motion`,
     which: 'Which one is the motion?',
     drawn: (variable: string) => `Shown: ${variable}, the likeliest one, read as radians.`,
     wouldBe: (fix: string) => `The ghost shows it mended: ${fix}`,

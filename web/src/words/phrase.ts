@@ -93,7 +93,9 @@ export function fill(phrase: Phrase, values: Values, joining: Joining, problem: 
     .map((part) => {
       if (typeof part === 'string') return part
       if ('quantity' in part) return shown(part, values, joining, problem)
-      const missing = placeholders(part, false).some(({ name }) => isMissing(values[name]))
+      const missing = placeholders(part, false).some(({ name, quantity }) =>
+        isMissing(quantity === 'text' ? values[name] : typed(values[name])),
+      )
       return missing ? '' : fill(part, values, joining, problem)
     })
     .join('')

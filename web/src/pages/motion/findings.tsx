@@ -109,7 +109,7 @@ function Finding(props: FindingsProps & { finding: Diagnostic; number: number })
                 {fixLabel(fix, w, finding.variable)}
               </Button>
             ))}
-          {props.onOtherRobot && finding.severity === 'error' && (
+          {props.onOtherRobot && OF_ROBOT.has(finding.code) && (
             <Button look="quiet" icon="robot" onClick={props.onOtherRobot}>
               {w.upload.otherRobot}
             </Button>
@@ -132,6 +132,14 @@ export function firstFinding(findings: readonly Diagnostic[]): number {
     ) + 1
   )
 }
+
+/** Errors that another robot would not have. */
+const OF_ROBOT: ReadonlySet<string> = new Set([
+  'joint_limit',
+  'names_other',
+  'robot_stated',
+  'velocity_limit',
+])
 
 const SWIPE = 48 // px
 
