@@ -180,12 +180,13 @@ def test_a_lab_with_an_s3_server_that_goes_away_and_comes_back(tmp_path, monkeyp
             assert browser.http.get(f"/api/trajectories/wave/{part}").status_code == 200
         assert not (tmp_path / "state" / "store").exists()
         server.kill()
-        for answer in (
-            browser.http.get("/api/trajectories"),
-            browser.send("PUT", "/api/uploads/a.mat", content=workspace()),
-        ):
-            assert answer.status_code == 503
-            assert "does not answer" in answer.json()["error"]["message"]
+        # What is known is still shown, and said to be the last known; nothing new is taken.
+        known = browser.http.get("/api/trajectories").json()
+        assert [each["id"] for each in known["trajectories"]] == ["wave"]
+        assert known["problem"]["code"] == "last_known"
+        refused = browser.send("PUT", "/api/uploads/a.mat", content=workspace())
+        assert refused.status_code == 503
+        assert refused.json()["error"]["code"] in ("store_silent", "store_failed")
         server.start()
         assert browser.publish("two", workspace()).json()["version"] == 1
         assert browser.http.get("/api/trajectories/two/motion").status_code == 200

@@ -15,11 +15,10 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-import pybullet
-
 from mrlab_ros.adapters.bullet.description import Description
 from mrlab_ros.adapters.bullet.diagnostics import NO_LINK, NOT_IN_WORLD
 from mrlab_ros.adapters.bullet.fingers import Fingers, LoadedArm
+from mrlab_ros.adapters.bullet.quiet import pybullet
 from mrlab_ros.adapters.bullet.shapes import NEUTRAL, STATIC_GROUP
 from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.base.geometry import Pose, Vector, add, cross, subtract

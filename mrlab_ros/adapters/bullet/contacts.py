@@ -12,11 +12,10 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-import pybullet
-
 from mrlab_ros.adapters.bullet.arms import Arms
 from mrlab_ros.adapters.bullet.fingers import Fingers
 from mrlab_ros.adapters.bullet.objects import Objects
+from mrlab_ros.adapters.bullet.quiet import pybullet
 from mrlab_ros.core.base.geometry import (
     Pose,
     Vector,

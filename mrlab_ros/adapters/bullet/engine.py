@@ -10,13 +10,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-import pybullet
-
 from mrlab_ros.adapters.bullet.arms import OBJECT_GROUP, Arms
 from mrlab_ros.adapters.bullet.contacts import Contacts, Holding
 from mrlab_ros.adapters.bullet.diagnostics import BAD_STEP, WORLDS_FULL
 from mrlab_ros.adapters.bullet.fingers import Fingers
 from mrlab_ros.adapters.bullet.objects import Objects
+from mrlab_ros.adapters.bullet.quiet import pybullet
 from mrlab_ros.adapters.bullet.shapes import STATIC_GROUP, make_body, make_shape
 from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.base.geometry import Pose, Vector, compose

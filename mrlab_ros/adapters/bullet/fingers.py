@@ -10,10 +10,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-import pybullet
-
 from mrlab_ros.adapters.bullet.description import Coupling, Description
 from mrlab_ros.adapters.bullet.diagnostics import BAD_FINGERS, FINGER_BEYOND
+from mrlab_ros.adapters.bullet.quiet import pybullet
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.geometry import (
     Quaternion,

@@ -9,9 +9,8 @@ from __future__ import annotations
 
 import math
 
-import pybullet
-
 from mrlab_ros.adapters.bullet.diagnostics import NO_SPEED, NOT_IN_WORLD
+from mrlab_ros.adapters.bullet.quiet import pybullet
 from mrlab_ros.adapters.bullet.shapes import STATIC_GROUP, least, make_body, make_shape
 from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.base.geometry import Pose, Vector, dot, scale, subtract

@@ -6,7 +6,6 @@ import math
 from typing import Any
 
 import numpy as np
-import pybullet
 
 from mrlab_ros.adapters.bullet.diagnostics import (
     BAD_BODY,
@@ -16,6 +15,7 @@ from mrlab_ros.adapters.bullet.diagnostics import (
     MESH_NO_VERTEX,
     NO_SHAPE,
 )
+from mrlab_ros.adapters.bullet.quiet import pybullet
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.geometry import Array, Pose
 from mrlab_ros.core.physics.engine import Body, Part, Shape

@@ -69,7 +69,7 @@ def asked() -> Iterator[tuple[str, str]]:
     """Yield verb and path of each request of the client; a part that varies is {}."""
     text = (API / "http.ts").read_text()
     for verb, path in re.findall(r"'(GET|POST|PATCH|DELETE)',\s*[`'](/api/[^`']*)[`']", text):
-        yield verb, re.sub(r"\$\{.*?\)\}", "{}", path)
+        yield verb, re.sub(r"\$\{.*?\)\}", "{}", path.partition("?")[0])
     parts = re.findall(r"'(GET|POST|PATCH|DELETE)', trajectoryUrl\(id(?:, '(\w+)')?\)", text)
     for verb, part in parts:
         yield verb, f"/api/trajectories/{{}}{'/' if part else ''}{part}"
