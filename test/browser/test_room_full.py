@@ -157,9 +157,7 @@ def test_a_person_works_with_a_robot_on_a_table(headset: Headset, lab: ServedLab
 
     # an object is carried between the fingers and let go there
     headset.press(ROBOT, "end_effector")
-    if "choose parallel_gripper" not in page.evaluate(f"{ROBOT}.panel.ids"):
-        headset.press(ROBOT, "next")
-    headset.press(ROBOT, "choose parallel_gripper")
+    headset.choose(ROBOT, "choose parallel_gripper")
     headset.wait_for("room.scene.robot('ur5e_1')?.root.links.tcp")
     headset.press(BOARD, "tab objects")
     headset.place("object cube", aimed[0] + 0.2, aimed[1] + 0.3, aimed[2])
@@ -173,7 +171,7 @@ def test_a_person_works_with_a_robot_on_a_table(headset: Headset, lab: ServedLab
 
     # it stays in the hand while the arm moves
     headset.press(ROBOT, "motions")
-    headset.press(ROBOT, "choose quintic_ur5e")
+    headset.choose(ROBOT, "choose quintic_ur5e")
     headset.reaches("READY")
     headset.press(ROBOT, "play")
     headset.reaches("PLAYING")

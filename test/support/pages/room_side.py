@@ -84,6 +84,13 @@ class Headset:
         self.trigger(True)
         self.trigger(False)
 
+    def choose(self, panel: str, zone: str) -> None:
+        """Press a row of a list, on whichever of its pages it is."""
+        self.wait_for(f"{panel}.panel.ids.some((id) => id.startsWith('choose '))")
+        while zone not in self.page.evaluate(f"{panel}.panel.ids"):
+            self.press(panel, "next")
+        self.press(panel, zone)
+
     def place(self, card: str, x: float, y: float, height: float) -> None:
         """Choose a card of the board, aim at a place of the lab, m, and pull the trigger."""
         self.act(BOARD, card)
