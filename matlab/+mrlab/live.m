@@ -38,14 +38,31 @@ end
 rest = [fieldnames(own), struct2cell(own)]';
 begun = tic();
 seen = [];
+content = [];
 mrlab.internal.say('Watching %s; Ctrl+C ends it.\n', watched);
 while toc(begun) < given.seconds
     found = dir(watched);
-    if ~isempty(found) && ~isequal(seen, [found(1).datenum, found(1).bytes])
+    if ~isempty(found) && is_new(watched, found(1), seen, content)
         seen = [found(1).datenum, found(1).bytes];
+        content = bytes_of(watched);
         once(source, fs, given, rest, watched);
     end
     pause(0.1);
+end
+end
+
+function yes = is_new(file, found, seen, content)
+% A file's time has whole seconds in Octave: what was saved just now is compared by its bytes.
+recent = abs(now() - found.datenum) * 86400 < 2;
+yes = ~isequal(seen, [found.datenum, found.bytes]) || (recent && ~isequal(bytes_of(file), content));
+end
+
+function bytes = bytes_of(file)
+id = fopen(file, 'r');
+bytes = [];
+if id >= 0
+    bytes = fread(id, Inf, '*uint8');
+    fclose(id);
 end
 end
 

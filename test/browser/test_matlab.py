@@ -192,8 +192,11 @@ def test_a_robot_plays_and_what_was_recorded_is_compared(octave: Octave) -> None
 
 
 def test_a_script_is_shown_again_when_it_is_saved(
-    page: Page, octave: Octave, running: Callable[[Running], Running]
+    page: Page, octave: Octave, lab: ServedLab, running: Callable[[Running], Running]
 ) -> None:
+    # Shown is what comes after the page has asked for the first time.
+    with page.expect_response(f"{lab.url}/api/live"):
+        page.reload()
     plan = octave.folder / "plan.m"
     plan.write_text("fs = 100; q = [sin((0:149)' / 100), -ones(150, 5)];\n")
     script = running(octave.begin("mrlab.live(@plan)"))

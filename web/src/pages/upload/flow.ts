@@ -93,14 +93,17 @@ export class UploadFlow {
   async follow(signal: AbortSignal, current: boolean): Promise<void> {
     let known: string | null = null
     while (!signal.aborted) {
+      const before: string | null = known
       try {
-        const live: Live | null = await this.api.live(known, signal)
-        if (live !== null && live.live !== known && (known !== null || current))
-          await this.#take(live, signal)
+        const live: Live | null = await this.api.live(before, signal)
         known = live?.live ?? ''
+        if (live !== null && live.live !== before && (before !== null || current))
+          await this.#take(live, signal)
       } catch (error) {
         if (signal.aborted) return
         if (error instanceof ApiError && error.status === 401) return
+        // one whose draft is there no more is not asked for again
+        if (!(error instanceof ApiError && error.status === 404)) known = before
         await new Promise((resolve) => setTimeout(resolve, AGAIN_MS))
       }
     }
