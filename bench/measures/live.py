@@ -17,6 +17,7 @@ import tempfile
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -57,11 +58,27 @@ end
 """
 
 
+@dataclass(frozen=True)
+class Open:
+    """A launched lab, a token of its local user, a client with it, and the upload page."""
+
+    lab: Any
+    token: str
+    client: httpx.Client
+    page: Any
+
+
 @contextmanager
-def signed_in(folder: Path) -> Iterator[tuple[Any, str]]:
-    """Yield a lab and a token of its local user."""
-    with launched(folder) as lab:
-        yield lab, lab.done("users", "token").split()[-1]
+def opened(folder: Path) -> Iterator[Open]:
+    """Start a lab in `folder` and open its upload page in Chromium."""
+    with launched(folder) as lab, chromium() as browser:
+        token = lab.done("users", "token").split()[-1]
+        bearer = {"authorization": f"Bearer {token}"}
+        with httpx.Client(base_url=lab.url, timeout=DEADLINE_S, headers=bearer) as client:
+            page = browser.new_context(bypass_csp=True).new_page()
+            page.goto(lab.signed_in_url("/"))
+            page.get_by_role("radio", name="UR5e").wait_for(state="attached")
+            yield Open(lab, token, client, page)
 
 
 def octave(folder: Path, script: str) -> str:
@@ -87,32 +104,22 @@ def ms(values: list[float]) -> float:
 
 def hops(size: Size) -> list[dict[str, Any]]:
     rows = []
-    with (
-        tempfile.TemporaryDirectory() as name,
-        signed_in(Path(name)) as (lab, token),
-        chromium() as browser,
-        httpx.Client(
-            base_url=lab.url, timeout=DEADLINE_S, headers={"authorization": f"Bearer {token}"}
-        ) as client,
-    ):
-        page = browser.new_context(bypass_csp=True).new_page()
-        page.goto(lab.signed_in_url("/"))
-        page.get_by_role("radio", name="UR5e").wait_for(state="attached")
-        page.evaluate(WATCH)
+    with tempfile.TemporaryDirectory() as name, opened(Path(name)) as there:
+        there.page.evaluate(WATCH)
         for frames, columns in size.some(CASES):
             calls = size.of(2, 10, 20) if frames < 10_000 else size.of(2, 3, 6)
             more = "" if columns == 6 else ", 'end_effector', 'parallel_gripper'"
             text = SCRIPT.format(
-                url=lab.url, token=token, calls=calls, rows=frames, columns=columns,
+                url=there.lab.url, token=there.token, calls=calls, rows=frames, columns=columns,
                 step=1 if frames < 10_000 else 100, more=more, pause=1 if frames < 10_000 else 4,
             )  # fmt: skip
             # The first call of a page has the robot to load.
             said = re.findall(r"^(\S+) (\d+\.\d{6}) (\d+\.\d{6})$", octave(Path(name), text), re.M)
             last = f"{float(said[-1][0]):.2f} s"
-            page.wait_for_function(f"window.drawn['{last}'] > 0")
-            drawn = page.evaluate("window.drawn")
+            there.page.wait_for_function(f"window.drawn['{last}'] > 0")
+            drawn = there.page.evaluate("window.drawn")
             seen = {f"{float(total):.2f} s": float(end) for total, _, end in said[1:]}
-            request, conversion = direct(client, frames, columns)
+            request, conversion = direct(there.client, frames, columns)
             rows.append(
                 {
                     "array": f"{frames} x {columns}",
@@ -154,17 +161,7 @@ def many(size: Size) -> list[dict[str, Any]]:
     seconds = size.of(2, 20, 60)
     q = 0.2 * np.sin(np.arange(601) / 200)[:, None] - 0.5 + np.zeros((601, 6))
     outcomes: list[int] = []
-    with (
-        tempfile.TemporaryDirectory() as name,
-        signed_in(Path(name)) as (lab, token),
-        chromium() as browser,
-        httpx.Client(
-            base_url=lab.url, timeout=DEADLINE_S, headers={"authorization": f"Bearer {token}"}
-        ) as client,
-    ):
-        page = browser.new_context(bypass_csp=True).new_page()
-        page.goto(lab.signed_in_url("/"))
-        page.get_by_role("radio", name="UR5e").wait_for(state="attached")
+    with tempfile.TemporaryDirectory() as name, opened(Path(name)) as there:
         (process,) = [
             each for each in psutil.process_iter(["cmdline", "environ"])
             if "mrlab_ros.gateway" in (each.info["cmdline"] or ())
@@ -175,17 +172,17 @@ def many(size: Size) -> list[dict[str, Any]]:
         begun = time.monotonic()
         for k in range(seconds * 10):
             time.sleep(max(0.0, begun + k * 0.1 - time.monotonic()))
-            answer = client.put(
+            answer = there.client.put(
                 f"/api/live/call_{k}.mat", content=content,
                 params={"robot_model": "ur5e", "frame_rate": 100},
             )  # fmt: skip
             outcomes.append(answer.status_code)
             memory.append(process.memory_info().rss / 1e6)
         took = time.monotonic() - begun
-        page.locator(".verdict-file", has_text=f"call_{k}.mat").wait_for()
+        there.page.locator(".verdict-file", has_text=f"call_{k}.mat").wait_for()
         shown = time.monotonic() - begun - took
-        user = json.loads(client.get("/api/session").text)["user"]["name"]
-        kept = len(list((lab.state / "store" / "users").rglob("*.mat")))
+        user = json.loads(there.client.get("/api/session").text)["user"]["name"]
+        kept = len(list((there.lab.state / "store" / "users").rglob("*.mat")))
     tenth = max(1, len(memory) // 10)
     return [
         {

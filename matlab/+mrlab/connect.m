@@ -58,6 +58,8 @@ else
     robot = ['motions are checked for ' lab.robot];
 end
 mrlab.internal.say('Connected with %s as %s; %s.\n', url, lab.user, robot);
+% The preferences folder has the token; a struct is printed and saved with all that it holds.
+lab.token = '';
 end
 
 function user = whoami(lab)

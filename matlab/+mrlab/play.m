@@ -34,7 +34,7 @@ try
     found = mrlab.internal.request(lab, 'POST', ['/api/robots/' motion.robot '/play'], playing);
 catch problem
     if strcmp(problem.identifier, 'mrlab:illegalEvent')
-        error(problem.identifier, '%s\n  mend: mrlab.play(..., ''replace'', true)', problem.message);
+        error(problem.identifier, '%s\n  mend: %s', problem.message, way_on(lab, motion.robot));
     end
     rethrow(problem);
 end
@@ -42,5 +42,14 @@ if nargout > 0
     played = found;
 else
     mrlab.internal.say('%s plays %s.\n', found.robot, found.trajectory);
+end
+end
+
+function text = way_on(lab, name)
+robots = mrlab.state(lab);
+robot = robots(strcmp({robots.name}, name));
+text = 'mrlab.play(..., ''replace'', true)';
+if ~isempty(robot) && strcmp(robot.state, 'COLLISION_HALT')
+    text = sprintf('press Stop of %s on the page Lab, or run in a terminal: mrlab stop %s', name, name);
 end
 end

@@ -54,13 +54,13 @@ class Robots(BaseModel):
 
 
 class Playing(Strict):
-    """Which trajectory shall be played. rate: 1 is the declared speed; null: as it is.
+    """Which trajectory shall be played. rate: 1 is the declared speed.
 
     replace: where the robot moves it is paused first; it blends from where it stands then.
     """
 
     trajectory: Annotated[str, Field(min_length=1, max_length=600)]
-    rate: Annotated[float, Field(ge=-4, le=4, allow_inf_nan=False)] | None = None
+    rate: Annotated[float, Field(ge=-4, le=4, allow_inf_nan=False)] = 1.0
     replace: bool = False
 
 
@@ -136,7 +136,6 @@ async def play(
         if state and state.state in [each.value for each in MOVING]:
             await _do(lab, f"{robot}/pause", TRIGGER, {})
     await _do(lab, f"{robot}/load", LOAD, {"id": named})
-    if wanted.rate is not None:
-        await _do(lab, f"{robot}/set_rate", RATE, {"rate": wanted.rate})
+    await _do(lab, f"{robot}/set_rate", RATE, {"rate": wanted.rate})
     message = await _do(lab, f"{robot}/play", TRIGGER, {})
     return Played(robot=robot, trajectory=named, message=message)

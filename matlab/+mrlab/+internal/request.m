@@ -8,6 +8,12 @@ function answer = request(lab, method, address, body, into)
 if nargin < 4
     body = [];
 end
+if isempty(lab.token)
+    known = mrlab.internal.remember(lab.url);
+    if ~isempty(known)
+        lab.token = known.token;
+    end
+end
 if mrlab.internal.octave()
     [status, bytes] = by_curl(lab, method, address, body);
 else

@@ -391,7 +391,7 @@ DOUBTFUL_NAME = Code(
     "Check that it is what you meant; joint positions are usually named q.",
     severity=WARNING,
     meaning="The name of the matrix speaks against joint positions.",
-    fixes=(("", "", "q = {name:matlab}; save('traj.mat', 'q')"),),
+    fixes=(("", "", "plot({name:matlab})"),),
 )
 DOUBTFUL_VALUES = Code(
     "doubtful_values",

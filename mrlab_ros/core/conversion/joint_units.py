@@ -235,7 +235,7 @@ def _refuse_other_units(
                     variable=path,
                     value=largest,
                     unit="deg",
-                    limit=float(np.abs(units.limits_of(robot)).max()),
+                    limit=float(np.degrees(np.abs(units.limits_of(robot)).max())),
                     why=UNIT_REACHES(largest=largest),
                 )
             )
