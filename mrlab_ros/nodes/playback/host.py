@@ -113,6 +113,8 @@ class PlaybackHostNode(
         )
         # State of robots before a restart, until they are in the scene again; None: all are.
         self._kept: dict[str, tuple[str, Kept]] = entries.read(self._journal.load())
+        # Written each period, and by whoever loaded something.
+        self._writing = threading.Lock()
         # By robot what is in the journal.
         self._written: dict[str, dict[str, Any]] = {}
         # Diagnostics of state that could not be brought back.
@@ -206,17 +208,18 @@ class PlaybackHostNode(
     # after a restart ------------------------------------------------------------------------
 
     def _write_journal(self) -> None:
-        nodes = list(self.nodes.items())
-        changed = [name for name, node in nodes if node.changed]
-        if self._kept or not (changed or self._written.keys() - self.nodes.keys()):
-            return
-        known = self._written
-        self._written = {
-            name: entries.plain(node.model.id, kept) if name in changed else known[name]
-            for name, node in nodes
-            if (name in changed or name in known) and (kept := node.kept()) is not None
-        }
-        self._journal.save({entries.ROBOTS: self._written})
+        with self._writing:
+            nodes = list(self.nodes.items())
+            changed = [name for name, node in nodes if node.changed]
+            if self._kept or not (changed or self._written.keys() - self.nodes.keys()):
+                return
+            known = self._written
+            self._written = {
+                name: entries.plain(node.model.id, kept) if name in changed else known[name]
+                for name, node in nodes
+                if (name in changed or name in known) and (kept := node.kept()) is not None
+            }
+            self._journal.save({entries.ROBOTS: self._written})
 
     # claims ---------------------------------------------------------------------------------
 
@@ -291,6 +294,7 @@ class PlaybackHostNode(
             lab=self._identity.lab,
             kept=kept,
             pose_file=pose_file,
+            keep=self._write_journal,
             warn=self.get_logger().warning,
             context=self.context,
         )

@@ -68,6 +68,7 @@ class PlaybackNode(Node):
         lab: str = "",
         kept: Kept | None = None,
         pose_file: PoseFile | None = None,
+        keep: Callable[[], object] = lambda: None,
         warn: Callable[[str], None] = lambda said: None,
         context: Context | None = None,
     ) -> None:
@@ -76,7 +77,7 @@ class PlaybackNode(Node):
         host, lab: the node that plays the robot, and the id of its lab. warn: takes a sentence of
         what was refused where nobody can be answered. kept: what the robot had
         before the process was restarted; come_back() loads it. pose_file: gets each pose that is
-        sent.
+        sent. keep: journals what was loaded, before that is answered.
         """
         # A lab of fifty robots has fifty of these nodes: each does without rosout and the
         # services for parameters, of which it has none. It is hidden: `ros2 param list` waits 5 s
@@ -103,6 +104,7 @@ class PlaybackNode(Node):
         self._grasp: msg.Grasp | None = None
         self._back = kept
         self._pose_file = pose_file
+        self._keep = keep
         self._announced = True
         self._commanders: Commanders | None = None
         try:
@@ -319,6 +321,7 @@ class PlaybackNode(Node):
                 self.playback.load(now_ns, trajectory)
             self._back = None
             done = self.playback.status().message
+        self._keep()
         self._announce_targets(now_ns, trajectory)
         return done
 
