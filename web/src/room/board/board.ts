@@ -12,6 +12,9 @@ export const EDGE = 26
 export const TOP = 112
 export const BOTTOM = BOARD_HEIGHT - 62
 const NOTICE_S = 10
+/** s that it is left alone when another one comes. */
+const READ_S = 1.5
+const MOST_WAITING = 3
 /** s between two checks whether the text of the shown tab has changed. */
 const ASK_PERIOD = 1
 /** mm between two tabs; and the width of a tab's margins, in letters. */
@@ -44,6 +47,7 @@ export class Board {
   private notice = ''
   private warns = false
   private noticedAt = 0
+  private readonly waiting: { readonly text: string; readonly warns: boolean }[] = []
   private now = 0
   private askedAt = 0
   /** The changing text of the tab when it was last read. */
@@ -69,10 +73,21 @@ export class Board {
     this.panel.repaint()
   }
 
-  /** Show a sentence at the bottom for a while. */
+  /** Show a sentence at the bottom for a while, after those before it could be read. */
   say(text: string, warns = true): void {
-    this.notice = text
-    this.warns = warns
+    if ((this.waiting.at(-1)?.text ?? this.notice) === text) return
+    this.waiting.push({ text, warns })
+    if (this.waiting.length > MOST_WAITING) this.waiting.shift()
+    this.next()
+  }
+
+  private next(): void {
+    const read = this.notice === '' || this.now - this.noticedAt > READ_S
+    const [first] = this.waiting
+    if (first === undefined || !read) return
+    this.waiting.shift()
+    this.notice = first.text
+    this.warns = first.warns
     this.noticedAt = this.now
     this.panel.repaint()
   }
@@ -85,6 +100,7 @@ export class Board {
       if (says !== this.said) this.panel.repaint()
       this.said = says
     }
+    this.next()
     if (this.notice !== '' && now - this.noticedAt > NOTICE_S) {
       this.notice = ''
       this.panel.repaint()
