@@ -24,6 +24,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(path) for path in (ROOT / "test" / "support").iterdir()]
 
 import student_files  # noqa: E402
+from browser_side import eventually  # noqa: E402
 from page_objects import SignInPage, UploadPage  # noqa: E402
 from served_lab import Gateway, ServedLab, gateway_with_people, served_lab  # noqa: E402
 
@@ -60,7 +61,8 @@ def start(page: Page, stage: Stage) -> None:
     page.goto(stage.gateway.url)
     page.locator(".picker-choice").first.wait_for()
     # not the network's silence: the page always waits for the next motion of a program
-    page.wait_for_function("[...document.images].every((image) => image.complete)")
+    whole = "[...document.images].every((image) => image.complete || image.loading === 'lazy')"
+    eventually(page, lambda: bool(page.evaluate(whole)))
 
 
 def sent(page: Page, stage: Stage, file: Path) -> UploadPage:
