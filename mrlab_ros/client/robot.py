@@ -314,14 +314,16 @@ class Run:
         self._deadline = time.monotonic() + STATE_TIMEOUT_S
 
     def advance(self) -> Sequence[Any]:
-        """Take what the robot has reported since; return the new states.
+        """Take what the robot has reported since, up to COMPLETE; return the new states.
 
         Raises LabError where the run will not complete, with the reason and what to do.
         """
-        new = self.follower.states[self._since :]
-        self._since += len(new)
-        for state in new:
-            self._course.take(state)
+        new = []
+        # The playback is READY at once after COMPLETE; whether that was heard yet is chance.
+        while not self.complete and self._since < len(self.follower.states):
+            new.append(self.follower.states[self._since])
+            self._since += 1
+            self._course.take(new[-1])
         if not self._course.moving and not self.complete and time.monotonic() > self._deadline:
             still = say.DOES_NOT_MOVE(robot=self.follower.robot, timeout=STATE_TIMEOUT_S)
             raise LabError(still)
