@@ -11,7 +11,7 @@
 # make lint   ruff and mypy
 # make lock   write the lock files anew from requirements*.in
 # make audit  list every locked package with its licence, and the advisories that files of OSV have for it
-#             (ARGS='PyPI.zip npm.zip'; docs/security.md says where they are)
+#             (ARGS='PyPI.zip npm.zip'; docs/security-model.md says where they are)
 # make clean  remove everything that set-up made
 
 SHELL := /bin/bash

@@ -36,8 +36,8 @@ ROOT = Path(__file__).resolve().parents[2]
 # The state machines of the lab: page, name of its blocks, table.
 MACHINES: tuple[tuple[str, str, Table], ...] = (
     ("docs/playback.md", "playback", playback.TABLE),
-    ("docs/systems.md", "system", systems.TABLE),
-    ("docs/recorder.md", "recorder", recording.TABLE),
+    ("docs/system-states.md", "system", systems.TABLE),
+    ("docs/recorder-states.md", "recorder", recording.TABLE),
     ("docs/physics.md", "grasp", states.TABLE),
 )
 BLOCKS: dict[tuple[str, str], Callable[[], str]] = {

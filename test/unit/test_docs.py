@@ -47,7 +47,7 @@ def test_no_block_of_commands_is_indented_past_its_mark(page: Path) -> None:
 
 
 def test_the_tests_of_the_threat_model_exist():
-    text = (ROOT / "docs/security.md").read_text()
+    text = (ROOT / "docs/security-model.md").read_text()
     model = text.partition("## Threat model")[2].partition("\n## ")[0]
     named = re.findall(r"`(unit/\S+\.py|node/\S+\.py|test_\w+)`", model)
     assert len(named) > 30

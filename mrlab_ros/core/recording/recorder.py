@@ -1,7 +1,7 @@
 """The recorder: its states, its journal, and the timeline of a replay.
 
-One table decides every transition; `docs/recorder.md` shows the diagram and the table. A replay
-that loops starts over within its state, by its timeline, so a new round is no event.
+One table decides every transition; `docs/recorder-states.md` shows the diagram and the table.
+A replay that loops starts over within its state, by its timeline, so a new round is no event.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """The seven states of a robot system: one table decides every transition.
 
-`docs/systems.md` shows the diagram and the table. Setting the rate and the loop changes no state
-and is allowed in every state, so these are no events.
+`docs/system-states.md` shows the diagram and the table. Setting the rate and the loop
+changes no state and is allowed in every state, so these are no events.
 """
 
 from __future__ import annotations
