@@ -25,8 +25,10 @@ from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from mrlab_ros.core.base.clock import SECOND, PlaybackClock
 from mrlab_ros.core.base.geometry import Array, Pose
+from mrlab_ros.core.base.phrase import ended
+from mrlab_ros.core.playback import diagnostics as say
 from mrlab_ros.core.playback.execution import PlaybackStatus
-from mrlab_ros.core.playback.goal import Goal, Point
+from mrlab_ros.core.playback.goal import Goal, Point, WrongGoal
 from mrlab_ros.core.playback.pursuit import Bounds, Instant, Outcome
 from mrlab_ros.core.playback.stream import Sample
 from mrlab_ros.core.trajectory.trajectory import Trajectory
@@ -193,10 +195,13 @@ def goal_from_message(message: JointTrajectory) -> Goal:
 
 
 def bounds_from_goal(goal: Any) -> Bounds:
-    """Return the tolerances of a FollowJointTrajectory.Goal."""
+    """Return the tolerances of a FollowJointTrajectory.Goal; raise WrongGoal for components."""
+    for name in ("component_path_tolerance", "component_goal_tolerance"):
+        if getattr(goal, name):
+            raise WrongGoal(say.HAS_MULTI_DOF(field=name))
     return Bounds(
-        _positions(goal.path_tolerance),
-        _positions(goal.goal_tolerance),
+        _by_joint(goal.path_tolerance),
+        _by_joint(goal.goal_tolerance),
         _seconds(goal.goal_time_tolerance),
     )
 
@@ -206,19 +211,21 @@ def feedback_to_message(now_ns: int, robot: str, joints: Iterable[str], instant:
         header=make_header(now_ns, robot),
         joint_names=list(joints),
         desired=_point(instant, instant.desired, instant.desired_velocities),
-        actual=_point(instant, instant.actual),
-        error=_point(instant, instant.desired - instant.actual),
+        actual=_point(instant, instant.actual, instant.actual_velocities),
+        error=_point(instant, instant.errors[0], instant.errors[1]),
     )
 
 
 def result_to_message(outcome: Outcome) -> Any:
+    """Return the result, whose sentence is the reason, then the figures."""
+    said = filter(None, (outcome.said, outcome.figures))
     return FollowJointTrajectory.Result(
-        error_code=outcome.code.value, error_string=str(outcome.said)
+        error_code=outcome.code.value, error_string=" ".join(ended(str(each)) for each in said)
     )
 
 
-def _positions(tolerances: Iterable[Any]) -> dict[str, float]:
-    return {tolerance.name: tolerance.position for tolerance in tolerances}
+def _by_joint(tolerances: Iterable[Any]) -> dict[str, tuple[float, float, float]]:
+    return {each.name: (each.position, each.velocity, each.acceleration) for each in tolerances}
 
 
 def _seconds(duration: Duration) -> float:

@@ -288,8 +288,8 @@ GOAL_TOO_FAST = Code(
 )
 HAS_MULTI_DOF = Code(
     "has_multi_dof",
-    "The goal has a multi_dof_trajectory; expected none.",
-    meaning="A goal for joints with several degrees of freedom.",
+    "The goal has a {field}; expected none: each joint of the robot has one degree of freedom.",
+    meaning="A goal, or a tolerance, for joints with several degrees of freedom.",
 )
 TOLERANCE_OF_NO_JOINT = Code(
     "tolerance_of_no_joint",
@@ -298,14 +298,22 @@ TOLERANCE_OF_NO_JOINT = Code(
 )
 TOLERANCE_NO_NUMBER = Code(
     "tolerance_no_number",
-    "The tolerance for {joint} is {tolerance:number}; expected a finite number.",
-    meaning="A tolerance of a goal is NaN or infinite.",
+    "The tolerance for {joint} is {tolerance:number}; expected a number above 0, or 0 or -1 for "
+    "no limit.",
+    meaning="A tolerance of a goal is NaN, infinite, or below 0 and not -1.",
 )
 
 # how a goal ended
 
 GOAL_REACHED = Code(
     "goal_reached", "Goal successfully reached!", severity=INFO, meaning="A goal was reached."
+)
+GOAL_FIGURES = Code(
+    "goal_figures",
+    "After {elapsed:time} of {duration:time}: {joint} is the furthest from the goal, by "
+    "{left:fine_angle}; {worst} was the furthest off the path, by {most:fine_angle} at most.",
+    severity=INFO,
+    meaning="How far a goal came; it follows the reason in the answer of the action.",
 )
 GOAL_CANCELLED = Code(
     "goal_cancelled",
@@ -333,12 +341,12 @@ GOAL_STOPPED = Code(
 )
 OFF_GOAL = Code(
     "off_goal",
-    "{joint} is {value:angle} off the goal; expected {limit:angle} at most.",
+    "{joint} is {value:measure} off the goal; expected {limit:measure} at most.",
     meaning="A goal ended outside its goal tolerance.",
 )
 OFF_PATH = Code(
     "off_path",
-    "{joint} is {value:angle} off the path; expected {limit:angle} at most[; the robot is in "
+    "{joint} is {value:measure} off the path; expected {limit:measure} at most[; the robot is in "
     "{state:state}].",
     meaning="A goal left its path tolerance.",
 )

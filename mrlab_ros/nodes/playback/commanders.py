@@ -111,7 +111,7 @@ class Commanders:
             self._statuses.clear()
             replaced, self._pursuit = self._pursuit, Pursuit(trajectory, start_ns, bounds)
         if replaced is not None and self._goal is not None:
-            given_up = Outcome(Code.INVALID_GOAL, say.GOAL_REPLACED())
+            given_up = Outcome(Code.INVALID_GOAL, say.GOAL_REPLACED(), replaced.figures())
             self._finish(self._goal, given_up, "abort")
         self._goal = None
         self._loaded(now_ns, trajectory)
@@ -120,7 +120,7 @@ class Commanders:
         request = goal.request
         try:
             if request.multi_dof_trajectory.points:
-                raise WrongGoal(say.HAS_MULTI_DOF())
+                raise WrongGoal(say.HAS_MULTI_DOF(field="multi_dof_trajectory"))
             _refuse_doubtful()
             self._pursue(request.trajectory, bounds_from_goal(request))
         except LabError as error:
@@ -185,14 +185,15 @@ class Commanders:
             self._stop_watching()
             return
         if goal.is_cancel_requested:
-            self._end(Outcome(Code.SUCCESSFUL, say.GOAL_CANCELLED()), "canceled")
+            held = Outcome(Code.SUCCESSFUL, say.GOAL_CANCELLED(), pursuit.figures())
+            self._end(held, "canceled")
             return
         while self._statuses:
             pursuit.note(self._statuses.popleft())
         if last is None:
             return
         now_ns = self._now_ns()
-        instant = pursuit.instant(now_ns, last.sample.due_ns, last.sample.positions)
+        instant = pursuit.instant(now_ns, last.sample)
         outcome = pursuit.outcome(now_ns, instant)
         joints = pursuit.trajectory.joint_names
         stamp_ns = self._clock.stamp(now_ns)

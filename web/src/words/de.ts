@@ -1727,6 +1727,9 @@ export const diagnostics: Templates = {
     '{place:problem}: Eine <geometry> enthält <{tag}>; erwartet: {known:either}.',
   ],
   goal_cancelled: ['abgebrochen: Der Arm bleibt, wo er ist'],
+  goal_figures: [
+    'Nach {elapsed:time} von {duration:time}: Am weitesten vom Ziel ist {joint} mit {left:fine_angle}; am weitesten von der Bahn war {worst} mit höchstens {most:fine_angle}.',
+  ],
   goal_halted: ['Der Arm hielt an[: {why:problem}].'],
   goal_late: [
     'Das Ziel war {late:time} nach seiner Zeit noch nicht erreicht[; der Roboter ist im Zustand „{state:state}“].',
@@ -1817,7 +1820,9 @@ export const diagnostics: Templates = {
     `{name} hat schon einen Schlüssel, mit der Rolle {role:choice ${ROLE}}.`,
     'Nimm diesen zuerst zurück.',
   ],
-  has_multi_dof: ['Das Ziel enthält eine multi_dof_trajectory; erwartet wird keine.'],
+  has_multi_dof: [
+    'Das Ziel enthält {field}; erwartet wird keine: Jedes Gelenk des Roboters hat einen Freiheitsgrad.',
+  ],
   has_no_key: ['{name} hat in {folder} keinen Schlüssel[; einen haben: {known:list}].'],
   headings_again: [
     'in Zeile {line:integer} stehen die Überschriften {headings:list} noch einmal: Die Datei enthält mehrere Aufnahmen; behalte eine davon',
@@ -2994,9 +2999,9 @@ export const diagnostics: Templates = {
     'Wandle die Datei noch einmal um.',
   ],
   of_robot: ['{robot}: {why:problem}'],
-  off_goal: ['{joint} ist {value:angle} vom Ziel entfernt; erwartet: höchstens {limit:angle}.'],
+  off_goal: ['{joint} weicht um {value:measure} vom Ziel ab; erwartet: höchstens {limit:measure}.'],
   off_path: [
-    '{joint} ist {value:angle} von der Bahn entfernt; erwartet: höchstens {limit:angle}[; der Roboter ist im Zustand „{state:state}“].',
+    '{joint} weicht um {value:measure} von der Bahn ab; erwartet: höchstens {limit:measure}[; der Roboter ist im Zustand „{state:state}“].',
   ],
   one_local_user: [
     'Dieses Labor hat eine einzige Person am Rechner selbst; es gibt kein Anmelden und keine gekoppelten Geräte.',
@@ -3914,7 +3919,7 @@ export const diagnostics: Templates = {
     'Mach welche, und nenne ihren Ordner (Parameter keys).',
   ],
   tolerance_no_number: [
-    'Die Toleranz für {joint} ist {tolerance:number}; erwartet wird eine endliche Zahl.',
+    'Die Toleranz für {joint} ist {tolerance:number}; erwartet: eine Zahl über 0, oder 0 oder -1 für keine Grenze.',
   ],
   tolerance_of_no_joint: [
     'Eine Toleranz ist für {found}; erwartet wird eines von {expected:list}.',

@@ -288,7 +288,7 @@ def follow(stage: Stage, bounds: Bounds):
         for status in stage.playback.take_statuses():
             pursuit.note(status)
         sample = stage.samples[-1]
-        instant = pursuit.instant(stage.now_ns, sample.due_ns, sample.positions)
+        instant = pursuit.instant(stage.now_ns, sample)
         return pursuit.outcome(stage.now_ns, instant)
 
     stage.playback.take_statuses()
@@ -296,20 +296,28 @@ def follow(stage: Stage, bounds: Bounds):
 
 
 def test_a_pursuit_ends_with_what_happened(stage: Stage) -> None:
-    tight = Bounds(path=dict.fromkeys(NAMES, 0.01), goal=dict.fromkeys(NAMES, 0.01), time=0.5)
+    each = dict.fromkeys(NAMES, (0.01, 0.01, 0.01))
+    tight = Bounds(path=each, goal=each, time=0.5)
     outcome = follow(stage, tight)
     stage.run(0.5)
     assert outcome() is None
     stage.run(0.6)
-    assert outcome().code is Code.SUCCESSFUL
+    done = outcome()
+    assert done.code is Code.SUCCESSFUL
+    assert done.figures.values["elapsed"] == done.figures.values["duration"] == 1.0
+    assert (done.figures.values["left"], done.figures.values["most"]) == (0.0, pytest.approx(0))
 
 
 @pytest.mark.parametrize(
     ("bounds", "disturb", "after", "code", "said"),
     [
         (
-            Bounds(path=dict.fromkeys(NAMES, 0.05)), "pause", 0.3, Code.PATH_TOLERANCE_VIOLATED,
-            "off_path",
+            Bounds(path=dict.fromkeys(NAMES, (0.05, 0.0, -1.0))), "pause", 0.3,
+            Code.PATH_TOLERANCE_VIOLATED, "off_path",
+        ),
+        (
+            Bounds(path={NAMES[2]: (0.0, 0.3, 0.0)}), "pause", 0.02,
+            Code.PATH_TOLERANCE_VIOLATED, "off_path",
         ),
         (Bounds(time=0.5), "pause", 2.0, Code.GOAL_TOLERANCE_VIOLATED, "goal_late"),
         (Bounds(), "stop", 0.0, Code.INVALID_GOAL, "goal_stopped"),
@@ -349,4 +357,17 @@ def test_tolerances_name_joints() -> None:
     with refused(say.TOLERANCE_OF_NO_JOINT, WrongGoal, found="x"):
         Bounds(path={"x": 1.0}).check(NAMES)
     with refused(say.TOLERANCE_NO_NUMBER, WrongGoal, joint=NAMES[0]):
-        Bounds(goal={NAMES[0]: float("nan")}).check(NAMES)
+        Bounds(goal={NAMES[0]: (0.0, 0.0, float("nan"))}).check(NAMES)
+    with refused(say.TOLERANCE_NO_NUMBER, WrongGoal, joint=NAMES[0], tolerance=-0.5):
+        Bounds(path={NAMES[0]: (0.1, -0.5, 0.0)}).check(NAMES)
+    Bounds(path={NAMES[0]: (-1.0, 0.0, 0.1)}, time=-1.0).check(NAMES)
+
+
+def test_an_acceleration_is_the_change_of_the_velocity_s_error(stage: Stage) -> None:
+    outcome = follow(stage, Bounds(path={NAMES[2]: (0.0, 0.0, 5.0)}))
+    stage.run(0.3)
+    assert outcome() is None
+    stage.playback.pause(stage.now_ns)
+    stage.run(0.05)
+    values = outcome().said.values
+    assert (values["unit"], values["value"]) == ("rad/s^2", pytest.approx(0.5 / 0.05))
