@@ -14,13 +14,12 @@ from dataclasses import dataclass
 
 from mrlab_ros.adapters.bullet.arms import Arms
 from mrlab_ros.adapters.bullet.fingers import Fingers
-from mrlab_ros.adapters.bullet.objects import Objects
+from mrlab_ros.adapters.bullet.objects import Objects, carried
 from mrlab_ros.adapters.bullet.quiet import pybullet
 from mrlab_ros.core.base.geometry import (
     Pose,
     Vector,
     add,
-    compose,
     cross,
     dot,
     relative,
@@ -314,8 +313,5 @@ class Holding:
         rigid constraint."""
         for name, held in self.held.items():
             hand = self._arms.link(held.arm, held.link)
-            pose = compose(hand.pose, held.offset)
-            way = subtract(pose.position, hand.pose.position)
-            linear = add(hand.linear, cross(hand.angular, way))
-            held.motion = BodyState(pose, linear, hand.angular)
+            held.motion = carried(hand, held.offset)
             self._objects.move_held(name, held.motion, duration)

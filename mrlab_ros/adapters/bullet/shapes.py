@@ -17,8 +17,9 @@ from mrlab_ros.adapters.bullet.diagnostics import (
 )
 from mrlab_ros.adapters.bullet.quiet import pybullet
 from mrlab_ros.core.base.errors import BadInput
-from mrlab_ros.core.base.geometry import Array, Pose
-from mrlab_ros.core.physics.engine import Body, Part, Shape
+from mrlab_ros.core.base.geometry import Array, Pose, Vector, relative, rotation
+from mrlab_ros.core.physics.engine import IDENTITY, Body, Part, Shape
+from mrlab_ros.core.physics.inertia import principal
 
 # Bullet multiplies the coefficients of both bodies, so 1 leaves it to the object.
 NEUTRAL = 1.0
@@ -30,20 +31,26 @@ SWEPT = 0.8
 MARGIN = 0.001
 STATIC_GROUP = 2  # Bullet's own collision group of what never moves
 ROUND = (Shape.SPHERE, Shape.CYLINDER, Shape.HULL)
+# A part that is nearer to its body's frame, m and share of a turn, lies in it.
+SAME_PLACE = 1e-9
+CENTRED = {
+    "collisionFramePosition": IDENTITY.position,
+    "collisionFrameOrientation": IDENTITY.orientation,
+}
 NUMBERS = {Shape.BOX: 3, Shape.CYLINDER: 2, Shape.SPHERE: 1}
 
 
-def make_shape(client: int, body: Body) -> int:
+def make_shape(client: int, body: Body, frame: Pose = IDENTITY) -> int:
     """Return Bullet's number of a new shape; raise BadInput where the body is none.
 
-    pybullet keeps a shape for as long as its world lives.
+    frame: of the shape, in that of the body's parts. pybullet keeps a shape for as long as its
+    world lives.
     """
     if not (math.isfinite(body.mass) and body.mass >= 0 and body.parts):
         raise BadInput(BAD_BODY(mass=body.mass, parts=len(body.parts)))
     static = body.mass == 0
-    parts = [_shape(part, static) for part in body.parts]
-    centred = parts[0]["collisionFramePosition"] == (0.0, 0.0, 0.0)
-    if len(parts) == 1 and centred:
+    parts = [_shape(part, relative(frame, part.pose), static) for part in body.parts]
+    if len(parts) == 1 and _centred(parts[0]):
         part = parts[0]
         del part["collisionFramePosition"], part["collisionFrameOrientation"]
         shape: int = pybullet.createCollisionShape(**part, physicsClientId=client)
@@ -52,6 +59,23 @@ def make_shape(client: int, body: Body) -> int:
     if shape < 0:
         raise BadInput(NO_SHAPE())
     return shape
+
+
+def mass_frame(body: Body) -> tuple[Pose, Vector | None]:
+    """Return the frame of the principal axes at a body's centre of mass, in that of its parts, and
+    the moments about them, kg*m^2; None: those that Bullet computes of one solid are right."""
+    if len(body.parts) == 1 and body.parts[0].shape in NUMBERS:
+        return body.parts[0].pose, None
+    if body.inertia is None:
+        return IDENTITY, None
+    moments, axes = principal(body.inertia)
+    return Pose(body.centre, axes), moments
+
+
+def _centred(part: dict[str, Any]) -> bool:
+    """Return whether a shape lies in the body's frame as in its own."""
+    numbers = (*part["collisionFramePosition"], *part["collisionFrameOrientation"][:3])
+    return all(abs(x) < SAME_PLACE for x in numbers)
 
 
 def make_body(client: int, body: Body, shape: int, pose: Pose) -> int:
@@ -122,14 +146,17 @@ def _compound(client: int, parts: list[dict[str, Any]]) -> int:
     return made
 
 
-def _shape(part: Part, static: bool) -> dict[str, Any]:
-    """Return the arguments of createCollisionShape; raise BadInput where the part is no shape."""
+def _shape(part: Part, pose: Pose, static: bool) -> dict[str, Any]:
+    """Return the arguments of createCollisionShape; raise BadInput where the part is no shape.
+
+    pose: of the part.
+    """
     size, count = part.size, NUMBERS.get(part.shape, 0)
     if len(size) != count or not all(1e-4 <= s <= 1000 for s in size):
         raise BadInput(BAD_SIZE(shape=part.shape.value, size=[*size], count=count))
     result: dict[str, Any] = {
-        "collisionFramePosition": part.pose.position,
-        "collisionFrameOrientation": part.pose.orientation,
+        "collisionFramePosition": pose.position,
+        "collisionFrameOrientation": pose.orientation,
     }
     if part.shape is Shape.BOX:
         result.update(shapeType=pybullet.GEOM_BOX, halfExtents=[s / 2 for s in size])
@@ -138,16 +165,18 @@ def _shape(part: Part, static: bool) -> dict[str, Any]:
     elif part.shape is Shape.SPHERE:
         result.update(shapeType=pybullet.GEOM_SPHERE, radius=size[0])
     else:
-        result.update(_mesh(part, static))
+        result.update(_mesh(part, pose, static))
     return result
 
 
-def _mesh(part: Part, static: bool) -> dict[str, Any]:
+def _mesh(part: Part, pose: Pose, static: bool) -> dict[str, Any]:
+    """Return the arguments of a hull or a mesh, whose corners are moved to where the part is."""
     vertices, triangles = part.vertices, part.triangles
     if vertices is None or len(vertices) < 3 or not np.isfinite(vertices).all():
         raise BadInput(BAD_MESH())
     if part.shape is Shape.HULL:
-        return {"shapeType": pybullet.GEOM_MESH, "vertices": _within_margin(vertices).tolist()}
+        corners = _placed(_within_margin(vertices), pose)
+        return {"shapeType": pybullet.GEOM_MESH, "vertices": corners.tolist(), **CENTRED}
     if not static:
         raise BadInput(HOLLOW_MESH())
     if triangles is None or not (
@@ -156,10 +185,16 @@ def _mesh(part: Part, static: bool) -> dict[str, Any]:
         raise BadInput(MESH_NO_VERTEX())
     return {
         "shapeType": pybullet.GEOM_MESH,
-        "vertices": vertices.tolist(),
+        "vertices": _placed(vertices, pose).tolist(),
         "indices": triangles.ravel().tolist(),
         "flags": pybullet.GEOM_FORCE_CONCAVE_TRIMESH,
+        **CENTRED,
     }
+
+
+def _placed(vertices: Array, pose: Pose) -> Array:
+    turned: Array = vertices @ rotation(pose.orientation).T + pose.position
+    return turned
 
 
 def _within_margin(vertices: Array) -> Array:

@@ -46,6 +46,12 @@ OBJECT_MESH_EMPTY = Code(
     "Export it again.",
     meaning="The mesh of an object holds nothing.",
 )
+OBJECT_MESH_FLAT = Code(
+    "object_mesh_flat",
+    "The mesh {mesh} is flat; what falls and is held needs a volume.",
+    "Give it a thickness, or write fixed: true.",
+    meaning="The mesh of an object that can move encloses nothing.",
+)
 OBJECT_MESH_SIZE = Code(
     "object_mesh_size",
     "The mesh {mesh} measures {size:length}; expected {low:length} to {high:length}.",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Any
 
@@ -9,6 +10,7 @@ import numpy as np
 
 from mrlab_ros.adapters.scenes.diagnostics import (
     OBJECT_MESH_EMPTY,
+    OBJECT_MESH_FLAT,
     OBJECT_MESH_MISSING,
     OBJECT_MESH_SIZE,
     OBJECT_MESH_TOO_FINE,
@@ -16,11 +18,14 @@ from mrlab_ros.adapters.scenes.diagnostics import (
     OBJECT_MESH_URI,
 )
 from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.geometry import Array
 from mrlab_ros.core.physics.catalogue import Mesh
 
 PREFIX = "package://mrlab_ros/"
 FORMATS = (".glb", ".obj", ".stl")
 SIZE_RANGE = (0.002, 5.0)  # m, of the largest edge of the bounding box
+# More corners of a hull cost time at every step and make it no better.
+HULL_CORNERS = 128
 
 
 class ObjectMeshes:
@@ -65,3 +70,29 @@ class ObjectMeshes:
         if not low <= size <= high:
             raise BadInput(OBJECT_MESH_SIZE(mesh=uri, size=size, low=low, high=high))
         return Mesh(vertices, triangles)
+
+    def hull(self, uri: str) -> Mesh:
+        """Return the convex hull of the corners that reach furthest; raise BadInput as read(), or
+        where it is flat."""
+        import trimesh
+        from scipy.spatial import QhullError
+
+        try:
+            hull: Any = trimesh.convex.convex_hull(extreme(self.read(uri).vertices))
+        except QhullError:
+            raise BadInput(OBJECT_MESH_FLAT(mesh=uri)) from None
+        return Mesh(np.array(hull.vertices), np.array(hull.faces, dtype=np.int32))
+
+
+def extreme(vertices: Array) -> Array:
+    """Return the vertices that reach furthest, each in one of HULL_CORNERS even directions.
+
+    Directions: a Fibonacci lattice on the sphere.
+    """
+    k = np.arange(HULL_CORNERS) + 0.5
+    z = 1 - 2 * k / HULL_CORNERS
+    turn = math.pi * (1 + math.sqrt(5)) * k
+    across = np.sqrt(1 - z * z)
+    directions = np.stack([across * np.cos(turn), across * np.sin(turn), z])
+    kept: Array = vertices[np.unique((vertices @ directions).argmax(axis=0))]
+    return kept

@@ -150,6 +150,11 @@ def rotate(q: Quaternion, v: Vector) -> Vector:
     return add(add(v, scale(t, q[3])), cross(axis, t))
 
 
+def rotation(q: Quaternion) -> Array:
+    """Return the (3, 3) matrix that rotates as `q` does."""
+    return np.column_stack([rotate(q, axis) for axis in ((1, 0, 0), (0, 1, 0), (0, 0, 1))])
+
+
 def multiply(a: Quaternion, b: Quaternion) -> Quaternion:
     """Return the rotation b followed by a."""
     ax, ay, az, aw = a

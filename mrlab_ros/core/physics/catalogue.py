@@ -18,6 +18,7 @@ from mrlab_ros.core.base.checks import (
     Number,
     Numbers,
     Words,
+    above,
     between,
     checked,
 )
@@ -43,9 +44,10 @@ from mrlab_ros.core.physics.diagnostics import (
     SHAPE_AND_PARTS,
 )
 from mrlab_ros.core.physics.engine import IDENTITY, Body, Part, Shape
+from mrlab_ros.core.physics.inertia import mass_properties
 
 SOLID = Choice({shape.value: shape for shape in (Shape.BOX, Shape.CYLINDER, Shape.SPHERE)})
-PART_FIELDS = ("shape", "size", "at", "rpy_deg")
+PART_FIELDS = ("shape", "size", "at", "rpy_deg", "density")
 FIELDS = ("shape", "size", "parts", "mass", "fixed", "color", "mesh", "friction", "restitution",
           "about")  # fmt: skip
 SIZE_LIMITS = between(0.002, 5.0)
@@ -68,9 +70,8 @@ class _Mass(Number):
 MASS = _Mass(between(0.001, 500.0), "kg")
 FRICTION = Number(between(0.0, 5.0))
 RESTITUTION = Number(between(0.0, 1.0))
+DENSITY = Number(above(0.0, 30_000.0))
 COLOR = Numbers(4, between(0.0, 1.0), "red, green, blue, alpha")
-# More corners cost time at every step and make the hull no better.
-HULL_CORNERS = 128
 # URI of the mesh that the lab draws of an object of several parts that has none; see drawing.glb.
 DRAWN = "package://mrlab_ros/objects/{}.glb"
 
@@ -84,19 +85,23 @@ class Mesh:
 
 
 class Meshes(Protocol):
-    """Finds and reads the meshes of a catalogue. Both raise BadInput for an unknown URI."""
+    """Finds and reads the meshes of a catalogue. All raise BadInput for an unknown URI."""
 
     def find(self, uri: str) -> object: ...
 
     def read(self, uri: str) -> Mesh: ...
+
+    def hull(self, uri: str) -> Mesh:
+        """Read the convex hull of a mesh; its triangles close around it."""
+        ...
 
 
 @dataclass(frozen=True, eq=False)
 class ObjectType:
     """One entry of the catalogue.
 
-    body: its parts about its centre of mass. low, high: corners of its bounding box in its own
-    frame, m. color: red, green, blue, alpha, 0 to 1. mesh: URI for displays; empty: draw `solid`.
+    body: its parts in its own frame. low, high: corners of its bounding box there, m. color: red,
+    green, blue, alpha, 0 to 1. mesh: URI for displays; empty: draw `solid`.
     """
 
     id: str
@@ -166,12 +171,15 @@ def _type(name: object, value: object, meshes: Meshes | None) -> ObjectType:
     if "shape" in entry and described:
         raise entry.error(SHAPE_AND_PARTS())
     if uri and meshes is not None and "shape" not in entry and not described:
-        parts = [_of_mesh(meshes.read(uri), fixed)]
+        mesh = meshes.read(uri) if fixed else meshes.hull(uri)
+        shape = Shape.MESH if fixed else Shape.HULL
+        parts = [Part(shape, vertices=mesh.vertices, triangles=mesh.triangles)]
     else:
         if uri and meshes is not None:
             meshes.find(uri)
         parts = [_part(part) for part in described or [entry]]
     boxes = [_bounds(part) for part in parts]
+    centre, inertia = mass_properties(parts, mass) if mass else ((0.0, 0.0, 0.0), None)
     red, green, blue, alpha = entry.value("color", COLOR, (0.7, 0.7, 0.7, 1.0))
     return ObjectType(
         id=type_id,
@@ -180,6 +188,8 @@ def _type(name: object, value: object, meshes: Meshes | None) -> ObjectType:
             mass,
             entry.value("friction", FRICTION, 0.6),
             entry.value("restitution", RESTITUTION, 0.1),
+            centre,
+            inertia,
         ),
         low=_corner(min, [b[0] for b in boxes]),
         high=_corner(max, [b[1] for b in boxes]),
@@ -194,33 +204,13 @@ def _solid(parts: Sequence[Part]) -> Part | None:
     return only if only and only.shape in SIZES and only.pose == IDENTITY else None
 
 
-def _of_mesh(mesh: Mesh, fixed: bool) -> Part:
-    """Return what collides of a mesh: itself where it is fixed, else its corners' convex hull."""
-    if fixed:
-        return Part(Shape.MESH, vertices=mesh.vertices, triangles=mesh.triangles)
-    return Part(Shape.HULL, vertices=_extreme(mesh.vertices))
-
-
-def _extreme(vertices: Array) -> Array:
-    """Return the vertices that reach furthest, each in one of HULL_CORNERS even directions.
-
-    Directions: a Fibonacci lattice on the sphere.
-    """
-    k = np.arange(HULL_CORNERS) + 0.5
-    z = 1 - 2 * k / HULL_CORNERS
-    turn = math.pi * (1 + math.sqrt(5)) * k
-    across = np.sqrt(1 - z * z)
-    directions = np.stack([across * np.cos(turn), across * np.sin(turn), z])
-    kept: Array = vertices[np.unique((vertices @ directions).argmax(axis=0))]
-    return kept
-
-
 def _part(entry: Record) -> Part:
     shape = entry.required("shape", SOLID)
     size = entry.required("size", SIZES[shape])
     x, y, z = entry.value("at", POSITION, (0.0, 0.0, 0.0))
     roll, pitch, yaw = map(math.radians, entry.value("rpy_deg", ANGLES, (0.0, 0.0, 0.0)))
-    return Part(shape, size, Pose((x, y, z), quaternion_from_rpy(roll, pitch, yaw)))
+    pose = Pose((x, y, z), quaternion_from_rpy(roll, pitch, yaw))
+    return Part(shape, size, pose, density=entry.value("density", DENSITY, 1.0))
 
 
 def _half(part: Part) -> Vector:

@@ -1,7 +1,7 @@
 """The port to a physics engine.
 
 Everything has a name: arms, objects and surfaces each have names of their own. SI units; poses
-are in the frame world; an object's frame is its centre of mass.
+are in the frame world.
 """
 
 from __future__ import annotations
@@ -42,28 +42,33 @@ class Shape(Enum):
 
 @dataclass(frozen=True, eq=False)
 class Part:
-    """One shape of a body. vertices: (V, 3) m; triangles: (T, 3) vertex indices."""
+    """One shape of a body. vertices: (V, 3) m; triangles: (T, 3) vertex indices. density: beside
+    the other parts' of the body, whose mass they share."""
 
     shape: Shape
     size: tuple[float, ...] = ()
     pose: Pose = IDENTITY
     vertices: Array | None = None
     triangles: NDArray[np.int32] | None = None
+    density: float = 1.0
 
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """An object or a surface for the engine. mass: kg, 0 is fixed."""
+    """An object or a surface for the engine. mass: kg, 0 is fixed. centre: of mass, m, and
+    inertia: about it, (3, 3) kg*m^2, both in the frame of its parts; None: the engine's own."""
 
     parts: tuple[Part, ...]
     mass: float
     friction: float = 0.6
     restitution: float = 0.1
+    centre: Vector = (0.0, 0.0, 0.0)
+    inertia: Array | None = None
 
 
 @dataclass(frozen=True)
 class BodyState:
-    """A rigid body's pose and its velocities in world, m/s and rad/s, at its centre of mass."""
+    """A rigid body's pose and its velocities in world, m/s and rad/s, at the pose's origin."""
 
     pose: Pose
     linear: Vector = (0.0, 0.0, 0.0)

@@ -109,7 +109,7 @@ class Holding:
         """Look at what a grasp bears; the last look was `duration` s ago.
 
         The load is that of the instant of the last look: its acceleration is the second
-        difference of the object's places around it.
+        difference of the places of the object's centre of mass around it.
         """
         held = robot.holding
         if held is None:
@@ -119,8 +119,9 @@ class Holding:
         if len(held.poses) < 3:
             at, acceleration = held.poses[-1], STILL
         else:
-            before, at, after = held.poses
-            ways = subtract(after.position, at.position), subtract(at.position, before.position)
+            at = held.poses[1]
+            before, now, after = (_centre(thing, pose) for pose in held.poses)
+            ways = subtract(after, now), subtract(now, before)
             acceleration = scale(subtract(*ways), 1.0 / duration**2)
         held.load = self._load(robot, thing, at, acceleration)
         if held.load is None:
@@ -137,7 +138,8 @@ class Holding:
     def _load(
         self, robot: Robot, thing: SceneObject, at: Pose, acceleration: Vector
     ) -> Load | None:
-        """Return the load while the object is at `at` and accelerates by `acceleration`, m/s^2."""
+        """Return the load while the object is at `at` and its centre of mass accelerates by
+        `acceleration`, m/s^2."""
         held = robot.holding
         if held is None:
             return None
@@ -146,14 +148,14 @@ class Holding:
         link = self._world_state.hand(robot).pose
         tool = self._engine.link(robot.name, robot.tool_link).pose
         tool0 = compose(hand, relative(link, tool)).position
-        mass = thing.type.mass
+        mass, centre = thing.type.mass, _centre(thing, at)
         if held.grip is None:
-            return attached(tool0, at.position, mass, robot.payload)
+            return attached(tool0, centre, mass, robot.payload)
         return bears(
             held.grip,
             hand,
             tool0,
-            at.position,
+            centre,
             acceleration,
             mass,
             robot.payload,
@@ -263,6 +265,11 @@ class Holding:
         held.in_hand = Pose(add(held.in_hand.position, shift), held.in_hand.orientation)
         self._engine.slide(robot.held, shift)
         return None
+
+
+def _centre(thing: SceneObject, at: Pose) -> Vector:
+    """Return where the centre of mass of an object at `at` is, in world."""
+    return compose(at, Pose(thing.type.body.centre)).position
 
 
 def _code(said: Diagnostic | None) -> str:

@@ -115,9 +115,11 @@ class Inventory:
                 if found is None or abs(found - height) > 0.005:
                     continue
                 low, high = add(place, kind.low), add(place, kind.high)
-                # The engine's bounding boxes have a margin.
-                low = (low[0], low[1], low[2] + min(0.03, kind.size[2] / 2))
-                if not self._engine.overlapping(low, high):
+                # What it stands on is fixed, and the engine's bounding boxes have a margin.
+                above = (low[0], low[1], low[2] + min(0.03, kind.size[2] / 2))
+                there = self._engine.overlapping(low, high)
+                there -= {name for name, thing in self._objects.items() if not thing.graspable}
+                if not there and not self._engine.overlapping(above, high):
                     return Pose(place, wanted.orientation)
         raise Misuse(NO_FREE_PLACE(type=kind.id, distance=SPAWN_RINGS * pitch))
 

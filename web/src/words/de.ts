@@ -2955,6 +2955,10 @@ export const diagnostics: Templates = {
     'Das Netz {mesh} hat keine Dreiecke oder einen Eckpunkt, der nicht endlich ist.',
     'Exportiere es noch einmal.',
   ],
+  object_mesh_flat: [
+    'Das Netz {mesh} ist flach; was fällt und gehalten wird, braucht ein Volumen.',
+    'Gib ihm eine Dicke oder schreib fixed: true.',
+  ],
   object_mesh_missing: [
     'Das Netz {mesh} gibt es nicht.',
     'Lege es unter {path} ab, oder berichtige die URI.',

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import importlib.util
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,19 +13,19 @@ from refusals import refused
 
 from mrlab_ros.adapters.bullet.engine import BulletEngine
 from mrlab_ros.adapters.scenes.diagnostics import (
+    OBJECT_MESH_FLAT,
     OBJECT_MESH_MISSING,
     OBJECT_MESH_SIZE,
     OBJECT_MESH_TOO_FINE,
     OBJECT_MESH_UNREADABLE,
     OBJECT_MESH_URI,
 )
-from mrlab_ros.adapters.scenes.object_meshes import ObjectMeshes
+from mrlab_ros.adapters.scenes.object_meshes import HULL_CORNERS, ObjectMeshes
 from mrlab_ros.adapters.yaml_files import read_yaml
 from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.physics import catalogue
-from mrlab_ros.core.physics.catalogue import HULL_CORNERS
 from mrlab_ros.core.physics.engine import Shape
 from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.physics.world import World
@@ -74,6 +73,8 @@ def folder(tmp_path):
     trimesh.creation.torus(0.05, 0.02).export(tmp_path / "ring.stl")
     trimesh.creation.icosphere(6, 0.1).export(tmp_path / "fine.stl")
     trimesh.creation.icosphere(1, 100.0).export(tmp_path / "millimetres.stl")
+    sheet = trimesh.Trimesh([[0, 0, 0], [0.1, 0, 0], [0.1, 0.1, 0], [0, 0.1, 0]], [[0, 1, 2]])
+    sheet.export(tmp_path / "flat.stl")
     (tmp_path / "broken.glb").write_bytes(b"glTF")
     return tmp_path
 
@@ -107,6 +108,7 @@ def test_an_object_of_ones_own_collides_with_its_mesh(folder):
         (f"{URI}millimetres.stl", OBJECT_MESH_SIZE, {"size": 200.0, "low": 0.002}),
         (f"{URI}broken.glb", OBJECT_MESH_UNREADABLE, {}),
         (f"{URI}nothing.stl", OBJECT_MESH_MISSING, {}),
+        (f"{URI}flat.stl", OBJECT_MESH_FLAT, {}),
         (f"{URI}../../etc/passwd", OBJECT_MESH_URI, {}),
         ("http://elsewhere/ring.stl", OBJECT_MESH_URI, {}),
     ],
@@ -124,12 +126,12 @@ def test_a_mesh_that_is_only_looked_at_must_be_there(folder):
         catalogue.parse(entry(mesh=f"{URI}nothing.stl", **shown), meshes)
 
 
-def test_the_hull_of_a_mesh_reaches_as_far_as_the_mesh():
-    ball = trimesh.creation.icosphere(4, 0.1)
-    mesh = catalogue.Mesh(np.array(ball.vertices), np.array(ball.faces, dtype=np.int32))
-    meshes = SimpleNamespace(read=lambda uri: mesh)
-    kind = catalogue.parse(entry(mesh="ball", mass=1.0), meshes).get("thing")
+def test_the_hull_of_a_mesh_reaches_as_far_as_the_mesh(folder):
+    trimesh.creation.icosphere(4, 0.1).export(folder / "ball.stl")
+    meshes = ObjectMeshes(folder, 20_000)
+    kind = catalogue.parse(entry(mesh=f"{URI}ball.stl", mass=1.0), meshes).get("thing")
     corners = kind.body.parts[0].vertices
     assert len(corners) > HULL_CORNERS / 2
     assert np.linalg.norm(corners, axis=1) == pytest.approx(0.1, rel=1e-6)
     assert kind.size == pytest.approx((0.2, 0.2, 0.2), abs=0.004)
+    assert np.diag(kind.body.inertia) == pytest.approx(0.4 * 0.1**2, rel=0.1)

@@ -12,8 +12,9 @@ import pytest
 
 from mrlab_ros.adapters.bullet.engine import GRAVITY, BulletEngine
 from mrlab_ros.core.base.errors import BadInput
-from mrlab_ros.core.base.geometry import Pose
+from mrlab_ros.core.base.geometry import Pose, compose
 from mrlab_ros.core.physics.engine import Body, BodyState, Kind, Part, Shape
+from mrlab_ros.core.physics.inertia import mass_properties
 
 STEP = 1 / 240
 CUBE = Body((Part(Shape.BOX, (0.05, 0.05, 0.05)),), 0.1)
@@ -64,6 +65,44 @@ def test_what_lies_still_sleeps_and_what_was_held_sleeps_again(engine):
     before = [engine.object(f"cube_{i}") for i in range(3)]
     pass_time(engine, 0.5)
     assert [engine.object(f"cube_{i}") for i in range(3)] == before
+
+
+@pytest.mark.parametrize("edge", [0.03, 0.05, 0.1])
+def test_ten_cubes_with_gaps_between_them_stand(engine, edge):
+    cube = Body((Part(Shape.BOX, (edge, edge, edge)),), 0.1)
+    for i in range(10):
+        place = Pose((0.0, 0.0, edge / 2 + 0.0005 + i * (edge + 0.0005)))
+        engine.add_object(f"cube_{i}", cube, BodyState(place))
+    pass_time(engine, 6.0)
+    for i in range(10):
+        stands = (0.0, 0.0, edge / 2 + i * edge)
+        assert engine.object(f"cube_{i}").pose.position == pytest.approx(stands, abs=0.001)
+
+
+def test_a_body_tips_over_its_own_centre_of_mass(engine):
+    # A handle and a head ten times as dense, on a shelf whose edge lies 4 mm beside their centre.
+    parts = (
+        Part(Shape.BOX, (0.2, 0.03, 0.03)),
+        Part(Shape.BOX, (0.03, 0.03, 0.03), Pose((0.115, 0.0, 0.0)), density=10.0),
+    )
+    centre, inertia = mass_properties(parts, 0.5)
+    hammer = Body(parts, 0.5, centre=centre, inertia=inertia)
+    shelf = Body((Part(Shape.BOX, (1.0, 1.0, 0.2)),), 0.0)
+    engine.add_surface("shelf", shelf, Pose((-0.5, 0.0, 0.1)))
+    for name, beside, y in (("stays", -0.004, -0.2), ("tips", 0.004, 0.2)):
+        engine.add_object(name, hammer, BodyState(Pose((beside - centre[0], y, 0.2151))))
+    pass_time(engine, 2.0)
+    assert height(engine, "stays") == pytest.approx(0.215, abs=0.0005)
+    assert height(engine, "tips") < 0.15
+
+    # Thrown and turning, the centre goes straight on; the frame's origin turns about it.
+    engine.add_object(
+        "thrown", hammer, BodyState(Pose((-2.0, 0.0, 3.0)), (1.0, 0.0, 0.0), (0.0, 0.0, 5.0))
+    )
+    start = compose(engine.object("thrown").pose, Pose(centre)).position
+    pass_time(engine, 0.5)
+    x, y, _ = compose(engine.object("thrown").pose, Pose(centre)).position
+    assert (x - start[0], y - start[1]) == pytest.approx((0.5, 0.5 * 5.0 * centre[0]), abs=0.003)
 
 
 def test_what_leans_on_something_that_goes_falls(engine):
