@@ -23,7 +23,7 @@ VENV = ROOT / ".venv"
 STAMPS = VENV / ".mrlab"
 INSTALL = ROOT / "install"
 # Interfaces of the distribution that the wheels lack; a ROS machine has them as packages.
-STANDARD_MESSAGES = ("control_msgs", "tf2_msgs")
+STANDARD_MESSAGES = ("control_msgs", "controller_manager_msgs", "tf2_msgs")
 MESSAGES = ("mrlab_msgs", *STANDARD_MESSAGES)
 # pybullet has wheels up to 3.11, so 3.11 comes first.
 PYTHONS = ("3.11", "3.12", "3.13", "3.10")

@@ -14,7 +14,7 @@ a mrlab_msgs/Telemetry: as joint_states.py describes it up to the names; then
 from __future__ import annotations
 
 import struct
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from functools import lru_cache
 from typing import Any
 
@@ -29,7 +29,7 @@ from mrlab_ros.core.base.phrase import ended
 from mrlab_ros.core.playback import diagnostics as say
 from mrlab_ros.core.playback.execution import PlaybackStatus
 from mrlab_ros.core.playback.goal import Goal, Point, WrongGoal
-from mrlab_ros.core.playback.pursuit import Bounds, Instant, Outcome
+from mrlab_ros.core.playback.pursuit import Bounds, Instant, Outcome, Tolerances
 from mrlab_ros.core.playback.stream import Sample
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.messages import cdr
@@ -177,9 +177,15 @@ class TelemetryEncoder:
         return b"".join((self._head, values, _object(bears.object), end))
 
 
-def goal_from_message(message: JointTrajectory) -> Goal:
+def own_names(names: Iterable[str], own: Mapping[str, str]) -> tuple[str, ...]:
+    """Return the names of a robot's joints; own: them by their names among all robots' joints."""
+    return tuple(own.get(name, name) for name in names)
+
+
+def goal_from_message(message: JointTrajectory, own: Mapping[str, str]) -> Goal:
+    """own: as own_names() takes it."""
     return Goal(
-        tuple(message.joint_names),
+        own_names(message.joint_names, own),
         tuple(
             Point(
                 _seconds(point.time_from_start),
@@ -194,14 +200,17 @@ def goal_from_message(message: JointTrajectory) -> Goal:
     )
 
 
-def bounds_from_goal(goal: Any) -> Bounds:
-    """Return the tolerances of a FollowJointTrajectory.Goal; raise WrongGoal for components."""
+def bounds_from_goal(goal: Any, own: Mapping[str, str]) -> Bounds:
+    """Return the tolerances of a FollowJointTrajectory.Goal; raise WrongGoal for components.
+
+    own: as own_names() takes it.
+    """
     for name in ("component_path_tolerance", "component_goal_tolerance"):
         if getattr(goal, name):
             raise WrongGoal(say.HAS_MULTI_DOF(field=name))
     return Bounds(
-        _by_joint(goal.path_tolerance),
-        _by_joint(goal.goal_tolerance),
+        _by_joint(goal.path_tolerance, own),
+        _by_joint(goal.goal_tolerance, own),
         _seconds(goal.goal_time_tolerance),
     )
 
@@ -210,9 +219,9 @@ def feedback_to_message(now_ns: int, robot: str, joints: Iterable[str], instant:
     return FollowJointTrajectory.Feedback(
         header=make_header(now_ns, robot),
         joint_names=list(joints),
-        desired=_point(instant, instant.desired, instant.desired_velocities),
-        actual=_point(instant, instant.actual, instant.actual_velocities),
-        error=_point(instant, instant.errors[0], instant.errors[1]),
+        desired=point(instant, instant.desired, instant.desired_velocities),
+        actual=point(instant, instant.actual, instant.actual_velocities),
+        error=point(instant, instant.errors[0], instant.errors[1]),
     )
 
 
@@ -224,15 +233,18 @@ def result_to_message(outcome: Outcome) -> Any:
     )
 
 
-def _by_joint(tolerances: Iterable[Any]) -> dict[str, tuple[float, float, float]]:
-    return {each.name: (each.position, each.velocity, each.acceleration) for each in tolerances}
+def _by_joint(tolerances: Iterable[Any], own: Mapping[str, str]) -> Tolerances:
+    return {
+        own.get(each.name, each.name): (each.position, each.velocity, each.acceleration)
+        for each in tolerances
+    }
 
 
 def _seconds(duration: Duration) -> float:
     return float(duration.sec + duration.nanosec / SECOND)
 
 
-def _point(
+def point(
     instant: Instant, positions: Array, velocities: Array | None = None
 ) -> JointTrajectoryPoint:
     whole = int(instant.elapsed * SECOND)

@@ -45,6 +45,7 @@ INSIDES = re.compile(r"rclpy\.impl|rclpy\.experimental|\.handle\b")
 GRAPH = {
     "builtin_interfaces",
     "control_msgs",
+    "controller_manager_msgs",
     "diagnostic_msgs",
     "geometry_msgs",
     "launch",

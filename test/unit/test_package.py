@@ -54,6 +54,7 @@ DISTRIBUTION = {
     "ament_index_python",
     "builtin_interfaces",
     "control_msgs",
+    "controller_manager_msgs",
     "diagnostic_msgs",
     "domain_coordinator",
     "geometry_msgs",

@@ -18,7 +18,7 @@ from mrlab_ros.adapters.robots.diagnostics import FOLDER_IN_USE
 from mrlab_ros.adapters.robots.drawing import colour
 from mrlab_ros.adapters.robots.library import RobotLibrary, state_masses
 from mrlab_ros.core.base.errors import BadInput
-from mrlab_ros.core.robots.frames import WORLD, frame_name
+from mrlab_ros.core.robots.frames import WORLD, frame_name, joint_name
 
 
 def export(library: RobotLibrary, robot_id: str, end_effector: str | None, folder: Path) -> Path:
@@ -113,22 +113,23 @@ def together(descriptions: Mapping[str, str]) -> str:
 
     descriptions: by robot its published URDF. Each base hangs at `world` by a floating joint:
     /tf_static says where it stands. Joints and materials are named by robot, too, since one URDF
-    must not name two alike.
+    must not name two alike; joints as /joint_states has them.
     """
     lab = ET.Element("robot", name="lab")
     ET.SubElement(lab, "link", name=WORLD)
     for robot, text in descriptions.items():
         root = urdf.parse(text, f"the URDF of {robot}")
         base = urdf.frames(root, f"the URDF of {robot}").root
-        stand = ET.SubElement(lab, "joint", name=frame_name(robot, "base"), type="floating")
+        stand = ET.SubElement(lab, "joint", name=joint_name(robot, "base"), type="floating")
         ET.SubElement(stand, "parent", link=WORLD)
         ET.SubElement(stand, "child", link=base)
-        named = (
+        attributes = (
             *((element, "name") for element in root if element.tag in ("joint", "material")),
             *((element, "joint") for element in root.iterfind("joint/mimic")),
             *((element, "name") for element in root.iterfind("link/visual/material")),
         )
-        for element, attribute in named:
-            element.set(attribute, frame_name(robot, element.get(attribute, "")))
+        for element, attribute in attributes:
+            named = joint_name if element.tag in ("joint", "mimic") else frame_name
+            element.set(attribute, named(robot, element.get(attribute, "")))
         lab.extend(e for e in root if e.tag in ("link", "joint", "material"))
     return f"{DECLARATION}{ET.tostring(lab, encoding='unicode')}\n"

@@ -303,6 +303,18 @@ TOLERANCE_NO_NUMBER = Code(
     meaning="A tolerance of a goal is NaN, infinite, or below 0 and not -1.",
 )
 
+FOLLOWS_NOTHING = Code(
+    "follows_nothing",
+    "The robot is {state:state}; expected one that follows a motion.",
+    meaning="The course of a robot was asked for, which has none now.",
+)
+OUTSIDE_COURSE = Code(
+    "outside_course",
+    "The instant is {away:time} {side:choice before=before the newest change of what the robot "
+    "plays|after its end}.",
+    meaning="The course of a robot was asked for at an instant for which it is not known.",
+)
+
 # how a goal ended
 
 GOAL_REACHED = Code(

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mrlab_ros.core.base.clock import PlaybackClock
+from mrlab_ros.core.base.clock import SECOND, PlaybackClock
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.errors import Misuse
 from mrlab_ros.core.base.geometry import Array
@@ -109,6 +109,27 @@ class Execution:
             self.loop,
             self.system,
         )
+
+    def at(self, instant_ns: int) -> tuple[Array, Array, Array]:
+        """Return what the arm's course has at an instant: (J,) rad, rad/s and rad/s^2.
+
+        Raises Misuse where the arm follows nothing, and for an instant before the newest change of
+        its course or after its end.
+        """
+        trajectory, clock = self.trajectory, self.clock
+        if trajectory is None or self.state not in (State.PLAYING, State.PAUSED):
+            raise Misuse(say.FOLLOWS_NOTHING(state=self.state.name))
+        early = clock.stamp_ns - instant_ns
+        if early > 0:
+            raise Misuse(say.OUTSIDE_COURSE(away=early / SECOND, side="before"))
+        position = clock.at(instant_ns)
+        inside = min(max(position, 0.0), trajectory.duration)
+        if position != inside:
+            late = abs((position - inside) / clock.rate)
+            raise Misuse(say.OUTSIDE_COURSE(away=late, side="after"))
+        _, positions, velocities = trajectory.at(position)
+        accelerations = trajectory.accelerations(position)
+        return positions, velocities * clock.rate, accelerations * clock.rate**2
 
     def take_statuses(self) -> list[PlaybackStatus]:
         """Return the statuses of all changes since the last call, oldest first."""

@@ -126,11 +126,16 @@ class Pursuit:
         ended = self._outcome or self._ended(now_ns, instant)
         return ended and replace(ended, figures=self.figures())
 
+    @property
+    def seen(self) -> Instant | None:
+        """The newest instant; None before the first."""
+        return None if self._before is None else self._before[1]
+
     def figures(self) -> Diagnostic | None:
         """Return how far the goal came, for its answer; None: nothing was seen of it yet."""
-        if self._before is None:
+        instant = self.seen
+        if instant is None:
             return None
-        _, instant = self._before
         joints = self.trajectory.joint_names
         left = np.abs(self.trajectory.positions[-1] - instant.actual)
         return say.GOAL_FIGURES(

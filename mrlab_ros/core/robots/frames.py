@@ -1,8 +1,9 @@
 """The frames of a robot's links, as tf2 has them: each link in its parent's frame.
 
 A frame is named by robot and link, `ur5e_1/tool0`, so that robots of one model stay apart. The
-robot's published URDF has the same names, for links only: joints are told apart by the namespace
-in which their states are published.
+robot's published URDF has the same names, for links only: its joints are told apart by the
+namespace in which their states are published. Where joints of all robots meet, they are named by
+robot, too.
 """
 
 from __future__ import annotations
@@ -20,6 +21,14 @@ WORLD = "world"
 def frame_name(robot: str, link: str) -> str:
     """Return the name of the frame of a robot's link."""
     return f"{robot}/{link}"
+
+
+def joint_name(robot: str, joint: str) -> str:
+    """Return the name of a robot's joint among those of all robots.
+
+    Not as frames are: ros2_control and MoveIt take what follows a `/` for an interface.
+    """
+    return f"{robot}_{joint}"
 
 
 def without_frames(urdf: str, robot: str) -> str:
@@ -58,7 +67,7 @@ class LinkFrames:
     """The frames of one robot's links.
 
     root: the frame of its first link; fixed: those that never move; moving: (parent, child) of
-    the others, in the order of at().
+    the others, in the order of at(). joints: those that move, but for what follows another.
     """
 
     def __init__(
@@ -68,6 +77,7 @@ class LinkFrames:
         self.fixed = tuple(fixed)
         self.moving = tuple((frame.parent, frame.child) for frame in moving)
         self._joints = [frame.joint for frame in moving]
+        self.joints = tuple(dict.fromkeys(self._joints))
         self._multipliers = np.array([frame.multiplier for frame in moving])
         self._offsets = np.array([frame.offset for frame in moving])
         self._prismatic = np.array([frame.prismatic for frame in moving], dtype=bool)

@@ -138,6 +138,16 @@ class Trajectory:
             velocities[frame] + share * (velocities[frame + 1] - velocities[frame]),
         )
 
+    def accelerations(self, position: float) -> Array:
+        """Return how fast the velocities change at `position` (s), (J,) rad/s^2, at rate 1.
+
+        The difference of the velocities a frame before and after it, one-sided at the ends.
+        """
+        step = 1 / self.frame_rate
+        first, last = max(position - step, 0.0), min(position + step, self.duration)
+        change: Array = (self.at(last)[2] - self.at(first)[2]) / (last - first)
+        return change
+
     def sample(self, position: float) -> Array:
         """Return the joint positions, (J,) rad, at `position` (s), as at() does."""
         return self.at(position)[1]

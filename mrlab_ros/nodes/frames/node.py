@@ -1,4 +1,4 @@
-"""The frames node: /tf, /tf_static, one URDF of all robots, and markers, for 3D panels of ROS.
+"""The frames node: /tf, /tf_static, /joint_states, one URDF of all robots, and markers.
 
 The robots whose frames are published, and their newest joint positions.
 """
@@ -6,7 +6,7 @@ The robots whose frames are published, and their newest joint positions.
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -22,9 +22,10 @@ from mrlab_ros.adapters.robots.exporting import together
 from mrlab_ros.core.base.clock import SECOND, STEP_NS
 from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.base.geometry import Array, Pose
-from mrlab_ros.core.robots.frames import WORLD, LinkFrames
+from mrlab_ros.core.robots.frames import WORLD, LinkFrames, joint_name
 from mrlab_ros.core.runtime.identity import Identity
 from mrlab_ros.messages import joint_states, qos
+from mrlab_ros.messages.joint_states import JointStateEncoder
 from mrlab_ros.messages.poses import TransformsEncoder, pose_from_message, transforms_to_message
 from mrlab_ros.messages.scenes import text_to_message
 from mrlab_ros.messages.time import time_from_message
@@ -34,7 +35,7 @@ from mrlab_ros.nodes.parameters import FramesParameters
 from mrlab_ros.ros.clock import LabClock
 from mrlab_ros.ros.decoding import decoder
 from mrlab_ros.ros.parameters import NodeArguments, ParameterNode
-from mrlab_ros.ros.raw_streams import Received, TopicPoll
+from mrlab_ros.ros.raw_streams import Received, TopicPoll, raw_publish
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -51,18 +52,21 @@ HEARD_NS = 3 * SECOND // 2
 class ShownRobot:
     """A robot whose frames are published.
 
-    base: T_world_base. description: its published URDF, empty until it arrived. positions: rad or
-    m by joint. placed: whether a joint state of its arm has come. stamp_ns: of the newest joint
-    state, or the instant for which it was repeated; heard_ns: of the newest one of the arm;
-    sent_ns: of the one that was published last. subscriptions: what is destroyed with it.
+    base: T_world_base. description: its published URDF, empty until it arrived. encoder: writes
+    its joint states, joints named as in the URDF of all robots. positions, velocities: rad or m,
+    and rad/s or m/s, by joint. placed: whether a joint state of its arm has come. stamp_ns: of the
+    newest joint state, or the instant for which it was repeated; heard_ns: of the newest one of
+    the arm; sent_ns: of the one that was published last. subscriptions: what is destroyed with it.
     """
 
     name: str
     joint_names: tuple[str, ...]
     base: Pose
     description: str = ""
+    encoder: JointStateEncoder | None = None
     frames: LinkFrames | None = None
     positions: dict[str, float] = field(default_factory=dict)
+    velocities: dict[str, float] = field(default_factory=dict)
     placed: bool = False
     stamp_ns: int = 0
     heard_ns: int = 0
@@ -72,14 +76,17 @@ class ShownRobot:
     def describe(self, text: str) -> None:
         """Take the robot's URDF; raise BadInput where it is none."""
         self.frames = urdf.frames(urdf.parse(text, self.name), self.name)
+        names = tuple(joint_name(self.name, joint) for joint in self.frames.joints)
+        self.encoder = JointStateEncoder(WORLD, names)
         self.description = text
         self.sent_ns = 0
 
     def take_arm(self, data: bytes) -> None:
         """Take a joint state of the arm, CDR; raise BadInput where it is none."""
-        stamp_ns, positions, _ = joint_states.read(data, self.joint_names)
+        stamp_ns, positions, velocities = joint_states.read(data, self.joint_names)
         self.stamp_ns, self.heard_ns, self.placed = stamp_ns, stamp_ns, True
         self.positions.update(zip(self.joint_names, positions, strict=True))
+        self.velocities.update(zip(self.joint_names, velocities, strict=False))
 
     def take_fingers(self, stamp_ns: int, positions: Mapping[str, float]) -> None:
         self.stamp_ns = max(self.stamp_ns, stamp_ns)
@@ -89,6 +96,17 @@ class ShownRobot:
         """Take that an arm that was heard lately stands where it did: tf2 knows it now."""
         if now_ns - self.stamp_ns >= REPEATED_NS and now_ns - self.heard_ns < HEARD_NS:
             self.stamp_ns = now_ns
+
+    def joint_state(self) -> bytes | None:
+        """Return the state of all joints, fingers too, as CDR; None before the URDF is there."""
+        if self.encoder is None or self.frames is None:
+            return None
+        joints = self.frames.joints
+        return self.encoder.encode(
+            self.stamp_ns,
+            np.array([self.positions.get(joint, 0.0) for joint in joints]),
+            np.array([self.velocities.get(joint, 0.0) for joint in joints]),
+        )
 
     @property
     def moved(self) -> bool:
@@ -107,24 +125,23 @@ class ShownRobot:
 
 
 class Batch:
-    """One message with the frames of all robots that moved."""
+    """One message with the frames of several robots."""
 
     def __init__(self) -> None:
         self._encoders: dict[tuple[tuple[str, str], ...], TransformsEncoder] = {}
 
-    def message(self, robots: Mapping[str, ShownRobot]) -> bytes | None:
-        """Return the frames of the robots with a new joint state, as CDR; None: there are none.
+    def message(self, robots: Iterable[ShownRobot]) -> bytes | None:
+        """Return the frames of the robots as CDR; None: there are none.
 
         Each robot's frames have the stamp of its joint state.
         """
         pairs: list[tuple[str, str]] = []
         stamps: list[Array] = []
         values: list[Array] = []
-        for robot in robots.values():
+        for robot in robots:
             frames = robot.frames
-            if frames is None or not (robot.placed and robot.moved and frames.moving):
+            if frames is None or not frames.moving:
                 continue
-            robot.sent_ns = robot.stamp_ns
             pairs.extend(frames.moving)
             stamps.append(np.full(len(frames.moving), robot.stamp_ns, dtype=np.int64))
             values.append(frames.at(robot.positions))
@@ -140,7 +157,7 @@ class Batch:
         return encoder.encode(np.concatenate(stamps), np.concatenate(values))
 
 
-# As tf2's own broadcasters publish.
+# As tf2's own broadcasters publish; joint states of all robots too.
 TF = QoSProfile(depth=100)
 # The newest joint state is enough; those before it are not even read.
 NEWEST = QoSProfile(depth=1)
@@ -172,6 +189,8 @@ class FramesNode(
         self._placed = self._described = False
         self._moving = self.create_publisher(TFMessage, "/tf", TF)
         self._fixed = self.create_publisher(TFMessage, "/tf_static", qos.LATCHED)
+        self._joints = self.create_publisher(JointState, "/joint_states", TF)
+        self._publish_joints = raw_publish(self._joints)
         self._together = self.create_publisher(String, "/robot_description", qos.LATCHED)
         self._streams = self.hidden_node("streams", remapped=True)
         self._poll = TopicPoll("frames", 1 / self.parameters.rate, self._turn, self._report)
@@ -240,9 +259,15 @@ class FramesNode(
         now_ns = self._lab_clock.now_ns()
         for robot in self._robots.values():
             robot.still_there(now_ns)
-        moved = self._batch.message(self._robots)
-        if moved is not None:
-            self._moving.publish(moved)
+        moved = [each for each in self._robots.values() if each.placed and each.moved]
+        listened = self._joints.get_subscription_count() if moved else 0
+        for robot in moved:
+            robot.sent_ns = robot.stamp_ns
+            if listened and (state := robot.joint_state()) is not None:
+                self._publish_joints(state)
+        frames = self._batch.message(moved)
+        if frames is not None:
+            self._moving.publish(frames)
 
     def _on_robots(self, message: msg.Robots) -> None:
         if not self._identity.obeys(message.lab):

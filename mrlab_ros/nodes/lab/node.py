@@ -19,6 +19,8 @@ from mrlab_ros.adapters.scenes.files import SCENE_FILE, SceneFiles, StateFile
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.base.geometry import Pose
+from mrlab_ros.core.robots.controllers import Controller
+from mrlab_ros.core.robots.frames import joint_name
 from mrlab_ros.core.runtime.identity import Identity
 from mrlab_ros.core.scene.document import RobotEntry, SceneDocument
 from mrlab_ros.core.scene.restore import self_contained, with_pending
@@ -34,6 +36,7 @@ from mrlab_ros.messages.scenes import (
     text_to_message,
 )
 from mrlab_ros.nodes import parameters
+from mrlab_ros.nodes.lab.controllers import ControllerManager
 from mrlab_ros.nodes.lab.diagnostics import (
     END_EFFECTOR_REMOVED,
     END_EFFECTOR_SET,
@@ -118,6 +121,7 @@ class LabNode(ParameterNode[LabParameters], name="lab", kind=LabParameters, othe
             (srv.ListScenes, "list_scenes", self._on_list_scenes),
         ):
             create_service(self, kind, f"~/{name}", callback)
+        ControllerManager(self, self._controllers)
         subscribe(self, msg.Move, "/moves", self._on_move, qos.NEWEST)
         every(self, SAVE_PERIOD_S, self._save)
         every(self, SYSTEMS_PERIOD_S, self._save_systems)
@@ -161,6 +165,17 @@ class LabNode(ParameterNode[LabParameters], name="lab", kind=LabParameters, othe
         self._robots.publish(robots_to_message(now_ns, self._scene.robots, self._identity.lab))
         self._observer.follow([robot.name for robot in self._scene.robots])
         self._save()
+
+    def _controllers(self) -> list[Controller]:
+        states = {robot.name: self._observer.state(robot.name) for robot in self._scene.robots}
+        return [
+            Controller(
+                robot.name,
+                tuple(joint_name(robot.name, joint) for joint in robot.joint_names),
+                state.system if (state := states[robot.name]) is not None else "",
+            )
+            for robot in self._scene.robots
+        ]
 
     def spawn(self, robots: Sequence[RobotEntry]) -> None:
         """Put the robots of a document into the scene; raise LabError where one cannot be."""

@@ -21,13 +21,15 @@ from mrlab_ros.core.playback import diagnostics as say
 from mrlab_ros.core.playback.execution import PlaybackStatus
 from mrlab_ros.core.playback.goal import Code, WrongGoal
 from mrlab_ros.core.playback.playback import Playback
-from mrlab_ros.core.playback.pursuit import Bounds, Outcome, Pursuit
+from mrlab_ros.core.playback.pursuit import Bounds, Instant, Outcome, Pursuit
+from mrlab_ros.core.robots.frames import joint_name
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.playback import (
     bounds_from_goal,
     feedback_to_message,
     goal_from_message,
+    own_names,
     result_to_message,
 )
 from mrlab_ros.ros import clock
@@ -70,6 +72,10 @@ class Commanders:
         self._command = command
         self._loaded = loaded
         self._warn = warn
+        # By the name among all robots' joints its own.
+        self._own = {joint_name(robot, joint): joint for joint in playback.model.joint_names}
+        # The joints of the goal, named as its client names them.
+        self._named: list[str] = []
         self._goal: Any = None
         self._pursuit: Pursuit | None = None
         self._timer: Timer | None = None
@@ -93,6 +99,12 @@ class Commanders:
         self._end(Outcome(Code.INVALID_GOAL, say.ROBOT_GONE(robot=self._robot)), "abort")
         self._server.close()
 
+    @property
+    def seen(self) -> Instant | None:
+        """What was seen last of the goal that is followed; None: there is none."""
+        pursuit = self._pursuit
+        return None if pursuit is None else pursuit.seen
+
     def note(self, status: PlaybackStatus) -> None:
         """Take a change of the playback's state, in any thread."""
         if self._pursuit is not None:
@@ -101,7 +113,7 @@ class Commanders:
     def _pursue(self, message: JointTrajectory, bounds: Bounds) -> None:
         """Begin to follow a goal in place of the one before it; raise LabError where it is bad."""
         bounds.check(self._playback.model.joint_names)
-        goal = goal_from_message(message)
+        goal = goal_from_message(message, self._own)
         with self._command() as now_ns:
             if goal.stamp_ns:
                 goal = replace(goal, stamp_ns=self._clock.instant(goal.stamp_ns))
@@ -122,7 +134,12 @@ class Commanders:
             if request.multi_dof_trajectory.points:
                 raise WrongGoal(say.HAS_MULTI_DOF(field="multi_dof_trajectory"))
             _refuse_doubtful()
-            self._pursue(request.trajectory, bounds_from_goal(request))
+            self._pursue(request.trajectory, bounds_from_goal(request, self._own))
+            self._named = (
+                list(self._own)
+                if set(request.trajectory.joint_names) <= self._own.keys()
+                else list(self._own.values())
+            )
         except LabError as error:
             code = error.code if isinstance(error, WrongGoal) else Code.INVALID_GOAL
             self._warn_seldom("goal", f"{self._robot} refuses a goal: {error}")
@@ -155,7 +172,7 @@ class Commanders:
             try:
                 _refuse_doubtful()
                 begins = self._playback.external.command(
-                    now_ns, message.name, message.position, message.velocity
+                    now_ns, own_names(message.name, self._own), message.position, message.velocity
                 )
                 trajectory = self._playback.trajectory
             except LabError as error:
@@ -195,9 +212,8 @@ class Commanders:
         now_ns = self._now_ns()
         instant = pursuit.instant(now_ns, last.sample)
         outcome = pursuit.outcome(now_ns, instant)
-        joints = pursuit.trajectory.joint_names
         stamp_ns = self._clock.stamp(now_ns)
-        goal.publish_feedback(feedback_to_message(stamp_ns, self._robot, joints, instant))
+        goal.publish_feedback(feedback_to_message(stamp_ns, self._robot, self._named, instant))
         if outcome is None:
             return
         if outcome.code is not Code.SUCCESSFUL:

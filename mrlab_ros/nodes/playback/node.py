@@ -37,6 +37,7 @@ from mrlab_ros.messages.playback import (
     targets_to_message,
 )
 from mrlab_ros.nodes.playback.commanders import Commanders
+from mrlab_ros.nodes.playback.controller import Controller
 from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.deadlines import Command, Player, Scheduler
 from mrlab_ros.ros.decoding import subscribe
@@ -107,6 +108,7 @@ class PlaybackNode(Node):
         self._keep = keep
         self._announced = True
         self._commanders: Commanders | None = None
+        self._controller: Controller | None = None
         try:
             self._offer(warn)
         except BaseException:
@@ -152,6 +154,9 @@ class PlaybackNode(Node):
             self._command,
             self._driven,
             warn,
+        )
+        self._controller = Controller(
+            self, self.robot, self.playback, self._scheduler.clock, self._command
         )
 
     def come_back(self, done: Callable[[Diagnostic | None], None]) -> None:
@@ -232,10 +237,14 @@ class PlaybackNode(Node):
     def publish_telemetry(self, now_ns: int) -> None:
         """Publish the display values of the last joint state, while the robot moves.
 
-        now_ns: the stamp.
+        And its state as a controller, also while it stands. now_ns: the stamp.
         """
         last = self.player.last
-        if last is None or last.trajectory is None or not self.playback.moving:
+        if last is None:
+            return
+        if self._controller is not None and self._commanders is not None:
+            self._controller.publish(now_ns, last.sample, self._commanders.seen)
+        if last.trajectory is None or not self.playback.moving:
             return
         self._telemetry.publish(
             self._telemetry_encoder.encode(

@@ -1481,6 +1481,13 @@ export const diagnostics: Templates = {
     'Gesetzt: {objects:count Gegenstand|Gegenstände} und {surfaces:count Fläche|Flächen}.',
   ],
   continuous: ['stetig'],
+  controller_in_system: [
+    '{robot} wird vom System {system} geführt.',
+    'Löse zuerst das System auf.',
+  ],
+  controller_stays: [
+    'Der Controller von {robot} bleibt aktiv, solange der Roboter in der Szene ist.',
+  ],
   converted_unit: [
     "Die Datei nennt für '{variable}' die Einheit {stated:choice rad=Radiant|deg=Grad|mrad=Milliradiant|urad=Mikroradiant|gon=Gon|turn=Umdrehungen|halfturn=halbe Umdrehungen|ddeg=Zehntelgrad|cdeg=Hundertstel Grad|mdeg=Tausendstel Grad|arcmin=Bogenminuten|arcsec=Bogensekunden|counts=Zählschritte|%=Prozent|normalized=Anteile eines Bereichs|mm=mm}[ ('{source}')]; die Werte wurden in Radiant umgerechnet.",
   ],
@@ -1681,6 +1688,9 @@ export const diagnostics: Templates = {
     '{path} ist nicht verwendbar: {problem}; erwartet wird ein Ordner oder ein Pfad, an dem einer angelegt werden kann.',
   ],
   follows_commands: ['folgt Gelenkbefehlen'],
+  follows_nothing: [
+    'Der Roboter ist im Zustand „{state:state}“; erwartet wird einer, der einer Bewegung folgt.',
+  ],
   for_another_model: [
     "'{trajectory}' ist für {found}, und {robot} ist {model}; lade sie in einen Roboter {found}.",
   ],
@@ -2370,6 +2380,7 @@ export const diagnostics: Templates = {
     'Erzeuge die Netze des Roboters noch einmal.',
   ],
   no_column: ['sie ist {size}, wo eine einzelne Spalte erwartet wird'],
+  no_controller: ["Es gibt keinen Controller '{found}'[; es gibt {expected:list}]."],
   no_coordinator_runs: ['Es läuft kein Koordinator; die Systeme der Szene brauchen ihn.'],
   no_description: [
     "'{source}' ist weder eine Datei noch ein installiertes ROS-Paket.",
@@ -3003,7 +3014,9 @@ export const diagnostics: Templates = {
     'Wandle die Datei noch einmal um.',
   ],
   of_robot: ['{robot}: {why:problem}'],
-  off_goal: ['{joint} weicht um {value:measure} vom Ziel ab; erwartet: höchstens {limit:measure}.'],
+  off_goal: [
+    '{joint} weicht um {value:measure} vom Ziel ab; erwartet: höchstens {limit:measure}.',
+  ],
   off_path: [
     '{joint} weicht um {value:measure} von der Bahn ab; erwartet: höchstens {limit:measure}[; der Roboter ist im Zustand „{state:state}“].',
   ],
@@ -3085,6 +3098,9 @@ export const diagnostics: Templates = {
   ],
   out_of_reach: [
     '{place:position} ist außer Reichweite: Das Werkzeug kommt bis auf {value:length} heran, nicht bis auf {limit:length}.',
+  ],
+  outside_course: [
+    'Der Zeitpunkt liegt {away:time} {side:choice before=vor der letzten Änderung dessen, was der Roboter spielt|after=nach dessen Ende}.',
   ],
   outside_range: [
     '{joint} ist {value:measure} außerhalb seines Bereichs von {lower:measure} bis {upper:measure}.',

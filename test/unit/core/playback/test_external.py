@@ -371,3 +371,23 @@ def test_an_acceleration_is_the_change_of_the_velocity_s_error(stage: Stage) -> 
     stage.run(0.05)
     values = outcome().said.values
     assert (values["unit"], values["value"]) == ("rad/s^2", pytest.approx(0.5 / 0.05))
+
+
+def test_the_course_is_known_from_its_newest_change_to_its_end(stage: Stage) -> None:
+    with refused(say.FOLLOWS_NOTHING, state="IDLE"):
+        stage.playback.at(stage.now_ns)
+    stage.goal((2.0, 1.0))
+    began = stage.now_ns
+    stage.run(0.5)
+    positions, velocities, accelerations = stage.playback.at(began + SECOND)
+    assert positions == pytest.approx(HOME + 0.5)
+    assert velocities == pytest.approx(np.full(6, 0.5))
+    assert accelerations == pytest.approx(np.zeros(6), abs=1e-9)
+    with refused(say.OUTSIDE_COURSE, side="after"):
+        stage.playback.at(began + 3 * SECOND)
+    stage.playback.pause(stage.now_ns)
+    with refused(say.OUTSIDE_COURSE, side="before"):
+        stage.playback.at(began)
+    standing = stage.playback.at(began + 9 * SECOND)
+    assert standing[0] == pytest.approx(stage.playback.arm)
+    assert not standing[1].any()
