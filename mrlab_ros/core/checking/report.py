@@ -81,7 +81,7 @@ class Condition:
 
 
 # Codes of findings that say that a condition does not hold.
-JUMPS = frozenset({"discontinuity", "jump_2pi"})
+JUMPS = frozenset({"discontinuity", "jump_2pi", "stray_rows"})
 RANGES = frozenset({"joint_limit", OUTSIDE_RANGE.code})
 SPEEDS = frozenset({"velocity_limit", OVER_SPEED.code})
 # By how much a limit may be passed: rad, or a share of it.

@@ -329,7 +329,8 @@ def _checked(
     )
     notes += joining.rows_left_out(stored, wanted, transposed=options.transpose)
     notes += questions.unread(survey, variable, rate, options, notes)
-    notes += _against_robot(points, layout, rate, variable.path, robot, notes)
+    against = _against_robot(points, layout, rate, variable.path, robot, notes)
+    notes += [motion_checks.of_columns(d) for d in against] if options.transpose else against
     notes += kinematics_match.findings(workspace, robot)
     found.notes = notes = found.said(picking.with_lines(notes, squeezed))
     errors = [n for n in notes if n.severity is Severity.ERROR]

@@ -851,6 +851,14 @@ DISCONTINUITY = Code(
     "Look for a piece that is missing or was joined at the wrong place.",
     meaning="A joint jumps from one sample to the next.",
 )
+STRAY_ROWS = Code(
+    "stray_rows",
+    "{joint} jumps by {value:measure} at row {first_row:integer} ({time:time}) and back after row "
+    "{last_row:integer}; the rows before and after fit together.",
+    "Leave out what does not belong there, or put the mean of its neighbours in its place.",
+    meaning="A few rows lie apart from those before and after them, which fit together.",
+    data=("count",),
+)
 JUMP_FULL_TURN = Code(
     "jump_2pi",
     "{joint} jumps by a full turn ({value:measure}) from row {first_row:integer} to the next "

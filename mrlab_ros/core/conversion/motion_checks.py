@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
@@ -17,9 +18,10 @@ from mrlab_ros.core.conversion.diagnostics import (
     JOINT_LIMIT,
     JUMP_FULL_TURN,
     NON_FINITE,
+    STRAY_ROWS,
     VELOCITY_LIMIT,
 )
-from mrlab_ros.core.conversion.evidence.joining import rows_of
+from mrlab_ros.core.conversion.evidence.joining import rows_but, rows_of
 from mrlab_ros.core.conversion.options import LEAST_RATE
 from mrlab_ros.core.robots.model import Joint, RobotModel
 from mrlab_ros.core.trajectory.trajectory import Array
@@ -35,7 +37,14 @@ JUMP_USUAL_FACTOR = 10.0
 JUMP_LEAST = 0.25
 # A step of this many rad from a full turn is one (an arm moves on while its angle wraps).
 TURN_TOLERANCE = 0.5
+# a variable of a workspace, not a part or several joined
+STORED = re.compile(r"[A-Za-z][\w.]*(?<!\.)")
 MOST_PARTS = 4  # between jumps that are offered
+# Rows between two jumps that are no part of the motion: at most so many beside one another,
+MOST_STRAY = 5
+# and at most this share of all.
+STRAY_SHARE = 0.05
+OF_STRAY = frozenset({"joint_limit", "velocity_limit"})  # that such rows lead to
 
 
 def non_finite(values: NDArray[Any], variable: str) -> Diagnostic | None:
@@ -87,7 +96,14 @@ def against_robot(
         findings += [*steps, *beyond] if steps else beyond
         if any(found.code == "discontinuity" for found in steps):
             jumps |= _jumps(q, joint, frame_rate)
-    if jumps:
+    stray = _stray(positions, sorted(jumps), frame_rate, joints)
+    if stray:
+        findings = [
+            _as_stray(f, stray, len(positions), variable) if f.code == "discontinuity" else f
+            for f in findings
+            if not (f.code in OF_STRAY and _within(f, stray))
+        ]
+    elif jumps:
         parts = _between(sorted(jumps), len(positions), variable)
         findings = [replace(f, fixes=parts) if f.code == "discontinuity" else f for f in findings]
     return sorted(findings, key=lambda found: found.code != "jump_2pi")
@@ -180,10 +196,69 @@ def _wraps(q: Array) -> bool:
 def _jumps(q: Array, joint: Joint, frame_rate: float) -> set[int]:
     """Return the frames after which a joint jumps, as the largest of its steps does."""
     steps = np.abs(np.diff(q))
-    usual = float(np.quantile(steps, 0.95))
+    return {int(frame) for frame in np.flatnonzero(steps > _least_jump(q, joint, frame_rate))}
+
+
+def _least_jump(q: Array, joint: Joint, frame_rate: float) -> float:
+    """Return above how many rad a step of a joint's angles is a jump."""
+    usual = float(np.quantile(np.abs(np.diff(q)), 0.95))
     reach = joint.max_velocity / frame_rate
-    least = max(reach * JUMP_VELOCITY_FACTOR, usual * JUMP_USUAL_FACTOR, JUMP_LEAST)
-    return {int(frame) for frame in np.flatnonzero(steps > least)}
+    return max(reach * JUMP_VELOCITY_FACTOR, usual * JUMP_USUAL_FACTOR, JUMP_LEAST)
+
+
+def _stray(
+    positions: Array, jumps: list[int], frame_rate: float, joints: Sequence[Joint]
+) -> list[tuple[int, int]]:
+    """Return the first and last frame of each few that joints jump to and back from.
+
+    None unless the motion goes on without them as if they had never been there.
+    """
+    runs = [(a + 1, b) for a, b in itertools.pairwise(jumps) if b - a <= MOST_STRAY]
+    rows = [row for first, last in runs for row in range(first, last + 1)]
+    if not rows or len(rows) > max(MOST_STRAY, STRAY_SHARE * len(positions)):
+        return []
+    kept = np.delete(positions, rows, axis=0)
+    whole = all(
+        np.abs(np.diff(kept[:, column])).max()
+        <= _least_jump(positions[:, column], joint, frame_rate)
+        for column, joint in enumerate(joints)
+    )
+    return runs if whole else []
+
+
+def _within(found: Diagnostic, runs: list[tuple[int, int]]) -> bool:
+    """Say whether a finding is about stray frames alone, or a step to or from them."""
+    return any(a <= found.first_row and found.last_row <= b + 2 for a, b in runs)
+
+
+def _as_stray(
+    jump: Diagnostic, runs: list[tuple[int, int]], count: int, variable: str
+) -> Diagnostic:
+    """Return a jump as the rows that stray, with what leaves them out or puts others in."""
+    first, last = next(
+        (run for run in runs if jump.first_row - 1 in (run[0] - 1, run[1])), runs[0]
+    )
+    name = variable if STORED.fullmatch(variable) else "q"
+    # of a message, which is resampled, rows are points
+    leave_out = () if variable.startswith("/") else (rows_but(variable, runs, count),)
+    line = " ".join(
+        f"{name}({a}:{b}, :) = interp1([{a - 1} {b + 1}], {name}([{a - 1} {b + 1}], :), {a}:{b});"
+        if b > a
+        else f"{name}({a}, :) = mean({name}([{a - 1} {a + 1}], :));"
+        for a, b in ((a + 1, b + 1) for a, b in runs)
+    )
+    return STRAY_ROWS(
+        variable=variable,
+        joint=jump.joint,
+        value=jump.value,
+        unit=jump.unit,
+        limit=jump.limit,
+        time=jump.values["time"],
+        first_row=first + 1,
+        last_row=last + 1,
+        count=sum(b - a + 1 for a, b in runs),
+        fixes=(*(Fix("variable", path) for path in leave_out), Fix(matlab=line)),
+    )
 
 
 def _between(jumps: list[int], rows: int, variable: str) -> tuple[Fix, ...]:
@@ -202,6 +277,19 @@ def _between(jumps: list[int], rows: int, variable: str) -> tuple[Fix, ...]:
             Fix("variable", path, f"q = {path if is_stored else f'q({first}:{last}, :)'};")
         )
     return tuple(fixes)
+
+
+def of_columns(finding: Diagnostic) -> Diagnostic:
+    """Return a finding whose fixes that name rows name columns: samples are columns here."""
+    fixes = (
+        replace(
+            fix,
+            value=re.sub(r"\(([^()]*), :\)$", r"(:, \1)", fix.value),
+            matlab=re.sub(r"^(?=(\w+)[ (].*=)", r"\1 = \1.'; ", fix.matlab),
+        )
+        for fix in finding.fixes
+    )
+    return replace(finding, fixes=tuple(fixes))
 
 
 # Rows that are as far apart as any two: the mean square of the steps over twice the variance is 1

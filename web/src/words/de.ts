@@ -336,6 +336,10 @@ export const words: Words = {
     frame_rate: (value) => `${value} Zeilen in der Sekunde annehmen`,
     variable: (value) => `${value} nehmen`,
     allTheSame: 'Trotzdem nehmen',
+    leaveOut: (rows) =>
+      rows.length === 1 && !rows[0]?.includes(':')
+        ? `Zeile ${rows[0]} weglassen`
+        : `Zeilen ${rows.join(', ').replaceAll(':', ' bis ')} weglassen`,
     keepRows: (first, last) => `Zeilen ${first} bis ${last} behalten`,
     columns: (value) => `Die Spalten ${value} nehmen`,
     transpose: () => 'Spalten als Messpunkte lesen',
@@ -3822,6 +3826,10 @@ export const diagnostics: Templates = {
     'Prüfe die URL und die Zugangsdaten in der Umgebung (docs/store.md).',
   ],
   store_writable: ['Ablage: in {folder} lässt sich schreiben'],
+  stray_rows: [
+    '{joint} springt um {value:measure} bei Zeile {first_row:integer} ({time:time}) und nach Zeile {last_row:integer} zurück; die Zeilen davor und danach passen zusammen.',
+    'Lass weg, was nicht dorthin gehört, oder setze das Mittel seiner Nachbarn ein.',
+  ],
   submission_crashed: [
     'Die Prüfung stürzte daran ab ({why:problem}); der Grund ist diese Datei und keine andere.',
   ],

@@ -283,6 +283,10 @@ export const en = {
     frame_rate: (value: string) => `Take ${value} rows a second`,
     variable: (value: string) => `Take ${value}`,
     allTheSame: 'Take it all the same',
+    leaveOut: (rows: readonly string[]) =>
+      rows.length === 1 && !rows[0]?.includes(':')
+        ? `Leave out row ${rows[0]}`
+        : `Leave out rows ${rows.join(', ').replaceAll(':', ' to ')}`,
     keepRows: (first: string, last: string) => `Keep rows ${first} to ${last}`,
     columns: (value: string) => `Take the columns ${value}`,
     transpose: (_value: string) => 'Read the columns as samples',

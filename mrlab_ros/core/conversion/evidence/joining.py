@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -305,6 +306,17 @@ def rows_of(path: str, first: int, last: int) -> str:
     first, last = begin + (first - 1) * step, begin + (last - 1) * step
     middle = f":{step}" if step > 1 else ""
     return f"{match['path']}({first}{middle}:{last}, {match['columns'].strip()})"
+
+
+def rows_but(path: str, runs: Iterable[tuple[int, int]], count: int) -> str:
+    """Return the path of the `count` rows of a matrix without runs of frames, each from 0."""
+    ends = [0, *(place for first, last in runs for place in (first, last + 1)), count]
+    pieces = [(a + 1, b) for a, b in zip(ends[::2], ends[1::2], strict=True) if b > a]
+    kept = " ".join(f"{a}:{b}" if b > a else str(b) for a, b in pieces)
+    match = PART.fullmatch(path)
+    if match is None or match["rows"].strip() != ":":
+        return f"{path}([{kept}], :)"
+    return f"{match['path']}([{kept}], {match['columns'].strip()})"
 
 
 def first_path(path: str) -> str:

@@ -115,6 +115,7 @@ EXAMPLES = {
     "too_long": Example([*message("m", 200 * T, Q)], {"frame_rate": 1e5}),
     "joint_limit": Example([var("q", Q * 1.0 + [0, 0, 3.5, 0, 0, 0])]),
     "discontinuity": Example([var("q", changed(slice(100, None), slice(None), 0.9))]),
+    "stray_rows": Example([var("q", changed(100, slice(None), 0.9))]),
     "jump_2pi": Example([var("q", changed(slice(100, None), 5, 2 * np.pi))]),
     # accepted with a warning
     "neutral_name": Example([var("data", Q)]),

@@ -136,6 +136,30 @@ def test_a_jump_offers_the_longer_part():
     np.testing.assert_array_equal(part.trajectory.positions, q[100:])
 
 
+@pytest.mark.parametrize("across", [False, True])
+def test_rows_that_stray_are_left_out_and_nothing_else(across):
+    q = motion()
+    q[89:92, 2] += 0.9
+    q[200] -= 2.0
+    stored = var("q", q.T if across else q)
+    refused = convert(stored, transpose=across)
+    assert {d.code for d in refused.diagnostics if d.severity is Severity.ERROR} == {"stray_rows"}
+    elbow = next(d for d in refused.diagnostics if d.joint == ARM.joints[2].name)
+    assert (elbow.first_row, elbow.last_row) == (201, 201)
+    path = elbow.fixes[0].value
+    assert path == ("q(:, [1:89 93:200 202:300])" if across else "q([1:89 93:200 202:300], :)")
+    part = convert(stored, variable=path, transpose=across)
+    rows = [*range(89, 92), 200]
+    np.testing.assert_array_equal(part.trajectory.positions, np.delete(motion(), rows, axis=0))
+
+
+def test_a_jump_that_another_one_does_not_end_is_no_stray_row():
+    q = motion()
+    q[89] += 0.9
+    q[90:] += 1.8
+    assert codes(convert(var("q", q)))[0] == "discontinuity"
+
+
 def test_a_jump_of_a_joint_that_stands_still_says_so():
     q = np.zeros((200, 6)) + 0.1
     q[100:, 1] += 0.9

@@ -1,4 +1,4 @@
-import { useRef } from 'preact/hooks'
+import { useEffect, useRef } from 'preact/hooks'
 import type { Diagnostic, Fix } from '../../api/types'
 import { Button } from '../../design/button'
 import { FindingItem } from '../../design/finding'
@@ -160,6 +160,16 @@ export function Findings(props: FindingsProps) {
     event.preventDefault()
     step(by)
   }
+  // where nothing has the focus, left and right need none
+  const free = useRef(key)
+  free.current = (event) => {
+    if (event.target === document.body && /^Arrow(Left|Right)$/.test(event.key)) key(event)
+  }
+  useEffect(() => {
+    const listen = (event: KeyboardEvent) => free.current(event)
+    document.addEventListener('keydown', listen)
+    return () => document.removeEventListener('keydown', listen)
+  }, [])
   return (
     <section
       class="stack-8 motion-findings"

@@ -24,12 +24,25 @@ export function applied(options: ConvertOptions, { option, value }: Fix): Conver
   return null
 }
 
-const ROWS = /\((\d+):(\d+), :\)$/
+/** The rows of a part such as q(2:9, :), or its columns where samples are columns. */
+const PART = /\((?:(\S[^()]*), :|:, (\S[^()]*))\)$/
+
+/** Return the rows between those of a list such as [1:89 91:201]. */
+function rowsBetween(list: string): string[] {
+  const pieces = list.split(' ').map((piece) => piece.split(':').map(Number))
+  return pieces.slice(1).map(([first = 0], index) => {
+    const [from, to] = [(pieces[index]?.at(-1) ?? 0) + 1, first - 1]
+    return from === to ? String(from) : `${from}:${to}`
+  })
+}
 
 /** Return the label of a fix's button. variable: that the finding is about; a file without names
  * has one of the lab's own. */
 export function fixLabel({ option, value }: Fix, words: Words, variable = ''): string {
-  const [, first, last] = (option === 'variable' && ROWS.exec(value)) || []
+  const [, rows, columns] = (option === 'variable' && PART.exec(value)) || []
+  const part = rows ?? columns ?? ''
+  if (part.startsWith('[')) return words.fixes.leaveOut(rowsBetween(part.slice(1, -1)))
+  const [first, last] = part.split(':')
   if (first && last) return words.fixes.keepRows(first, last)
   if (option === 'variable' && value === variable) return words.fixes.allTheSame
   const label = words.fixes[option as keyof Words['fixes']] as

@@ -34,10 +34,12 @@ export function UploadPage() {
       <>
         {over && <div class="drop-over">{w.dropHere}</div>}
         {error.value && (
-          <Notice severity="error">
-            <p>{error.value}</p>
-            <Button onClick={() => void flow.run()}>{words.value.retry}</Button>
-          </Notice>
+          <div class="upload-problem">
+            <Notice severity="error">
+              <p>{error.value}</p>
+              <Button onClick={() => void flow.run()}>{words.value.retry}</Button>
+            </Notice>
+          </div>
         )}
         <Verdict flow={flow} result={result.value} file={file.value} />
       </>

@@ -36,6 +36,18 @@ test('a button says what it does in each language', () => {
   expect(fixLabel(fix, de)).toBe('Die Spalten 2:7 nehmen')
 })
 
+test.each([
+  ['q(1:90, :)', 'Keep rows 1 to 90', 'Zeilen 1 bis 90 behalten'],
+  ['q(:, 1:90)', 'Keep rows 1 to 90', 'Zeilen 1 bis 90 behalten'],
+  ['s.q([1:89 91:201], :)', 'Leave out row 90', 'Zeile 90 weglassen'],
+  ['q([1 3:89 93:201], :)', 'Leave out rows 2, 90 to 92', 'Zeilen 2, 90 bis 92 weglassen'],
+  ['q(:, 2:7)', 'Keep rows 2 to 7', 'Zeilen 2 bis 7 behalten'],
+])('a part of a matrix, %s, is said by its rows', (value, english, german) => {
+  const fix = { option: 'variable', value, matlab: '' }
+  expect(fixLabel(fix, en)).toBe(english)
+  expect(fixLabel(fix, de)).toBe(german)
+})
+
 test('options that are off are not named', () => {
   expect(optionLabels({ unwrap: true, invert: false, columns: '' }, en)).toEqual([
     'Remove jumps by a full turn',
