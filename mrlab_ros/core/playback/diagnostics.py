@@ -311,7 +311,7 @@ FOLLOWS_NOTHING = Code(
 OUTSIDE_COURSE = Code(
     "outside_course",
     "The instant is {away:time} {side:choice before=before the newest change of what the robot "
-    "plays|after its end}.",
+    "plays|after=after its end}.",
     meaning="The course of a robot was asked for at an instant for which it is not known.",
 )
 
