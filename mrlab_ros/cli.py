@@ -37,6 +37,8 @@ mrlab show run.mat --robot ur5e — see it move, as one HTML file
 
 mrlab check run.mat --robot ur5e --scene table — is it ready for a robot, and why not?
 
+mrlab capture /joint_states --robot ur5e --against run.mat — what did the real robot do?
+
 mrlab play ur5e_1 run.mat — play it (in a second terminal, same ROS_DOMAIN_ID)
 
 mrlab pause ur5e_1, resume, stop, seek, place, remove — one robot; mrlab system for several
@@ -60,6 +62,8 @@ OWN = {
     "convert": "convert.command:convert",
     "show": "show:show",
     "check": "check.command:check",
+    "capture": "compare:capture",
+    "compare": "compare:compare",
     "play": "lab.play:play",
     "spawn": "lab.robot:spawn",
     "remove": "lab.robot:remove",

@@ -274,3 +274,17 @@ NO_DOMAIN_LEFT = Code(
 NO_DEMO_FILE = Code(
     "no_demo_file", "There is no file {path}.", "Name a workspace file with --file."
 )
+
+# capturing and comparing
+CAPTURED = Code(
+    "captured",
+    "{bag} holds {messages:count message|messages} of {topic}",
+    severity=INFO,
+)
+COMPARED = Code(
+    "compared",
+    "{measured} is {delay:number} s {side:choice late=later than|ahead=ahead of} {planned}, "
+    "{clock:choice frames=counted from the first frame of each|stamps=by their stamps}; without "
+    "that {joint} is off the most.",
+    severity=INFO,
+)

@@ -69,6 +69,15 @@ class JointStateEncoder:
         return bytes(buffer)
 
 
+def stamp_of(data: bytes) -> int:
+    """Return the stamp of a joint state, ns; raise BadInput where the bytes are none."""
+    try:
+        seconds, nanoseconds = STAMP.unpack_from(data, BODY)
+    except struct.error:
+        raise BadInput(JOINT_STATE_CUT(size=len(data))) from None
+    return int(seconds) * SECOND + int(nanoseconds)
+
+
 def read(data: bytes, joints: tuple[str, ...]) -> tuple[int, Numbers, Numbers]:
     """Return stamp (ns), positions (rad) and velocities (rad/s), in order of `joints`.
 

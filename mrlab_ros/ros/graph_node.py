@@ -80,13 +80,17 @@ class _Ear:
 class Graph(GraphClient):
     """A node of its own in the graph, which discovery takes a second or more to connect."""
 
-    def __init__(self) -> None:
-        self.domain = domain_id()
+    def __init__(self, domain: int | None = None) -> None:
+        """domain: the ROS domain; None: that of this process's environment."""
+        self.domain = domain_id() if domain is None else domain
         environment.prepare()
         self._context = Context()
         try:
             rclpy.init(
-                args=[], context=self._context, signal_handler_options=SignalHandlerOptions.NO
+                args=[],
+                context=self._context,
+                domain_id=self.domain,
+                signal_handler_options=SignalHandlerOptions.NO,
             )
         except rclpy_implementation.RCLError:
             environment.check_log_folder()

@@ -43,17 +43,17 @@ NOT_WRITTEN = Code("not_written", "not written[ ({times:integer} times)]: {error
 NOT_A_TOPIC = Code("not_a_topic", "'{topic}' cannot be a topic: {why:problem}.")
 NO_PUBLISHER = Code(
     "no_publisher",
-    "Nobody publishes on {topic} of ROS domain {domain:integer} within {timeout:time}[; a "
-    "JointTrajectory is on {others:list}].",
-    "Name the topic of a joint trajectory, or set ROS_DOMAIN_ID as its publisher has it.",
+    "Nobody publishes on {topic} of ROS domain {domain:integer} within {timeout:time}[; "
+    "{expected} is on {others:list}].",
+    "Name the topic as its publisher does, and the ROS domain.",
 )
 OTHER_TYPE = Code(
     "topic_of_other_type",
     "{topic} carries {found:list}; expected {expected}.",
-    "Name the topic of a joint trajectory.",
+    "Name a topic of that type.",
 )
 NO_MESSAGE = Code(
     "no_message_came",
     "{topic} has a publisher, but no message came within {timeout:time}.",
-    "Publish the trajectory while this waits, or wait longer with --timeout.",
+    "Publish while this waits, or wait longer with --timeout.",
 )

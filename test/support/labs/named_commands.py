@@ -199,6 +199,15 @@ replay foreign_bag --robot ur5e
 }
 # What the lists above leave out: the test that runs it, or why none does.
 ELSEWHERE = {
+    "capture": "with its options in test/system/test_capture.py",
+    "capture --against": "test/system/test_capture.py",
+    "capture --from-ros-domain": "test/system/test_capture.py",
+    "capture --name": "as mrlab play of a file, which converts it; test/system/test_student.py",
+    "capture --robot": "test/system/test_capture.py",
+    "capture --seconds": "test/system/test_capture.py",
+    "compare": "test/system/test_capture.py",
+    "compare --json": "as capture --json; test/system/test_capture.py",
+    "compare --robot": "test/system/test_capture.py",
     "check": "with all its options in test/unit/commands/check/test_run.py",
     "check --json": "with all its options in test/unit/commands/check/test_run.py",
     "check --out": "with all its options in test/unit/commands/check/test_run.py",
