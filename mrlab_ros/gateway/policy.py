@@ -101,6 +101,7 @@ ROUTES: Mapping[tuple[str, str], Everybody | Role | Need] = {
     ("GET", "/api/trajectories"): Need(Verb.CALL, "converter/list"),
     ("POST", "/api/trajectories"): CONVERTS_OWN,
     ("GET", "/api/trajectories/{trajectory:path}/motion"): READS,
+    ("GET", "/api/trajectories/{trajectory:path}/sketch"): READS,
     ("GET", "/api/trajectories/{trajectory:path}/versions"): READS,
     ("GET", "/api/trajectories/{trajectory:path}/file"): READS,
     ("PATCH", "/api/trajectories/{trajectory:path}"): CONVERTS_OWN,

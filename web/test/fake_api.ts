@@ -338,6 +338,9 @@ export class FakeApi implements Api {
       motion: '/api/motions/good',
     }
   }
+  async sketch(): Promise<readonly (readonly number[])[]> {
+    return Array.from({ length: 48 }, (_, i) => [20, 58, 20, 40, 40, 20 + i / 2, 80, 30 + i / 3])
+  }
   async motion(url: string): Promise<MotionDocument> {
     if (url.includes('bad'))
       return fakeMotion({

@@ -72,6 +72,12 @@ class Trajectories(BaseModel):
     problem: Finding | None = None
 
 
+class Sketch(BaseModel):
+    """A robot of sticks in poses evenly spaced in time, each x0, y0, x1, y1, ... in 96 x 64 px."""
+
+    poses: list[list[float]]
+
+
 class Version(BaseModel):
     """One version of a trajectory. created: s since 1970, when its file was converted."""
 

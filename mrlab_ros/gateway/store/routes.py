@@ -15,6 +15,7 @@ from fastapi.responses import StreamingResponse
 
 from mrlab_ros.adapters.store import keys
 from mrlab_ros.app.show import document
+from mrlab_ros.app.show.sketch import sketch
 from mrlab_ros.core.base.errors import BadInput, Unavailable
 from mrlab_ros.core.trajectory.catalogue import Record, Version
 from mrlab_ros.gateway.diagnostics import GATEWAY_WITHOUT_LAB
@@ -88,6 +89,21 @@ async def motion(person: CurrentPerson, shelf: TheShelf, trajectory: TrajectoryI
         return orjson.dumps(document.motion(loaded, robot, message=f"{loaded.id}: {seconds}"))
 
     return Response(await run_in_threadpool(made), media_type="application/json")
+
+
+@router.get("/{trajectory:path}/sketch")
+async def drawing(
+    person: CurrentPerson, shelf: TheShelf, trajectory: TrajectoryId, response: Response
+) -> answers.Sketch:
+    """Return a small drawing of a trajectory; that of a version never changes."""
+
+    def made() -> answers.Sketch:
+        loaded = shelf.files.load(*shelf.find(person, trajectory))
+        robot = shelf.robots.shown(loaded.robot_model, None)
+        return answers.Sketch(**sketch(loaded, robot))
+
+    response.headers["Cache-Control"] = "private, max-age=86400"
+    return await run_in_threadpool(made)
 
 
 @router.get("/{trajectory:path}/versions")

@@ -42,6 +42,9 @@ export interface Api {
   live(after: string | null, signal: AbortSignal): Promise<Live | null>
 
   trajectories(): Promise<Listing>
+  /** Return a robot of sticks in poses evenly spaced in time, each x0, y0, x1, y1, ... in 96 x 64
+   * px. id: such as quintic@3. */
+  sketch(id: string): Promise<readonly (readonly number[])[]>
   publish(draft: string, id: string, shared: boolean): Promise<TrajectoryInfo>
   versions(id: string): Promise<readonly Version[]>
   share(id: string, shared: boolean): Promise<void>

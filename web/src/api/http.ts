@@ -147,6 +147,10 @@ export class HttpApi implements Api {
   trajectories(): Promise<Listing> {
     return this.#ask('GET', '/api/trajectories')
   }
+  async sketch(id: string): Promise<readonly (readonly number[])[]> {
+    const url = trajectoryUrl(id, 'sketch')
+    return (await this.#ask<{ poses: number[][] }>('GET', url)).poses
+  }
   publish(draft: string, id: string, shared: boolean): Promise<TrajectoryInfo> {
     return this.#ask('POST', '/api/trajectories', { draft, id, shared })
   }

@@ -157,6 +157,7 @@ def test_two_users_see_nothing_of_each_other(school, anna, ben, teacher):
     here = "/api/trajectories/anna/secret"
     for method, path, body in [
         ("GET", f"{here}/motion", None),
+        ("GET", f"{here}/sketch", None),
         ("GET", f"{here}/versions", None),
         ("GET", f"{here}/file", None),
         ("GET", f"{here}@1/file", None),

@@ -227,6 +227,9 @@ export function Lab({ link }: { link: Link }) {
                   key={each.robot.name}
                   view={each}
                   catalogue={catalogue}
+                  system={follower.systems.value.find(
+                    ({ system }) => system.name === each.playback?.system,
+                  )}
                   idle={moving.length === 0}
                 />
               ))}

@@ -1,5 +1,6 @@
 import { useEffect, useState } from 'preact/hooks'
 import { Button } from '../../design/button'
+import { Icon } from '../../design/icons'
 import { listBagsOf, order, trigger } from '../../lab/commands'
 import type { LabFollower } from '../../lab/follower'
 import { RecorderState, replayType } from '../../protocol/mrlab_msgs'
@@ -7,6 +8,9 @@ import { spoken } from '../../words/diagnostic'
 import { words } from '../../words/words'
 import { useLab } from './context'
 import { Timeline } from './timeline'
+
+/** Bags that are listed without a search. */
+const MOST = 6
 
 /** Replay a recorded bag in this view, and show the state of the recorder. */
 export function ReplayCard({ follower }: { follower: LabFollower }) {
@@ -26,11 +30,12 @@ export function ReplayCard({ follower }: { follower: LabFollower }) {
   const replaying =
     state?.state === RecorderState.REPLAYING || state?.state === RecorderState.PAUSED
   if (!may.replay && !replaying && state?.state !== RecorderState.RECORDING) return null
-  const start = (event: Event) => {
-    event.preventDefault()
-    const request = { bag: bag.trim(), rate: 1, start: 0, loop: false }
-    if (request.bag) order(lab, 'recorder/replay', replayType, request)
+  const replay = (wanted: string) => {
+    const request = { bag: wanted, rate: 1, start: 0, loop: false }
+    if (wanted) order(lab, 'recorder/replay', replayType, request)
   }
+  const text = bag.trim()
+  const found = bags.filter((each) => each.toLowerCase().includes(text.toLowerCase()))
   return (
     <article class="lab-card">
       <h2>{w.recordings}</h2>
@@ -46,27 +51,40 @@ export function ReplayCard({ follower }: { follower: LabFollower }) {
         </>
       ) : (
         may.replay && (
-          <form class="lab-replay" onSubmit={start}>
-            <label class="small" for="lab-bag">
-              {w.bag}
-            </label>
+          <form
+            class="lab-load"
+            onSubmit={(event) => {
+              event.preventDefault()
+              replay(text)
+            }}
+          >
+            {/* a folder that is not in the list can be named as well */}
             <input
-              id="lab-bag"
               class="input"
+              type="search"
+              aria-label={w.bag}
+              placeholder={w.bag}
               value={bag}
-              placeholder="class.bag"
-              list="lab-bags"
               autocomplete="off"
               onInput={(event) => setBag(event.currentTarget.value)}
             />
-            <datalist id="lab-bags">
-              {bags.map((each) => (
-                <option key={each} value={each} />
-              ))}
-            </datalist>
-            <Button type="submit" disabled={!bag.trim()}>
-              {w.replay}
-            </Button>
+            {found.length > 0 && (
+              <ul class="lab-load-list" aria-label={w.recordings}>
+                {found.slice(0, MOST).map((each) => (
+                  <li key={each}>
+                    <button type="button" class="lab-load-item" onClick={() => replay(each)}>
+                      <Icon name="play" />
+                      <strong class="grow">{each}</strong>
+                      <span class="lab-load-word small">{w.replay}</span>
+                    </button>
+                  </li>
+                ))}
+              </ul>
+            )}
+            {found.length > MOST && <p class="second tiny">{w.moreToFind(found.length - MOST)}</p>}
+            {text !== '' && !bags.includes(text) && (
+              <Button type="submit">{w.openBag(text)}</Button>
+            )}
           </form>
         )
       )}

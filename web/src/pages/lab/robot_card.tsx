@@ -11,6 +11,8 @@ import { CheckCard } from './check_card'
 import './check.css'
 import { order, trigger } from '../../lab/commands'
 import type { RobotView } from '../../lab/followed_robot'
+import type { SystemView } from '../../lab/follower'
+import { nextOf } from '../../lab/next'
 import { kindOf, marksOf, RobotCheck } from '../../lab/robot_check'
 import { useLab } from './context'
 import { LoadList } from './load_list'
@@ -18,10 +20,14 @@ import { Timeline } from './timeline'
 
 /** Targets that have a button each; a longer list would push the next robot away. */
 const MOST_TARGETS = 12
+/** ms between two looks at what comes next. */
+const LOOK_MS = 250
 
 interface RobotCardProps {
   readonly view: RobotView
   readonly catalogue: LabCatalogue
+  /** That moves it; absent: none. */
+  readonly system: SystemView | undefined
   /** Nothing of the lab moves: a motion that is loaded now is checked automatically. */
   readonly idle: boolean
 }
@@ -66,8 +72,33 @@ function Targets({ view }: { view: RobotView }) {
   )
 }
 
+interface NextProps {
+  readonly view: RobotView
+  readonly system: SystemView | undefined
+}
+
+/** What the robot does next, as far as it is known; it follows the robot while that moves. */
+function Next({ view, system }: NextProps) {
+  const w = words.value.lab.next
+  const { player } = view
+  const [, look] = useState(0)
+  useEffect(() => {
+    if (!player.playing && !system?.player.playing) return
+    const timer = setInterval(() => look((count) => count + 1), LOOK_MS)
+    return () => clearInterval(timer)
+  }, [view, system])
+  const member = system?.system.members.find(({ robot }) => robot === view.robot.name)
+  const turn = system && member ? { member, position: system.player.position() } : null
+  return (
+    <p class="small">
+      <span class="second">{w.next}: </span>
+      {nextOf(view, player.position(), turn, w)}
+    </p>
+  )
+}
+
 /** One robot: its state, the object that it holds, its timeline, and its motions. */
-export function RobotCard({ view, catalogue, idle }: RobotCardProps) {
+export function RobotCard({ view, catalogue, system, idle }: RobotCardProps) {
   const lab = useLab()
   const { may } = lab
   const [choosing, setChoosing] = useState(false)
@@ -116,6 +147,7 @@ export function RobotCard({ view, catalogue, idle }: RobotCardProps) {
         )}
         {view.down && <p class="lab-halt small">{w.outages.robot}</p>}
         {touching && !halted && <p class="lab-halt small">{touching}</p>}
+        <Next view={view} system={system} />
         {holding && <p class="small">{w.holds(holding)}</p>}
         {halted && may.commands && (
           <Button onClick={() => trigger(lab, `${robot.name}/clear_halt`)}>{w.clearHalt}</Button>

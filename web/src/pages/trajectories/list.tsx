@@ -8,6 +8,7 @@ import { navigate } from '../../shell/router'
 import { dateTime, number, words } from '../../words/words'
 import { type Catalogue, type Scope, shortName, trajectoryPage } from './catalogue'
 import { TrajectoryMenu } from './menu'
+import { Sketch } from './sketch'
 
 const ROW_HEIGHT = 84
 
@@ -47,9 +48,7 @@ function Row({ catalogue, info, user }: ListProps & { info: TrajectoryInfo }) {
         />
         <span class="spoken">{w.compareWith(info.id)}</span>
       </label>
-      <span class="trajectory-picture">
-        {robot?.thumbnail && <img src={robot.thumbnail} alt="" loading="lazy" />}
-      </span>
+      <Sketch id={`${info.id}@${info.version}`} instead={robot?.thumbnail ?? null} />
       <a class="trajectory-link" href={trajectoryPage(info.id)}>
         <span class="trajectory-name">
           <strong>{shortName(info.id)}</strong>
