@@ -105,6 +105,14 @@ def surfaces_to_message(now_ns: int, surfaces: Iterable[Surface]) -> msg.Surface
     )
 
 
+def overlaps_to_message(now_ns: int, found: Iterable[tuple[str, Surface]]) -> msg.Overlaps:
+    """found: the robots, each with a surface that it stands in."""
+    return msg.Overlaps(
+        header=make_header(now_ns, WORLD),
+        overlaps=[msg.Overlap(robot=robot, surface=s.name, label=s.label) for robot, s in found],
+    )
+
+
 def collision_to_message(event: CollisionChanged, shifted_ns: int) -> msg.Collision:
     contact = event.contact
     return msg.Collision(

@@ -226,8 +226,8 @@ def test_the_catalogue_is_listed_and_what_the_lab_removes_is_announced(graph, la
     assert types["cube"].mass == pytest.approx(0.1)
     assert types["cube"].about == "a wooden cube of 5 cm"
     assert types["table"].mass == 0
-    scenes = graph.call(srv.ListScenes, "/lab/list_scenes").scenes
-    assert {"empty", "handover", "pick_and_place"} <= set(scenes)
+    listed = graph.call(srv.ListScenes, "/lab/list_scenes").scenes
+    assert {"empty", "handover", "pick_and_place"} <= set(listed)
     removed = graph.listen(msg.ObjectRemoved, "/objects/removed", qos.EVENTS)
     wait_for(lambda: graph.client.count_publishers("/objects/removed"), "the topic")
     for _ in range(answer.limit + 1):
@@ -240,3 +240,8 @@ def test_the_catalogue_is_listed_and_what_the_lab_removes_is_announced(graph, la
     done(graph.call(Trigger, "/physics/clear_objects"))
     wait_for(lambda: lab.objects and not lab.objects.last().objects, "an empty room")
     assert len(removed) == 1
+    undo = graph.call(srv.Undo, "/lab/undo", timeout=60)
+    assert done(undo).code == scenes.UNDONE.code
+    wait_for(lambda: len(lab.objects.last().objects) == answer.limit - 1, "what was cleared")
+    done(graph.call(srv.Undo, "/lab/undo", timeout=60))
+    wait_for(lambda: any(o.name == "ball_2" for o in lab.objects.last().objects), "the ball")

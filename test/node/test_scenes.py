@@ -17,11 +17,16 @@ from mrlab_ros.adapters.robots.diagnostics import NO_ROBOT_MODEL
 from mrlab_ros.adapters.scenes.diagnostics import BAD_SCENE_NAME, NO_SCENE
 from mrlab_ros.core.base.diagnostics import RESERVED_NAME
 from mrlab_ros.core.scene.diagnostics import (
+    BAD_PLACE_NAME,
     CONTENTS_LEFT_OUT,
     LOADED_IN_PART,
+    NO_ACT_TO_UNDO,
+    PLACE_SET,
     POSITION_BEYOND,
     TRAJECTORY_NOT_FITTING,
+    UNDONE,
 )
+from mrlab_ros.core.systems.diagnostics import DISSOLVED
 from mrlab_ros.messages import qos
 from mrlab_ros.nodes.coordinator.node import CoordinatorNode
 from mrlab_ros.nodes.lab.diagnostics import (
@@ -152,6 +157,37 @@ def test_robots_and_systems_of_a_scene_come_back_without_physics(graph, lab):
     done(scene(graph, "load", "lesson"))
     is_back(graph, lab, robots)
     done(graph.call(Trigger, "/cell/play", timeout=30))
+
+
+def test_what_was_loaded_removed_or_dissolved_is_undone_whoever_did_it(graph, lab):
+    robots = furnish(graph, lab)
+    undoable = graph.listen(msg.Undoable, "/undoable", qos.LATCHED)
+    place = graph.listen(msg.Place, "/place", qos.LATCHED)
+    named = graph.call(srv.SetPlace, "/lab/set_place", name="Lab A")
+    assert done(named).code == PLACE_SET.code
+    wait_for(lambda: place and place.last().name == "Lab A", "the place")
+    done(scene(graph, "save", "lesson"))
+    done(scene(graph, "load", "empty"))
+    wait_for(lambda: undoable and undoable.last().code == SCENE_LOADED.code, "the act")
+    done(graph.call(srv.SetPlace, "/lab/set_place", name="Lab B"))
+    assert done(graph.call(srv.Undo, "/lab/undo", timeout=60)).code == UNDONE.code
+    is_back(graph, lab, robots)
+    wait_for(lambda: place.last().name == "Lab A", "the place of the scene")
+    done(graph.call(srv.Remove, "/coordinator/dissolve_system", name="cell"))
+    wait_for(lambda: undoable.last().code == DISSOLVED.code, "the system's end")
+    done(graph.call(srv.Undo, "/lab/undo", id=undoable.last().id, timeout=60))
+    wait_for(lambda: undoable.last().id == "", "nothing to undo")
+    done(graph.call(srv.Remove, "/lab/remove_robot", name=robots.alone))
+    done(graph.call(srv.Remove, "/lab/remove_robot", name=robots.members[0]))
+    wait_for(lambda: system(lab) is None, "the end of the system with its member")
+    done(graph.call(srv.Undo, "/lab/undo", timeout=60))
+    done(graph.call(srv.Undo, "/lab/undo", timeout=60))
+    is_back(graph, lab, robots)
+    answer = graph.call(srv.Undo, "/lab/undo")
+    assert (answer.success, answer.code) == (False, NO_ACT_TO_UNDO.code)
+    for name in ("", "x" * 65, "a\nb"):
+        answer = graph.call(srv.SetPlace, "/lab/set_place", name=name)
+        assert (answer.success, answer.code) == (False, BAD_PLACE_NAME.code)
 
 
 def test_objects_of_a_scene_are_named_as_left_out(graph, lab):

@@ -187,6 +187,12 @@ class LatencyHop:
     max: float
     def __init__(self, *, hop: int = ..., topic: str = ..., count: int = ..., p50: float = ..., p95: float = ..., max: float = ...) -> None: ...
 
+class LookHere:
+    header: std_msgs.msg.Header
+    name: str
+    point: geometry_msgs.msg.Point
+    def __init__(self, *, header: std_msgs.msg.Header = ..., name: str = ..., point: geometry_msgs.msg.Point = ...) -> None: ...
+
 class Move:
     hand: str
     sequence: int
@@ -222,6 +228,23 @@ class ObjectType:
     mesh: str
     primitive: shape_msgs.msg.SolidPrimitive
     def __init__(self, *, id: str = ..., about: str = ..., size: geometry_msgs.msg.Vector3 = ..., mass: float = ..., color: std_msgs.msg.ColorRGBA = ..., mesh: str = ..., primitive: shape_msgs.msg.SolidPrimitive = ...) -> None: ...
+
+class Overlap:
+    robot: str
+    surface: str
+    label: str
+    def __init__(self, *, robot: str = ..., surface: str = ..., label: str = ...) -> None: ...
+
+class Overlaps:
+    header: std_msgs.msg.Header
+    overlaps: list[Overlap]
+    def __init__(self, *, header: std_msgs.msg.Header = ..., overlaps: Sequence[Overlap] = ...) -> None: ...
+
+class Place:
+    header: std_msgs.msg.Header
+    id: str
+    name: str
+    def __init__(self, *, header: std_msgs.msg.Header = ..., id: str = ..., name: str = ...) -> None: ...
 
 class PlaybackClock:
     stamp: builtin_interfaces.msg.Time
@@ -443,3 +466,12 @@ class TrajectoryInfo:
     shared: bool
     warnings: list[Diagnostic]
     def __init__(self, *, id: str = ..., robot_model: str = ..., end_effector: str = ..., source_file: str = ..., source_variable: str = ..., source_sha256: str = ..., created: builtin_interfaces.msg.Time = ..., frame_rate: float = ..., frame_count: int = ..., duration: float = ..., has_gripper: bool = ..., owner: str = ..., version: int = ..., shared: bool = ..., warnings: Sequence[Diagnostic] = ...) -> None: ...
+
+class Undoable:
+    header: std_msgs.msg.Header
+    id: str
+    until: builtin_interfaces.msg.Time
+    message: str
+    code: str
+    values: list[diagnostic_msgs.msg.KeyValue]
+    def __init__(self, *, header: std_msgs.msg.Header = ..., id: str = ..., until: builtin_interfaces.msg.Time = ..., message: str = ..., code: str = ..., values: Sequence[diagnostic_msgs.msg.KeyValue] = ...) -> None: ...

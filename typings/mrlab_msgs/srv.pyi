@@ -341,6 +341,18 @@ class SetObjects(Service[SetObjects.Request, SetObjects.Response]):
         objects: list[mrlab_msgs.msg.ObjectPlacement]
         def __init__(self, *, success: bool = ..., message: str = ..., code: str = ..., values: Sequence[diagnostic_msgs.msg.KeyValue] = ..., objects: Sequence[mrlab_msgs.msg.ObjectPlacement] = ...) -> None: ...
 
+class SetPlace(Service[SetPlace.Request, SetPlace.Response]):
+    class Request:
+        id: str
+        name: str
+        def __init__(self, *, id: str = ..., name: str = ...) -> None: ...
+    class Response:
+        success: bool
+        message: str
+        code: str
+        values: list[diagnostic_msgs.msg.KeyValue]
+        def __init__(self, *, success: bool = ..., message: str = ..., code: str = ..., values: Sequence[diagnostic_msgs.msg.KeyValue] = ...) -> None: ...
+
 class SetRate(Service[SetRate.Request, SetRate.Response]):
     class Request:
         rate: float
@@ -438,6 +450,17 @@ class Step(Service[Step.Request, Step.Response]):
 class Trigger(Service[Trigger.Request, Trigger.Response]):
     class Request:
         def __init__(self) -> None: ...
+    class Response:
+        success: bool
+        message: str
+        code: str
+        values: list[diagnostic_msgs.msg.KeyValue]
+        def __init__(self, *, success: bool = ..., message: str = ..., code: str = ..., values: Sequence[diagnostic_msgs.msg.KeyValue] = ...) -> None: ...
+
+class Undo(Service[Undo.Request, Undo.Response]):
+    class Request:
+        id: str
+        def __init__(self, *, id: str = ...) -> None: ...
     class Response:
         success: bool
         message: str

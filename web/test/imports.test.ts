@@ -43,7 +43,7 @@ const PARTS: Readonly<Record<string, Layers>> = {
   room: {
     page: 'board ports room session',
     room: 'board follow handles input latency layout panels people place robots scene session systems tour wiring',
-    wiring: 'board handles latency panels people place ports robots scene session systems tour',
+    wiring: 'board handles latency panels place ports robots scene session systems tour',
     follow: 'board handles ports robots session systems',
     tour: 'board input latency panels ports robots scene session',
     board: 'latency layout panels people place ports scene session systems',

@@ -54,6 +54,19 @@ def load(name: Scene, as_json: AsJson = False) -> None:
     say(_scene_file("load", name, LOAD_TIMEOUT), as_json=as_json, scene=name)
 
 
+@scene.command()
+def undo(as_json: AsJson = False) -> None:
+    """Undo what was loaded, removed or dissolved last, by anybody, up to ten seconds ago."""
+    from mrlab_msgs import srv
+
+    from mrlab_ros.client.connect import open_graph
+    from mrlab_ros.core.base.diagnostic import heard
+
+    with open_graph() as graph:
+        answer = graph.order(srv.Undo, "/lab/undo", srv.Undo.Request(), LOAD_TIMEOUT)
+    say(heard(answer), as_json=as_json)
+
+
 def _scene_file(verb: str, name: str, timeout: float) -> Diagnostic:
     from mrlab_msgs import srv
 

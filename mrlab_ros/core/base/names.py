@@ -22,9 +22,12 @@ RESERVED = frozenset(
         "coordinator",
         "frames",
         "lab",
+        "look_here",
         "markers",
         "objects",
+        "overlaps",
         "physics",
+        "place",
         "playback_host",
         "processes",
         "recorder",
@@ -37,6 +40,7 @@ RESERVED = frozenset(
         "tf",
         "tf_static",
         "trajectories",
+        "undoable",
     }
 )
 # Beginnings of the names of parameters that rclpy declares on every node.

@@ -11,14 +11,13 @@ from mrlab_ros.core.base.geometry import Pose, add
 from mrlab_ros.core.physics import contact_rules
 from mrlab_ros.core.physics.clearance import Halt
 from mrlab_ros.core.physics.engine import BodyState, Kind, Touch
+from mrlab_ros.core.physics.grippers import LEFT
 from mrlab_ros.core.physics.objects import surface_body
 from mrlab_ros.core.physics.simulated_robot import Robot
 from mrlab_ros.core.physics.world_state import CollisionChanged, Contact, WorldState
 from mrlab_ros.core.scene import surfaces as rooms
 from mrlab_ros.core.scene.surfaces import Surface
 
-# From this distance on, m, the fingers have left what they released.
-LEFT = 0.002
 # Deeper than this, m, no arm presses an object into anything.
 SQUEEZED = 0.0005
 

@@ -1,8 +1,9 @@
 """Which contacts are collisions: a grasp, a release and setting down are none.
 
 A finger may press on an object only the way it closes, and only while the gripper closes or holds.
-What is held is part of the robot; it may meet something along its release direction by a declared
-tolerance. Everything else that a moving link touches halts the arm.
+What a person gives to a gripper by hand meets the gripper without a collision, until it has left
+it. What is held is part of the robot; it may meet something along its release direction by a
+declared tolerance. Everything else that a moving link touches halts the arm.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ from mrlab_ros.core.base.geometry import dot, rotate
 from mrlab_ros.core.physics.engine import Kind, Touch
 from mrlab_ros.core.physics.grasp.states import INWARDS, opposed
 from mrlab_ros.core.physics.simulated_robot import Pressed, Robot
-from mrlab_ros.core.physics.world_state import WorldState
+from mrlab_ros.core.physics.world_state import HAND, WorldState
 
 # Cosine between a contact and the release direction, for the tolerance along it: 45 degrees.
 ALONG = 0.707
@@ -32,8 +33,16 @@ def counts(state: WorldState, robot: Robot, touch: Touch) -> bool:
         return False
     if touch.kind is Kind.OBJECT:
         thing = state.objects.get(touch.other)
+        grips = robot.gripper.closes or robot.gripper.pulls
+        if thing is not None and thing.held_by == HAND and grips and _of_hand(robot, touch.link):
+            # Somebody gives it to the gripper.
+            return False
         return thing is None or not thing.graspable or not may_touch(robot, touch, touch.other)
     return True
+
+
+def _of_hand(robot: Robot, link: str) -> bool:
+    return link in robot.arm.grip_links | robot.arm.tool_links
 
 
 def may_touch(robot: Robot, touch: Touch, name: str, link: str = "") -> bool:
@@ -44,7 +53,7 @@ def may_touch(robot: Robot, touch: Touch, name: str, link: str = "") -> bool:
     link = link or touch.link
     if name == robot.held:
         return link in robot.arm.grip_links
-    if name in robot.leaving and link in robot.arm.grip_links | robot.arm.tool_links:
+    if name in robot.leaving and _of_hand(robot, link):
         return True
     if robot.gripper.closes:
         return robot.closed and (

@@ -38,6 +38,9 @@ from mrlab_ros.core.physics.snapshots import HeldSnapshot
 from mrlab_ros.core.physics.world_state import SceneObject, WorldState
 from mrlab_ros.core.playback.states import State
 
+# From this distance on, m, the fingers have left what they released.
+LEFT = 0.002
+
 
 class Grippers:
     """The grippers of all robots in the world."""
@@ -210,6 +213,12 @@ class Grippers:
         self._engine.drive_fingers(robot.name, robot.finger_velocities())
         if changed:
             self.announce(robot)
+
+    def give(self, thing: SceneObject) -> None:
+        """Let the grippers that an object is at touch it on: a hand lets it go there."""
+        for robot in self._world_state.robots.values():
+            if self._engine.distance(robot.name, Kind.OBJECT, thing.name, LEFT) < LEFT:
+                robot.leaving.add(thing.name)
 
     def command(self, robot: Robot, closed: bool) -> bool:
         """Fire the command to close or open; return whether the state changed.

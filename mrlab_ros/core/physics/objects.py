@@ -139,6 +139,8 @@ class Inventory:
         checked_vector(pose.position, "position", WORLD_SIZE)
         checked_vector(linear, "velocity", MAX_THROW)
         checked_vector(angular, "angular_velocity", MAX_SPIN)
+        if thing.held_by == HAND and not held:
+            self._grippers.give(thing)
         self._grippers.take_away(thing)
         motion = BodyState(pose, linear, angular)
         self.fast = (*self.fast, name)

@@ -107,6 +107,16 @@ class World:
         tool = self._engine.link(robot.name, robot.tool_link).pose
         return compose(relative(tool, self.hand(robot.name).pose), robot.in_hand)
 
+    def overlaps(self) -> list[tuple[str, Surface]]:
+        """Return the robots that stand in surfaces, whose contacts with them are not checked."""
+        known = self._world_state.surfaces
+        return [
+            (name, known[surface])
+            for name, robot in sorted(self._robots.items())
+            for surface in sorted(robot.tolerated)
+            if surface in known
+        ]
+
     def take_events(self) -> list[Event]:
         """Return the events since the last call, oldest first."""
         taken, self._world_state.events = self._world_state.events, []

@@ -108,6 +108,7 @@ NO_PLACE_ON_FLOOR = Code(
 
 # loading a scene, and bringing it back: steps, which are parts of other texts
 
+GO_TO_PLACE = Code("go_to_place", "go to the place {place}", severity=INFO)
 DISSOLVE_SYSTEMS = Code("dissolve_systems", "dissolve {systems:list}", severity=INFO)
 REMOVE_ROBOTS = Code("remove_robots", "remove {robots:list}", severity=INFO)
 SET_CONTENTS = Code(
@@ -115,6 +116,7 @@ SET_CONTENTS = Code(
     "set {objects:count object|objects} and {surfaces:count surface|surfaces}",
     severity=INFO,
 )
+ADD_OBJECTS = Code("add_objects", "put {objects:list} back", severity=INFO)
 SPAWN_ROBOTS = Code("spawn_robots", "spawn {robots:list}", severity=INFO)
 LOAD_TRAJECTORY = Code("load_trajectory", "load {trajectory} into {robot}", severity=INFO)
 CREATE_SYSTEM = Code("create_system", "create the system {system}", severity=INFO)
@@ -156,4 +158,39 @@ NO_TRAJECTORY_NAMED = Code(
     "The system {system} names no trajectory for {robot}.",
     "Name one of the catalogue.",
     meaning="A member of a system has nothing to play.",
+)
+
+# undoing
+
+NO_ACT_TO_UNDO = Code(
+    "no_act_to_undo",
+    "There is nothing to undo: loading, removing and dissolving can be undone for {limit:time}.",
+    meaning="An act was to be undone that is older, or was undone already.",
+)
+UNDONE = Code(
+    "undone",
+    "Undone: {act:problem}",
+    severity=INFO,
+    meaning="What an act removed is there again.",
+)
+OBJECTS_TAKEN_OUT = Code(
+    "objects_taken_out",
+    "Removed from the scene: {objects:list}.",
+    severity=INFO,
+    meaning="Somebody removed objects; they can be brought back for a while.",
+)
+
+# places
+
+PLACE_SET = Code(
+    "place_set",
+    "The robots stand in {place}.",
+    severity=INFO,
+    meaning="The place of the lab was named, or the lab went to another one.",
+)
+BAD_PLACE_NAME = Code(
+    "bad_place_name",
+    "The name or id {name} of a place has {count:integer} characters; expected 1 to "
+    "{most:integer} that can be printed.",
+    meaning="A place cannot be called so.",
 )

@@ -50,11 +50,12 @@ from mrlab_ros.core.systems.cell_file import (
     read_system,
 )
 
-__all__ = ["MemberEntry", "ObjectEntry", "RobotEntry", "SceneDocument", "SystemEntry"]
+__all__ = ["MemberEntry", "ObjectEntry", "Place", "RobotEntry", "SceneDocument", "SystemEntry"]
 
 T = TypeVar("T")
 
-PARTS = ("about", "robots", "objects", "surfaces", "systems")
+PARTS = ("about", "robots", "objects", "surfaces", "systems", "place")
+PLACE_FIELDS = ("id", "name")
 POSE_FIELDS = ("position", "orientation")
 ROBOT_FIELDS = (
     "name", "model", "end_effector", *POSE_FIELDS, "trajectory", "at", "rate", "loop",
@@ -95,14 +96,25 @@ class ObjectEntry:
 
 
 @dataclass(frozen=True)
+class Place:
+    """A real room with an origin that its headsets share. id: never used again. name: for people,
+    may be empty."""
+
+    id: str
+    name: str = ""
+
+
+@dataclass(frozen=True)
 class SceneDocument:
-    """Contents of a scene, or of a cell, which has systems alone. about: a sentence for people."""
+    """Contents of a scene, or of a cell, which has systems alone. about: a sentence for people.
+    place: where its robots stand; None: wherever the lab is."""
 
     robots: tuple[RobotEntry, ...] = ()
     objects: tuple[ObjectEntry, ...] = ()
     surfaces: tuple[Surface, ...] = ()
     systems: tuple[SystemEntry, ...] = ()
     about: str = ""
+    place: Place | None = None
 
     @property
     def driven(self) -> frozenset[str]:
@@ -146,6 +158,8 @@ def parse_cell(document: object, origin: str) -> tuple[SystemEntry, ...]:
 def plain(scene: SceneDocument) -> dict[str, Any]:
     """Return the scene as mappings, lists and numbers, which parse() reads."""
     result: dict[str, Any] = {"about": scene.about} if scene.about else {}
+    if scene.place is not None:
+        result["place"] = {"id": scene.place.id, "name": scene.place.name}
     result["robots"] = [_plain_robot(robot) for robot in scene.robots]
     result["objects"] = [_plain_object(thing) for thing in scene.objects]
     result["surfaces"] = [
@@ -225,17 +239,21 @@ def _read(document: object, origin: str, whole: bool) -> tuple[SceneDocument, li
                 mistakes.append(error.diagnostic)
         return found
 
+    about, place = "", None
     try:
         about = record.value("about", TEXT, "")
+        entry = record.record("place", PLACE_FIELDS)
+        if entry is not None:
+            place = Place(entry.required("id", FILLED_TEXT), entry.value("name", TEXT, ""))
     except BadInput as error:
         mistakes.append(error.diagnostic)
-        about = ""
     scene = SceneDocument(
         tuple(part("robots", "robot", _robot)),
         tuple(part("objects", "object", _object)),
         tuple(part("surfaces", "surface", _surface)),
         tuple(part("systems", "system", read_system)),
         about,
+        place,
     )
     return _consistent(scene, origin, whole, mistakes), mistakes
 

@@ -13,9 +13,11 @@ from dataclasses import dataclass, field, replace
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.errors import BadInput, LabError
 from mrlab_ros.core.scene.diagnostics import (
+    ADD_OBJECTS,
     CONTENTS_LEFT_OUT,
     CREATE_SYSTEM,
     DISSOLVE_SYSTEMS,
+    GO_TO_PLACE,
     GRIP_OBJECTS,
     LOAD_TRAJECTORY,
     LOADED_IN_PART,
@@ -27,7 +29,13 @@ from mrlab_ros.core.scene.diagnostics import (
     STEP_FAILED,
     TRAJECTORY_NOT_FITTING,
 )
-from mrlab_ros.core.scene.document import ObjectEntry, RobotEntry, SceneDocument, SystemEntry
+from mrlab_ros.core.scene.document import (
+    ObjectEntry,
+    Place,
+    RobotEntry,
+    SceneDocument,
+    SystemEntry,
+)
 from mrlab_ros.core.scene.surfaces import Surface
 from mrlab_ros.core.systems.members import Loaded
 from mrlab_ros.core.systems.timeline import Member, Timeline
@@ -43,6 +51,17 @@ class Present:
     loaded: Mapping[str, str] = field(default_factory=dict)
     systems: frozenset[str] = frozenset()
     physics: bool = False
+
+
+@dataclass(frozen=True)
+class GoTo:
+    """Say that the lab stands in another place."""
+
+    place: Place
+
+    @property
+    def said(self) -> Diagnostic:
+        return GO_TO_PLACE(place=self.place.name or self.place.id)
 
 
 @dataclass(frozen=True)
@@ -77,6 +96,17 @@ class SetObjects:
     @property
     def said(self) -> Diagnostic:
         return SET_CONTENTS(objects=len(self.objects), surfaces=len(self.surfaces))
+
+
+@dataclass(frozen=True)
+class AddObjects:
+    """Put objects beside those that are there; robots that held one hold it again."""
+
+    objects: tuple[ObjectEntry, ...]
+
+    @property
+    def said(self) -> Diagnostic:
+        return ADD_OBJECTS(objects=[thing.name for thing in self.objects])
 
 
 @dataclass(frozen=True)
@@ -125,9 +155,11 @@ class AwaitGrasps:
 
 
 Step = (
-    DissolveSystems
+    GoTo
+    | DissolveSystems
     | RemoveRobots
     | SetObjects
+    | AddObjects
     | SpawnRobots
     | LoadTrajectory
     | CreateSystem
@@ -137,7 +169,7 @@ Step = (
 
 def plan_scene(wanted: SceneDocument, present: Present) -> tuple[Step, ...]:
     """Return the steps that replace all that is there by what the document says."""
-    steps: list[Step] = []
+    steps: list[Step] = [GoTo(wanted.place)] if wanted.place is not None else []
     if present.systems:
         steps.append(DissolveSystems(tuple(sorted(present.systems))))
     if present.robots:

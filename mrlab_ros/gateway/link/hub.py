@@ -101,7 +101,7 @@ class Hub:
         self._rules = [
             rule
             for rule in rules.topics
-            if rule.direction is Direction.OUT or rule.name == f"/{presence.KEY}"
+            if rule.direction is Direction.OUT or rule.name[1:] in presence.SHARED
         ]
         self._feeds: dict[str, _Feed] = {}
         self._topics: dict[str, Topic] = {}

@@ -102,6 +102,24 @@ class Displays:
         return self._definitions.encode(TYPE, gone)
 
 
+LOOK, LOOK_TYPE = "look_here", "mrlab_msgs/msg/LookHere"
+# What displays send to each other.
+SHARED = (KEY, LOOK)
+
+
+def signed(definitions: Definitions, person: Person, payload: bytes) -> bytes:
+    """Return a LookHere of a person, as CDR, with the name of the sign-in.
+
+    Raises BadInput where it is none.
+    """
+    message = definitions.decode(LOOK_TYPE, payload)
+    for value in (message.point.x, message.point.y, message.point.z):
+        if not math.isfinite(value) or abs(value) > FARTHEST:
+            raise BadInput(DISPLAY_TOO_FAR(id=person.name, at=value, most=FARTHEST))
+    message.name, message.header.frame_id = person.name, FRAME
+    return definitions.encode(LOOK_TYPE, message)
+
+
 def _numbers(message: Any) -> Iterator[float]:
     for pose in (message.head, message.left, message.right):
         yield from _of_pose(pose)

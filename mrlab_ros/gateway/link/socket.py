@@ -295,6 +295,10 @@ class _Socket:
                 raise NotAllowed(MAY_NOT_PUBLISH(role=role, key=frame.key))
             if frame.key == presence.KEY:
                 sessions.say_where(session, frame.payload, now)
+            elif frame.key == presence.LOOK:
+                definitions = sessions.lab.definitions
+                found = presence.signed(definitions, session.person, frame.payload)
+                sessions.lab.put(frame.key, found)
             elif frame.key == presence.MOVES:
                 # What waited while the gateway was frozen is where a hand was, not where it is.
                 if self._port.freezes.why_doubtful(now) is None:

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
+from secrets import token_hex
 from typing import TYPE_CHECKING
 
 from mrlab_msgs import msg, srv
@@ -17,14 +19,16 @@ from mrlab_ros.adapters.robots.exporting import published
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.scenes.files import SCENE_FILE, SceneFiles, StateFile
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.base.errors import LabError
+from mrlab_ros.core.base.errors import BadInput, LabError
 from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.robots.controllers import Controller
 from mrlab_ros.core.robots.frames import joint_name
 from mrlab_ros.core.runtime.identity import Identity
-from mrlab_ros.core.scene.document import RobotEntry, SceneDocument
+from mrlab_ros.core.scene.diagnostics import BAD_PLACE_NAME, PLACE_SET
+from mrlab_ros.core.scene.document import Place, RobotEntry, SceneDocument
 from mrlab_ros.core.scene.restore import self_contained, with_pending
 from mrlab_ros.core.scene.robots import PlacedRobot, Scene
+from mrlab_ros.core.scene.undo import removed_with
 from mrlab_ros.core.systems import registry
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.poses import pose_from_message
@@ -35,6 +39,7 @@ from mrlab_ros.messages.scenes import (
     system_entry,
     text_to_message,
 )
+from mrlab_ros.messages.time import make_header
 from mrlab_ros.nodes import parameters
 from mrlab_ros.nodes.lab.controllers import ControllerManager
 from mrlab_ros.nodes.lab.diagnostics import (
@@ -50,6 +55,7 @@ from mrlab_ros.nodes.lab.diagnostics import (
 from mrlab_ros.nodes.lab.observer import Observer
 from mrlab_ros.nodes.lab.restore import LabRestore, Return
 from mrlab_ros.nodes.lab.scenes import Scenes
+from mrlab_ros.nodes.lab.undo import Undo
 from mrlab_ros.nodes.parameters import LabParameters
 from mrlab_ros.ros.clock import LabClock, every
 from mrlab_ros.ros.decoding import subscribe
@@ -64,6 +70,8 @@ if TYPE_CHECKING:
 SAVE_PERIOD_S = 2.0
 # Which systems there are is written sooner: one that was dissolved must not come back, s.
 SYSTEMS_PERIOD_S = 0.1
+# Characters of a place's name or id, at most.
+LONGEST_NAME = 64
 
 
 class LabNode(ParameterNode[LabParameters], name="lab", kind=LabParameters, others=parameters.ALL):
@@ -97,12 +105,15 @@ class LabNode(ParameterNode[LabParameters], name="lab", kind=LabParameters, othe
             self._restore,
             self._document,
         )
+        self._undo = Undo(self, self._observer, self._restore, self._lab_clock, self._names)
         last = self._file.load()
         if last is None:
             for model in self.parameters.robots:
                 self._spawn(model, None, "", None)
             last = SceneDocument()
         last = self._without_dissolved(last)
+        self._place = last.place or Place(token_hex(6))
+        self._places = self.create_publisher(msg.Place, "/place", qos.LATCHED)
         self._return = Return(
             self._restore_robots(last),
             self._restore,
@@ -111,6 +122,7 @@ class LabNode(ParameterNode[LabParameters], name="lab", kind=LabParameters, othe
             self._lose,
         )
         self._announce()
+        self.go_to(self._place)
         for kind, name, callback in (
             (srv.SpawnRobot, "spawn_robot", self._on_spawn),
             (srv.PlaceRobot, "place_robot", self._on_place),
@@ -119,6 +131,8 @@ class LabNode(ParameterNode[LabParameters], name="lab", kind=LabParameters, othe
             (srv.SceneFile, "save_scene", self._on_save_scene),
             (srv.SceneFile, "load_scene", self._on_load_scene),
             (srv.ListScenes, "list_scenes", self._on_list_scenes),
+            (srv.Undo, "undo", self._on_undo),
+            (srv.SetPlace, "set_place", self._on_set_place),
         ):
             create_service(self, kind, f"~/{name}", callback)
         ControllerManager(self, self._controllers)
@@ -152,6 +166,9 @@ class LabNode(ParameterNode[LabParameters], name="lab", kind=LabParameters, othe
         )
         self._describe(robot.name, description)
         return robot
+
+    def _names(self) -> frozenset[str]:
+        return frozenset(robot.name for robot in self._scene.robots)
 
     def _describe(self, name: str, description: str) -> None:
         if name not in self._descriptions:
@@ -200,6 +217,12 @@ class LabNode(ParameterNode[LabParameters], name="lab", kind=LabParameters, othe
         self._scene.remove(name)
         self.destroy_publisher(self._descriptions.pop(name))
 
+    def go_to(self, place: Place) -> None:
+        """Announce that the robots stand in a place."""
+        self._place = place
+        header = make_header(self._lab_clock.now_ns())
+        self._places.publish(msg.Place(header=header, id=place.id, name=place.name))
+
     # what a restart brings back ---------------------------------------------------------------
 
     def _document(self) -> SceneDocument:
@@ -212,6 +235,7 @@ class LabNode(ParameterNode[LabParameters], name="lab", kind=LabParameters, othe
                 for robot in self._scene.robots
             ),
             systems=tuple(system_entry(system, now_ns) for system in observer.systems or ()),
+            place=self._place,
         )
         return self_contained(with_pending(scene, self._return.pending))
 
@@ -322,8 +346,11 @@ class LabNode(ParameterNode[LabParameters], name="lab", kind=LabParameters, othe
 
     @answered
     def _on_remove(self, request: srv.Remove.Request, response: srv.Remove.Response) -> Diagnostic:
+        lost = removed_with(request.name, self._document())
         self.remove([request.name])
-        return ROBOT_REMOVED(robot=request.name)
+        said = ROBOT_REMOVED(robot=request.name)
+        self._undo.note(said, lost)
+        return said
 
     @answered
     def _on_save_scene(
@@ -337,7 +364,28 @@ class LabNode(ParameterNode[LabParameters], name="lab", kind=LabParameters, othe
     ) -> Diagnostic:
         self._file.check_room()
         self._return.finish()
-        return self._scenes.load(request.name, [robot.name for robot in self._scene.robots])
+        with self._undo:
+            return self._scenes.load(
+                request.name, self._names(), partial(self._undo.note, whole=True)
+            )
+
+    @answered
+    def _on_undo(self, request: srv.Undo.Request, response: srv.Undo.Response) -> Diagnostic:
+        self._file.check_room()
+        return self._undo.undo(request.id, self._scenes.present(self._names()))
+
+    @answered
+    def _on_set_place(
+        self, request: srv.SetPlace.Request, response: srv.SetPlace.Response
+    ) -> Diagnostic:
+        for text in (request.name, request.id or token_hex(6)):
+            if not (1 <= len(text) <= LONGEST_NAME and text.isprintable()):
+                shown = text[:LONGEST_NAME]
+                raise BadInput(BAD_PLACE_NAME(name=shown, count=len(text), most=LONGEST_NAME))
+        self._file.check_room()
+        self.go_to(Place(request.id or token_hex(6), request.name))
+        self._save()
+        return PLACE_SET(place=request.name)
 
     def _on_list_scenes(
         self, request: srv.ListScenes.Request, response: srv.ListScenes.Response

@@ -39,6 +39,8 @@ class Observer:
         self._subscriptions: dict[str, Subscription] = {}
         # Set where a system was made or dissolved, until somebody clears it.
         self.systems_changed = threading.Event()
+        # Called with each system that is dissolved.
+        self.dissolved: Callable[[msg.RobotSystem], None] = lambda _: None
         # Counts what was received, so that a caller sees whether something changed.
         self.received = 0
         subscribe(node, msg.RobotSystems, "/systems", self._on_systems, qos.LATCHED_EVENTS)
@@ -131,6 +133,9 @@ class Observer:
             self.received += 1
         if before is None or _names(before) != _names(message):
             self.systems_changed.set()
+        for system in before.systems if before is not None else ():
+            if system.name not in _names(message):
+                self.dissolved(system)
 
 
 def _names(message: msg.RobotSystems) -> list[str]:

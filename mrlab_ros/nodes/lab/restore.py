@@ -17,11 +17,19 @@ from mrlab_ros.adapters import threads
 from mrlab_ros.core.base.diagnostic import Code, Diagnostic, heard
 from mrlab_ros.core.base.errors import LabError, Misuse
 from mrlab_ros.core.scene.diagnostics import STEP_FAILED
-from mrlab_ros.core.scene.document import ObjectEntry, RobotEntry, SceneDocument, SystemEntry
+from mrlab_ros.core.scene.document import (
+    ObjectEntry,
+    Place,
+    RobotEntry,
+    SceneDocument,
+    SystemEntry,
+)
 from mrlab_ros.core.scene.restore import (
+    AddObjects,
     AwaitGrasps,
     CreateSystem,
     DissolveSystems,
+    GoTo,
     LoadTrajectory,
     Present,
     RemoveRobots,
@@ -33,6 +41,7 @@ from mrlab_ros.core.scene.restore import (
 from mrlab_ros.core.scene.surfaces import Surface
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.physics import surface_to_message
+from mrlab_ros.messages.poses import pose_to_message
 from mrlab_ros.messages.scenes import create_system_request, placement_to_message
 from mrlab_ros.nodes.lab.diagnostics import (
     GRASPS_MISSING,
@@ -62,11 +71,13 @@ START_TIMEOUT_S = 20.0
 
 
 class Robots(Protocol):
-    """The lab's own robots."""
+    """The lab's own robots, and where they stand."""
 
     def spawn(self, robots: Sequence[RobotEntry]) -> None: ...
 
     def remove(self, names: Sequence[str]) -> None: ...
+
+    def go_to(self, place: Place) -> None: ...
 
 
 class LabRestore:
@@ -83,6 +94,8 @@ class LabRestore:
     def execute(self, step: Step) -> None:
         """Execute a step and wait for its effect; raise LabError where it fails."""
         match step:
+            case GoTo(place):
+                self._robots.go_to(place)
             case DissolveSystems(names):
                 for name in names:
                     request = srv.Remove.Request(name=name)
@@ -91,6 +104,8 @@ class LabRestore:
                 self._remove(names)
             case SetObjects(objects, surfaces):
                 self.set_objects(objects, surfaces)
+            case AddObjects(objects):
+                self._add_objects(objects)
             case SpawnRobots(robots):
                 self._robots.spawn(robots)
             case LoadTrajectory(robot):
@@ -125,6 +140,16 @@ class LabRestore:
             dry_run=dry_run,
         )
         self.order(srv.SetObjects, "/physics/set_objects", request)
+
+    def _add_objects(self, objects: Sequence[ObjectEntry]) -> None:
+        for thing in objects:
+            request = srv.SpawnObject.Request(
+                type=thing.type, name=thing.name, pose=pose_to_message(thing.pose)
+            )
+            self.order(srv.SpawnObject, "/physics/spawn_object", request)
+            if thing.held_by:
+                hold = srv.Attach.Request(robot=thing.held_by, object=thing.name)
+                self.order(srv.Attach, "/physics/attach", hold)
 
     def _wait_for(
         self, condition: Callable[[], bool], timeout: float, late: Code, **values: Any

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -13,7 +13,7 @@ from rclpy.node import Node
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.scenes.files import SceneFiles
 from mrlab_ros.core.base.diagnostic import Diagnostic, heard
-from mrlab_ros.core.base.errors import Unavailable
+from mrlab_ros.core.base.errors import LabError, Unavailable
 from mrlab_ros.core.scene import restore as core
 from mrlab_ros.core.scene.document import RobotEntry, SceneDocument
 from mrlab_ros.core.scene.restore import Present
@@ -79,39 +79,58 @@ class Scenes:
     def save(self, name: str) -> Diagnostic:
         """Save the scene; return what was saved. Raises LabError where it cannot be."""
         time.sleep(SETTLE_S)
-        scene = self._document()
         physics = self._physics_runs()
-        if physics:
-            content = call(self._get_objects, srv.GetObjects.Request(), LOAD_TIMEOUT_S)
-            scene = replace(
-                scene,
-                objects=placements_from_messages(content.objects),
-                surfaces=tuple(map(surface_from_message, content.surfaces)),
-            )
+        scene = self._whole(physics=physics)
         path = self._files.save(name, core.self_contained(scene))
         missing = None if physics else NO_PHYSICS_TO_SAVE()
         return SCENE_SAVED(**_counts(scene), file=str(path), missing=missing)
 
-    def load(self, name: str, robots: Sequence[str]) -> Diagnostic:
+    def load(
+        self, name: str, robots: Iterable[str], note: Callable[[Diagnostic, SceneDocument], None]
+    ) -> Diagnostic:
         """Load a scene in place of `robots` and all else; return what was loaded.
 
+        note: is called with what to say and with what there was, once something was changed.
         Raises LabError: either nothing was changed, or LOADED_IN_PART says what was.
         """
         scene = self._files.load(name)
+        present = self.present(robots)
+        self._check(scene, present)
+        before = self._whole(physics=present.physics)
+        try:
+            core.run(core.plan_scene(scene, present), self._restore.execute)
+        except LabError as error:
+            note(error.diagnostic, before)
+            raise
+        missing = core.left_out(scene, present)
+        if missing is not None:
+            scene = replace(scene, objects=(), surfaces=())
+        said = SCENE_LOADED(**_counts(scene), scene=name, missing=missing)
+        note(said, before)
+        return said
+
+    def present(self, robots: Iterable[str]) -> Present:
+        """Return what the lab holds beside `robots`."""
         systems = self._observer.systems or ()
-        present = Present(
+        return Present(
             robots=frozenset(robots),
             systems=frozenset(
                 system.name for system in systems if self._observer.published(["/systems"])
             ),
             physics=self._physics_runs(),
         )
-        self._check(scene, present)
-        core.run(core.plan_scene(scene, present), self._restore.execute)
-        missing = core.left_out(scene, present)
-        if missing is not None:
-            scene = replace(scene, objects=(), surfaces=())
-        return SCENE_LOADED(**_counts(scene), scene=name, missing=missing)
+
+    def _whole(self, *, physics: bool) -> SceneDocument:
+        """Return the scene as it is, with what physics holds where that runs."""
+        scene = self._document()
+        if not physics:
+            return scene
+        content = call(self._get_objects, srv.GetObjects.Request(), LOAD_TIMEOUT_S)
+        return replace(
+            scene,
+            objects=placements_from_messages(content.objects),
+            surfaces=tuple(map(surface_from_message, content.surfaces)),
+        )
 
     def _physics_runs(self) -> bool:
         return bool(self._get_objects.wait_for_service(timeout_sec=PHYSICS_TIMEOUT_S))

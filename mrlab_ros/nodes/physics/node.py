@@ -245,13 +245,21 @@ class PhysicsNode(
     @answered
     def _on_remove(self, request: srv.Remove.Request, response: srv.Remove.Response) -> Diagnostic:
         with self._lock:
-            self._world.remove(request.name)
+            self._take_out(request.name)
         return OBJECT_REMOVED(object=request.name)
 
     @answered
     def _on_clear(self, request: Trigger.Request, response: Trigger.Response) -> Diagnostic:
         with self._lock:
-            return OBJECTS_REMOVED(count=self._world.clear())
+            names = [thing.name for thing in self._world.objects]
+            self._take_out(*names)
+        return OBJECTS_REMOVED(count=len(names))
+
+    def _take_out(self, *names: str) -> None:
+        """Remove objects by request, and tell the lab what they were; the lock is held."""
+        self._world_publishers.publish_taken_out([self._world.object(name) for name in names])
+        for name in names:
+            self._world.remove(name)
 
     def _on_list(
         self, request: srv.ListCatalogue.Request, response: srv.ListCatalogue.Response

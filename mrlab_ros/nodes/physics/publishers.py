@@ -14,7 +14,13 @@ from sensor_msgs.msg import JointState
 from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.physics.engine import BodyState
 from mrlab_ros.core.physics.world import World
-from mrlab_ros.core.physics.world_state import CollisionChanged, Event, LoadChanged, ObjectRemoved
+from mrlab_ros.core.physics.world_state import (
+    CollisionChanged,
+    Event,
+    LoadChanged,
+    ObjectRemoved,
+    SceneObject,
+)
 from mrlab_ros.core.scene.surfaces import Surface
 from mrlab_ros.messages import physics as messages
 from mrlab_ros.messages import qos
@@ -65,6 +71,9 @@ class WorldPublishers:
         self._contacts = node.create_publisher(msg.Contacts, "/contacts", qos.EVENTS)
         self._objects = node.create_publisher(msg.SceneObjects, "/objects", qos.LATCHED)
         self._removed = node.create_publisher(msg.ObjectRemoved, "/objects/removed", qos.EVENTS)
+        self._taken_out = node.create_publisher(msg.SceneObjects, "/objects/taken_out", qos.EVENTS)
+        self._overlaps = node.create_publisher(msg.Overlaps, "/overlaps", qos.LATCHED)
+        self._overlapping: list[tuple[str, str]] | None = None
         self._surfaces = node.create_publisher(msg.Surfaces, "/surfaces", qos.LATCHED)
 
     def add_robot(self, name: str) -> None:
@@ -97,6 +106,7 @@ class WorldPublishers:
             return False
         self._next_objects_ns = now_ns + OBJECTS_NS
         self._publish_fingers(now_ns)
+        self._publish_overlaps()
         return self._publish_objects(now_ns)
 
     def _publish_event(self, event: Event) -> None:
@@ -114,6 +124,15 @@ class WorldPublishers:
             fingers = [finger.joint for finger in self._world.robot(event.robot).arm.fingers]
             grasp = messages.grasp_to_message(event, fingers, shifted_ns)
             self._grasps[event.robot].publish(grasp)
+
+    def _publish_overlaps(self) -> None:
+        """Publish which robots stand in surfaces, where that has changed."""
+        found = self._world.overlaps()
+        pairs = [(robot, surface.name) for robot, surface in found]
+        if pairs == self._overlapping:
+            return
+        self._overlapping = pairs
+        self._overlaps.publish(messages.overlaps_to_message(self._clock.now_ns(), found))
 
     def _publish_fingers(self, now_ns: int) -> None:
         """Publish the fingers of each gripper where they moved; else once a second."""
@@ -158,6 +177,14 @@ class WorldPublishers:
             stamp_ns = self._clock.stamp(self._world.now_ns or now_ns)
             self._objects.publish(messages.objects_to_message(stamp_ns, objects))
         return changed
+
+    def publish_taken_out(self, things: Sequence[SceneObject]) -> None:
+        """Publish objects as they are before a request removes them."""
+        if not things:
+            return
+        motion = self._world.motion
+        objects = [messages.object_to_message(thing, motion(thing.name)) for thing in things]
+        self._taken_out.publish(messages.objects_to_message(self._clock.now_ns(), objects))
 
     def publish_surfaces(self, surfaces: Sequence[Surface]) -> None:
         """Publish the surfaces. The caller need not hold the lock: a large room takes long."""

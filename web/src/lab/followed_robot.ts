@@ -24,6 +24,8 @@ export interface RobotView {
   readonly touching: string
   /** The places at which the loaded motion grasps and releases. */
   readonly targets: readonly GraspTarget[]
+  /** The surfaces that it stands in, where contacts are not checked, as their labels. */
+  readonly overlaps: readonly string[]
   /** The process that plays it does not run. */
   readonly down: boolean
   readonly player: RemotePlayer
@@ -60,6 +62,7 @@ export class FollowedRobot {
   holding = ''
   targets: readonly GraspTarget[] = []
   collision: Collision | null = null
+  overlaps: readonly string[] = []
   /** null: it is not in the lab, or not yet. */
   robot: Robot | null = null
   private playback: PlaybackState | null = null
@@ -156,13 +159,13 @@ export class FollowedRobot {
 
   /** Return it for the panel; null: it is not in the lab. */
   get view(): RobotView | null {
-    const { robot, playback, holding, targets, down, player, collision } = this
+    const { robot, playback, holding, targets, overlaps, down, player, collision } = this
     if (robot === null) return null
     const touching = collision?.colliding
       ? `${collision.contact.link} ↔ ${collision.contact.other}`
       : ''
     const state = STATE_NAMES[playback?.state ?? 0] ?? 'IDLE'
-    return { robot, state, playback, holding, touching, targets, down, player }
+    return { robot, state, playback, holding, touching, targets, overlaps, down, player }
   }
 
   private setClock(): void {

@@ -14,6 +14,9 @@ import {
   graspTargetsReader,
   LabProcess,
   labProcessesReader,
+  overlapsReader,
+  type Place,
+  placeReader,
   playbackStateReader,
   type RecorderState,
   type Robot,
@@ -39,10 +42,13 @@ import {
   setJoints,
 } from './followed_robot'
 import { backUntil, holds, type Outage, outagesOf } from './outages'
+import { Undoing } from './undoing'
 
 /** s: contacts are published at 50 Hz, and not at all while there are none. */
 const CONTACT_S = 0.3
 const NO_CONTACTS: readonly never[] = []
+/** Behind the state of a robot that stands in a surface. */
+const NOT_CHECKED = '⚠'
 
 export interface SystemView {
   readonly system: RobotSystem
@@ -91,6 +97,9 @@ export class LabFollower {
   /** Processes of the lab that do not run, or run again since a short while. */
   readonly outages = signal<readonly Outage[]>([])
   readonly replay: RemotePlayer
+  /** The place in which the robots stand; null: the lab has not said. */
+  readonly place = signal<Place | null>(null)
+  readonly undoing: Undoing
   /** True once the lab has published its robots. */
   readonly known = signal(false)
   readonly activity = new Map<string, KeyActivity>()
@@ -118,7 +127,9 @@ export class LabFollower {
     this.courses = new Courses(options.courseOf)
     this.replay = new RemotePlayer('bag', labTime, options.commands('recorder'))
     this.status.value = link.status
+    this.undoing = new Undoing(link)
     this.undo = [
+      () => this.undoing.dispose(),
       link.onStatus((status) => {
         this.status.value = status
         this.hold()
@@ -165,6 +176,17 @@ export class LabFollower {
       this.on('surfaces', surfacesReader, (message) => {
         this.surfaces = message.surfaces
         this.scene?.setSurfaces(message.surfaces)
+      }),
+      this.on('overlaps', overlapsReader, ({ overlaps }) => {
+        for (const { robot } of overlaps) this.of(robot)
+        for (const [name, followed] of this.kept) {
+          const here = overlaps.filter(({ robot }) => robot === name)
+          followed.overlaps = here.map(({ label, surface }) => label || surface)
+        }
+        this.show()
+      }),
+      this.on('place', placeReader, (message) => {
+        this.place.value = message
       }),
       this.on('contacts', contactsReader, ({ contacts }) => {
         this.contactAt = link.labTime()
@@ -369,10 +391,11 @@ export class LabFollower {
         joint_names: robot.joint_names,
       })),
     )
-    for (const { robot, state, targets } of views) {
+    for (const { robot, state, targets, overlaps } of views) {
       const collision = this.kept.get(robot.name)?.collision
       const { word, colour } = this.options
-      scene.setState(robot.name, word(state), colour(state), state === 'COLLISION_HALT')
+      const mark = overlaps.length > 0 ? ` ${NOT_CHECKED}` : ''
+      scene.setState(robot.name, word(state) + mark, colour(state), state === 'COLLISION_HALT')
       scene.setTargets(robot.name, targets)
       scene.setCollision(robot.name, collision?.colliding ? collision.contact.link : '')
     }

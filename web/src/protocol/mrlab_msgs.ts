@@ -868,6 +868,47 @@ export function writeLoadTrajectoryRequest(to: CdrWriter, message: LoadTrajector
   to.string(message.id)
 }
 
+/** mrlab_msgs/msg/LookHere: Somebody asks all in the room to look at a point. Every display marks it for some seconds. */
+export interface LookHere {
+  /** frame_id is world */
+  header: Header
+  /** of the person; the gateway fills it in from the sign-in */
+  name: string
+  /** in world, m */
+  point: Point
+}
+
+export function createLookHere(): LookHere {
+  return {
+    header: createHeader(),
+    name: '',
+    point: createPoint(),
+  }
+}
+
+export function readLookHere(from: CdrReader, into: LookHere): void {
+  readHeader(from, into.header)
+  into.name = from.string(into.name)
+  readPoint(from, into.point)
+}
+
+export function writeLookHere(to: CdrWriter, message: LookHere): void {
+  writeHeader(to, message.header)
+  to.string(message.name)
+  writePoint(to, message.point)
+}
+
+export const lookHereReader: MessageReader<LookHere> = /* @__PURE__ */ messageReader(
+  'mrlab_msgs/msg/LookHere',
+  createLookHere,
+  readLookHere,
+)
+
+export const lookHereWriter: MessageWriter<LookHere> = /* @__PURE__ */ messageWriter(
+  'mrlab_msgs/msg/LookHere',
+  writeLookHere,
+)
+
 /** mrlab_msgs/msg/Move: Where a hand has what it carries. MoveObject and PlaceRobot take it and put it down; between them only moves of the hand that took it count, and each only while no newer one has come. */
 export interface Move {
   /** as in the call that took it */
@@ -995,6 +1036,82 @@ export function readObjectType(from: CdrReader, into: ObjectType): void {
   into.mesh = from.string(into.mesh)
   readSolidPrimitive(from, into.primitive)
 }
+
+/** mrlab_msgs/msg/Overlap: A robot that stands in a surface of the room, as in a real table whose plane the headset measured. */
+export interface Overlap {
+  robot: string
+  /** its name */
+  surface: string
+  /** table, wall, ... as the headset names it; may be empty */
+  label: string
+}
+
+export function createOverlap(): Overlap {
+  return {
+    robot: '',
+    surface: '',
+    label: '',
+  }
+}
+
+export function readOverlap(from: CdrReader, into: Overlap): void {
+  into.robot = from.string(into.robot)
+  into.surface = from.string(into.surface)
+  into.label = from.string(into.label)
+}
+
+/** mrlab_msgs/msg/Overlaps: Robots that stand in surfaces of the room. Contacts of these pairs are not checked until the robot has left the surface. Latched; sent at each change. */
+export interface Overlaps {
+  header: Header
+  overlaps: Overlap[]
+}
+
+export function createOverlaps(): Overlaps {
+  return {
+    header: createHeader(),
+    overlaps: [],
+  }
+}
+
+export function readOverlaps(from: CdrReader, into: Overlaps): void {
+  readHeader(from, into.header)
+  into.overlaps = from.messages(into.overlaps, createOverlap, readOverlap)
+}
+
+export const overlapsReader: MessageReader<Overlaps> = /* @__PURE__ */ messageReader(
+  'mrlab_msgs/msg/Overlaps',
+  createOverlaps,
+  readOverlaps,
+)
+
+/** mrlab_msgs/msg/Place: The place in which the lab's robots stand: a real room, with an origin that its headsets share. Latched; sent at each change. */
+export interface Place {
+  header: Header
+  /** of the place, never used again; headsets keep their anchors by it */
+  id: string
+  /** for people; may be empty */
+  name: string
+}
+
+export function createPlace(): Place {
+  return {
+    header: createHeader(),
+    id: '',
+    name: '',
+  }
+}
+
+export function readPlace(from: CdrReader, into: Place): void {
+  readHeader(from, into.header)
+  into.id = from.string(into.id)
+  into.name = from.string(into.name)
+}
+
+export const placeReader: MessageReader<Place> = /* @__PURE__ */ messageReader(
+  'mrlab_msgs/msg/Place',
+  createPlace,
+  readPlace,
+)
 
 /** mrlab_msgs/srv/PlaceRobot_Request: Move a robot's base. */
 export interface PlaceRobotRequest {
@@ -1659,6 +1776,19 @@ export function writeSetModeRequest(to: CdrWriter, message: SetModeRequest): voi
   to.uint8(message.mode)
 }
 
+/** mrlab_msgs/srv/SetPlace_Request: Say in which place the robots stand. Headsets look for their anchors of it, or must be aligned again. */
+export interface SetPlaceRequest {
+  /** of a place that there was before; empty: a new one */
+  id: string
+  /** for people */
+  name: string
+}
+
+export function writeSetPlaceRequest(to: CdrWriter, message: SetPlaceRequest): void {
+  to.string(message.id)
+  to.string(message.name)
+}
+
 /** mrlab_msgs/srv/SetRate_Request: Set the speed of playback. */
 export interface SetRateRequest {
   /** 0.1 to 4, or -0.1 to -4: backwards; 1 is the declared speed */
@@ -2206,6 +2336,57 @@ export function readTriggerResponse(from: CdrReader, into: TriggerResponse): voi
   into.values = from.messages(into.values, createKeyValue, readKeyValue)
 }
 
+/** mrlab_msgs/srv/Undo_Request: Bring back what an act removed, as /undoable names it. */
+export interface UndoRequest {
+  /** of the act; empty: the newest one */
+  id: string
+}
+
+export function writeUndoRequest(to: CdrWriter, message: UndoRequest): void {
+  to.string(message.id)
+}
+
+/** mrlab_msgs/msg/Undoable: The newest act that can be undone: somebody loaded a scene, or removed robots, objects or a system. Latched; sent at each change. */
+export interface Undoable {
+  header: Header
+  /** of the act; empty: there is none */
+  id: string
+  /** it can be undone until then, lab time */
+  until: Time
+  /** what was done, for a person */
+  message: string
+  /** what the message says, for programs; docs/diagnostics.md lists the codes */
+  code: string
+  /** values of that text by name; a text as it is, all else as JSON */
+  values: KeyValue[]
+}
+
+export function createUndoable(): Undoable {
+  return {
+    header: createHeader(),
+    id: '',
+    until: createTime(),
+    message: '',
+    code: '',
+    values: [],
+  }
+}
+
+export function readUndoable(from: CdrReader, into: Undoable): void {
+  readHeader(from, into.header)
+  into.id = from.string(into.id)
+  readTime(from, into.until)
+  into.message = from.string(into.message)
+  into.code = from.string(into.code)
+  into.values = from.messages(into.values, createKeyValue, readKeyValue)
+}
+
+export const undoableReader: MessageReader<Undoable> = /* @__PURE__ */ messageReader(
+  'mrlab_msgs/msg/Undoable',
+  createUndoable,
+  readUndoable,
+)
+
 export const attachType: ServiceType<AttachRequest, TriggerResponse> = /* @__PURE__ */ serviceType(
   'mrlab_msgs/srv/Attach',
   writeAttachRequest,
@@ -2325,6 +2506,13 @@ export const setModeType: ServiceType<SetModeRequest, TriggerResponse> = /* @__P
   readTriggerResponse,
 )
 
+export const setPlaceType: ServiceType<SetPlaceRequest, TriggerResponse> = /* @__PURE__ */ serviceType(
+  'mrlab_msgs/srv/SetPlace',
+  writeSetPlaceRequest,
+  createTriggerResponse,
+  readTriggerResponse,
+)
+
 export const setRateType: ServiceType<SetRateRequest, TriggerResponse> = /* @__PURE__ */ serviceType(
   'mrlab_msgs/srv/SetRate',
   writeSetRateRequest,
@@ -2363,6 +2551,13 @@ export const startRecordingType: ServiceType<StartRecordingRequest, StartRecordi
 export const triggerType: ServiceType<TriggerRequest, TriggerResponse> = /* @__PURE__ */ serviceType(
   'mrlab_msgs/srv/Trigger',
   writeTriggerRequest,
+  createTriggerResponse,
+  readTriggerResponse,
+)
+
+export const undoType: ServiceType<UndoRequest, TriggerResponse> = /* @__PURE__ */ serviceType(
+  'mrlab_msgs/srv/Undo',
+  writeUndoRequest,
   createTriggerResponse,
   readTriggerResponse,
 )

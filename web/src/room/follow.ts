@@ -7,7 +7,7 @@ import { outageWords } from '../lab/outages'
 import type { LabScene } from '../scene/lab/lab_scene'
 import type { ShownSurface } from '../scene/lab/surfaces'
 import { themeNow } from '../scene/stage/theme'
-import { sentence } from '../words/diagnostic'
+import { sentence, spoken } from '../words/diagnostic'
 import type { Board } from './board/board'
 import type { ObjectHandles } from './handles/object_handles'
 import type { Catalogue, Entry, Lab, Speech } from './ports'
@@ -70,7 +70,7 @@ const PERIOD_S = 1
 
 /** The parts that show the state of the lab. */
 export interface Listeners {
-  readonly ports: Speech & Catalogue
+  readonly ports: Speech & Lab & Catalogue
   readonly follower: LabFollower
   readonly board: Board
   readonly panels: RobotPanels
@@ -128,6 +128,12 @@ export function listen({
     effect(tell),
     effect(() => {
       if (panels.show(follower.robots.value)) halt()
+    }),
+    effect(() => {
+      const act = follower.undoing.act.value
+      const undo = () => void follower.undoing.undo(ports)
+      const label = words.room.undo
+      board.offer(act === null ? null : { words: spoken(act), label, undo })
     }),
     effect(() => {
       if (follower.recorder.value !== null) repaint()

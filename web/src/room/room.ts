@@ -1,6 +1,8 @@
 import { signal } from '@preact/signals'
 import { Matrix4, Quaternion, Vector3 } from 'three'
 import type { LabFollower } from '../lab/follower'
+import { LookHere } from '../lab/people/look_here'
+import { People } from '../lab/people/people'
 import { type TrajectoryInfo, trajectoryCatalogueReader } from '../protocol/mrlab_msgs'
 import { LabScene } from '../scene/lab/lab_scene'
 import type { ShownSurface } from '../scene/lab/surfaces'
@@ -11,6 +13,7 @@ import { BoardPlace } from './board/board_place'
 import { followedScene, listen, roomFollower } from './follow'
 import { ObjectHandles } from './handles/object_handles'
 import { Placing } from './handles/placing'
+import { Pointing } from './handles/pointing'
 import { Mouse } from './input/mouse'
 import type { Pointer } from './input/pointer'
 import { Targets } from './input/targets'
@@ -18,8 +21,8 @@ import { Stats } from './latency'
 import { Arrangement } from './layout/arrangement'
 import { Opened } from './layout/opened'
 import { soundFeedback } from './panels/feedback'
+import { OwnPresence } from './people/own_presence'
 import { pauseNews } from './people/pausing'
-import { People } from './people/people'
 import { Alignment, SEATED } from './place/alignment'
 import { anchorNews, SceneAnchor } from './place/anchor'
 import { CommonPlace } from './place/common_place'
@@ -76,6 +79,9 @@ export class Room {
   readonly creation: Creation
   readonly settings = new Settings()
   readonly people: People
+  private readonly presence: OwnPresence
+  readonly lookHere: LookHere
+  readonly pointing: Pointing
   readonly touching: TouchAlignment
   readonly guide: Guide
   /** Frames drawn, and ms of JavaScript of the newest one. */
@@ -194,9 +200,21 @@ export class Room {
     const device = deviceId()
     const display = `${device}.${randomId(3)}`
     this.people = new People(link, this.stage.world, display, words, repaint)
+    this.presence = new OwnPresence(link, this.stage.world, this.people)
+    this.lookHere = new LookHere(link, this.stage.world, words, (who) =>
+      ports.say(words.room.looksHere(named(who)), false),
+    )
+    this.pointing = new Pointing(ports, targets, this.lookHere, repaint)
     const { anchor, panels } = this.stage
     this.touching = new TouchAlignment(this.anchor, anchor, this.scan, panels, ports)
-    this.common = new CommonPlace(ports, device, this.people, this.scan, this.touching)
+    this.common = new CommonPlace(
+      ports,
+      device,
+      this.people,
+      this.presence,
+      this.scan,
+      this.touching,
+    )
     const bases = () => this.robots.bases()
     this.alignment = new Alignment(this.stage, this.anchor, this.scan, bases)
     this.spawning = new Spawning(ports, repaint, (name) => this.opened.open(name))
@@ -263,7 +281,10 @@ export class Room {
   dispose(): void {
     this.visit.leave()
     for (const undo of this.undo) undo()
+    this.presence.leave()
     this.people.dispose()
+    this.pointing.dispose()
+    this.lookHere.dispose()
     this.touching.dispose()
     this.guide.dispose()
     this.spawning.dispose()
@@ -315,7 +336,7 @@ export class Room {
   }
 
   left(): void {
-    this.people.leave()
+    this.presence.leave()
     this.common.end()
     this.anchor.end()
     this.placing.end()
@@ -363,6 +384,8 @@ export class Room {
     this.board.update(now)
     this.guide.update(this.visit.inputs)
     if (this.people.update(now, step)) this.stage.invalidate()
+    if (this.lookHere.update(now)) this.stage.invalidate()
+    this.pointing.update(this)
     this.opened.keep([...this.systems.names, ...this.panels.names])
     this.arrangement.update(now, step)
     this.panels.update(now)
@@ -387,6 +410,6 @@ export class Room {
     this.scan.update(frame, space, now)
     const { inputs } = this.visit
     inputs?.update(frame, space, now)
-    if (inputs !== null) this.people.tell(this, inputs)
+    if (inputs !== null) this.presence.tell(this, inputs, now)
   }
 }

@@ -1,5 +1,6 @@
 import type { CourseOf } from '../lab/followed_robot'
 import type { LabFollower } from '../lab/follower'
+import type { People } from '../lab/people/people'
 import type { Link } from '../link/link'
 import type { TrajectoryInfo } from '../protocol/mrlab_msgs'
 import type { ShownSurface } from '../scene/lab/surfaces'
@@ -15,9 +16,9 @@ import { systemsTab } from './board/systems_tab'
 import type { ObjectHandles } from './handles/object_handles'
 import { objectToPlace, robotToPlace } from './handles/placeables'
 import type { Placing } from './handles/placing'
+import type { Pointing } from './handles/pointing'
 import type { Stats } from './latency'
 import type { Feedback, Surroundings } from './panels/panel'
-import type { People } from './people/people'
 import type { Spawning } from './place/spawning'
 import type { Ground, Obstacle, Support, Wall } from './place/supports'
 import type { Catalogue, Entry, Frames, Lab, Preferences, Speech, Viewer } from './ports'
@@ -143,6 +144,7 @@ interface Tabbed extends Places {
   readonly creation: Creation
   readonly follower: LabFollower
   readonly people: People
+  readonly pointing: Pointing
   readonly stats: Stats
   readonly drawings: Drawings
   readonly settings: Settings
@@ -169,7 +171,7 @@ export function tabsOf(ports: Ports, { person, tabs }: RoomParts, room: Tabbed):
       () => ({ here: objects.count, most: spawning.most }),
     ),
     systemsTab(ports, room.creation, follower),
-    peopleTab(ports, room.people, follower, person),
+    peopleTab(ports, room.people, follower, person, room.pointing),
     labTab(ports, follower, room.stats),
     ...tabs.map((make) => make(ports, follower, drawings)),
     roomTab(ports, switches),

@@ -583,6 +583,20 @@ export const words: Words = {
     address: 'Adresse, unter der andere dieses Labor erreichen',
     takeAddress: 'Für Links nehmen',
     holds: (object) => `Hält ${object}`,
+    standsIn: (what) =>
+      `Steht in ${what}: was er dort berührt, wird nicht geprüft, bis er heraus ist.`,
+    undo: 'Rückgängig',
+    inRoom: 'Im Raum',
+    placeName: 'Name dieses Ortes',
+    namePlace: 'Benennen',
+    newPlace: 'Ein neuer Ort',
+    nobodyInside: 'Niemand ist mit einem Headset im Raum.',
+    seeWith: (name) => `Sehen, was ${name} sieht`,
+    seesWith: (name) => `Mit den Augen von ${name}`,
+    ownView: 'Zurück zur eigenen Ansicht',
+    hasLeft: (name) => `${name} hat den Raum verlassen.`,
+    lookHere: 'Hierher sehen',
+    lookHereHow: 'Klick auf den Punkt, den alle ansehen sollen.',
     inSystem: (system) => `in ${system}`,
     clearHalt: 'Halt aufheben',
     next: {
@@ -845,11 +859,11 @@ export const words: Words = {
     scenes: 'Szenen',
     saveScene: 'Diese Szene sichern',
     savedScene: (name: string) => `Gesichert als ${name}.`,
-    asksLoad: (name: string) =>
-      `${name} ersetzt alle Roboter, Objekte und Flächen. Zum Laden noch einmal drücken.`,
-    asksClear: 'Alle Objekte verschwinden. Noch einmal drücken.',
+    looksHere: (name: string) => `${name}: seht hierher`,
+    lookHere: 'Hierher sehen',
+    pointing: 'Ziel auf einen Punkt und drück: alle bekommen ihn gezeigt.',
+    undo: 'Rückgängig',
     asksForget: 'Das Labor vergisst alle Flächen. Noch einmal drücken.',
-    asksRemove: 'Der Roboter verschwindet. Noch einmal drücken.',
     loadScene: (name: string) => `${name} laden`,
     noScenes: 'Noch ist keine Szene gesichert.',
     record: 'Aufzeichnen',
@@ -1021,6 +1035,7 @@ export const diagnostics: Templates = {
     'Plane mit einem glatten Zeitgesetz wie einem Polynom fünften Grades, oder gib der Bewegung mehr Zeit.',
   ],
   accelerations_in_limits: ['Beschleunigungen unter ihren Grenzen, bis auf {tolerance:share}'],
+  add_objects: ['{objects:list} zurücklegen'],
   all_held: [
     'Alle {count:integer} Gegenstände werden gehalten; für einen neuen ist kein Platz.',
     'Lass erst einen los oder entferne einen.',
@@ -1163,6 +1178,9 @@ export const diagnostics: Templates = {
   bad_person_name: [
     "'{name}' ist kein Name für eine Person.",
     "Erwartet werden höchstens 41 Buchstaben, Ziffern, '_', '-' und '.', beginnend mit einem Buchstaben oder einer Ziffer, und nicht {reserved:either}.",
+  ],
+  bad_place_name: [
+    'Der Name oder die Kennung {name} eines Ortes hat {count:integer} Zeichen; erwartet sind 1 bis {most:integer}, die gedruckt werden können.',
   ],
   bad_policy: [
     'Die Regel {policy:integer} ist unbekannt; erwartet wird 0 (alle halten an) oder 1 (nur das Mitglied hält an).',
@@ -1756,6 +1774,7 @@ export const diagnostics: Templates = {
   geometry_unknown: [
     '{place:problem}: Eine <geometry> enthält <{tag}>; erwartet: {known:either}.',
   ],
+  go_to_place: ['an den Ort {place} gehen'],
   goal_cancelled: ['abgebrochen: Der Arm bleibt, wo er ist'],
   goal_figures: [
     'Nach {elapsed:time} von {duration:time}: Am weitesten vom Ziel ist {joint} mit {left:fine_angle}; am weitesten von der Bahn war {worst} mit höchstens {most:fine_angle}.',
@@ -2347,6 +2366,9 @@ export const diagnostics: Templates = {
   newest_taken: [
     'Von {count:count Datei|Dateien}[ mit Namen wie {pattern}] zählt die neueste, die eine Bewegung enthält[: {files:list}].',
   ],
+  no_act_to_undo: [
+    'Es gibt nichts zurückzunehmen: Laden, Entfernen und Auflösen lassen sich {limit:time} lang zurücknehmen.',
+  ],
   no_answer_in_time: [
     '{service} hat nicht innerhalb von {timeout:time} geantwortet.',
     'Versuche es noch einmal.',
@@ -2537,6 +2559,7 @@ export const diagnostics: Templates = {
   ],
   nothing_proposed: ['Es sind keine Punkte vorgeschlagen; starte zuerst die Bewertung.'],
   nothing_to_undo: ['Es wurde nichts getan, das sich zurücknehmen ließe.'],
+  objects_taken_out: ['Aus der Szene entfernt: {objects:list}.'],
   of_reference: ['{rubric}: Referenz: {why:problem}.'],
   of_rubric: ['{rubric}: {why:problem}.'],
   option_out_of_range: [
@@ -2546,6 +2569,7 @@ export const diagnostics: Templates = {
     "'{file}' hat die Gelenke {joints:list}; erwartet werden die von {model}.",
     'Wandle die ursprüngliche Datei noch einmal um.',
   ],
+  place_set: ['Die Roboter stehen in {place}.'],
   processes_killed: [
     'Prozesse, die prüfen, wurden {count:integer}-mal beendet; vielleicht reicht der Speicher nicht.',
     'Fertiges bleibt erhalten: Starte denselben Befehl noch einmal mit weniger Prozessen.',
@@ -2618,6 +2642,7 @@ export const diagnostics: Templates = {
   torn_off: [
     '{other} hat {object} aus den geschlossenen Fingern von {robot} gerissen: Es glitt {way:length} gegen {force:number} N, und {other} hält es mit einer Reserve von {margin:share}.',
   ],
+  undone: ['Zurückgenommen: {act:problem}'],
   unknown_form: ["Die Form des Exports ist '{form}'; erwartet wird {known:either}."],
   unpacking_ended: [
     'Der Prozess, der entpackt, endete an {file} ({why:problem}); der Grund ist diese Datei, und sie wird nicht gelesen.',

@@ -773,6 +773,21 @@ def test_a_world_at_rest_is_stepped_less_often_and_goes_on_at_once():
     assert [event.colliding for event in lab.of(CollisionChanged)][:1] == [True]
 
 
+def test_what_a_person_gives_to_a_gripper_halts_no_arm_until_it_has_left_the_fingers():
+    lab = Lab(gripper=kinds.FINGERS)
+    lab.world.spawn("ball", "ball", Pose((2.0, 0.0, 0.5)))
+    lab.play()
+    still = (0.0,) * 3
+    lab.world.move("ball", Pose((0.2, 0.0, 0.5)), still, still, held=True)
+    lab.go(0.19, 190 * MS)
+    lab.world.move("ball", Pose((0.2, 0.0, 0.5)), still, still, held=False)
+    lab.go(0.2, 100 * MS)
+    assert lab.of(CollisionChanged) == []
+    lab.go(0.0, 200 * MS)
+    lab.go(0.19, 190 * MS)
+    assert [event.colliding for event in lab.of(CollisionChanged)] == [True]
+
+
 def test_backwards_the_objects_go_back_along_the_run():
     lab = Lab(gripper=kinds.FINGERS)
     lab.world.spawn("ball", "ball", Pose((0.0, 0.0, 0.47)))

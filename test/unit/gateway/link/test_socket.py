@@ -479,6 +479,35 @@ async def test_people_say_where_they_are_by_their_own_names_and_see_all_others(
 
 
 @scene
+async def test_an_instructor_alone_shows_where_to_look_by_the_name_of_the_sign_in(
+    stage: Stage,
+) -> None:
+    name = "mrlab_msgs/msg/LookHere"
+    encode, decode = stage.lab.definitions.encode, stage.lab.definitions.decode
+    anna, ben = (
+        stage.side(stage.cookie(who, role))
+        for who, role in (("anna", Role.INSTRUCTOR), ("ben", Role.OPERATOR))
+    )
+    anna.hello()
+    ben.hello(_1="look_here")
+    await ben.welcome()
+    await anna.welcome()
+    ben.put("look_here", encode(name, {}))
+    await ben.until(lambda: ben.of("refused"))
+    anna.put("look_here", encode(name, {"name": "ben", "point": {"x": 1.0, "y": 2.0, "z": 0.5}}))
+    await anna.until(lambda: stage.lab.sent)
+    ((key, sent),) = stage.lab.sent
+    found = decode(name, sent)
+    assert (key, found.name, found.point.y) == ("look_here", "anna", 2.0)
+    stage.lab.publish("look_here", sent)
+    ben.grant(1)
+    await ben.until(lambda: ben.payloads("look_here"))
+    anna.put("look_here", encode(name, {"point": {"x": float("nan")}}))
+    await anna.ended()
+    assert len(stage.lab.sent) == 1
+
+
+@scene
 async def test_only_topics_of_the_allow_list_are_given(stage: Stage) -> None:
     side = stage.side()
     side.hello(_1="rosout", _2="**", _3="robots")

@@ -1,4 +1,4 @@
-import { useSignal } from '@preact/signals'
+import { effect, useSignal } from '@preact/signals'
 import { useEffect, useMemo, useRef } from 'preact/hooks'
 import { trajectoryUrl } from '../../api/api'
 import type { Rights } from '../../api/types'
@@ -13,14 +13,17 @@ import { LabCatalogue } from '../../lab/catalogue'
 import { commandsOf, trigger } from '../../lab/commands'
 import { LabFollower } from '../../lab/follower'
 import { outageWords } from '../../lab/outages'
+import type { Present } from '../../lab/people/people'
 import type { Link } from '../../link/link'
 import { courseOf } from '../../playback/course'
 import { trajectoryCatalogueReader } from '../../protocol/mrlab_msgs'
 import { checkSignIn, session, useApi } from '../../shell/session'
-import { fixed, words } from '../../words/words'
+import { spoken } from '../../words/diagnostic'
+import { fixed, named, words } from '../../words/words'
 import { AddRobot } from './add_robot'
 import { LabProvider } from './context'
 import { Join } from './join'
+import { PeopleCard } from './people_card'
 import { ReplayCard } from './replay_card'
 import { RobotCard } from './robot_card'
 import { SystemCard } from './system_card'
@@ -43,6 +46,9 @@ export function Lab({ link }: { link: Link }) {
   const adding = useSignal(false)
   const joining = useSignal(false)
   const trouble = useSignal('')
+  const present = useSignal<readonly Present[]>([])
+  const seen = useSignal('')
+  const pointing = useSignal(false)
   const may = session.value?.may ?? NOTHING
   const lab = useMemo(() => ({ link, may, say }), [link, may])
   const follower = useMemo(
@@ -69,9 +75,16 @@ export function Lab({ link }: { link: Link }) {
         if (!here || host.current === null) return
         view.current = new LabView(
           host.current,
-          words.value.lab.picture,
-          (text) => {
-            trouble.value = text
+          link,
+          {
+            trouble: (text) => {
+              trouble.value = text
+            },
+            people: (all, eyes) => {
+              if (seen.value !== '' && eyes === '') leave(seen.value, all)
+              present.value = all
+              seen.value = eyes
+            },
           },
           () => follower.pose(),
         )
@@ -89,6 +102,28 @@ export function Lab({ link }: { link: Link }) {
       view.current = null
     }
   }, [follower])
+
+  useEffect(
+    () =>
+      effect(() => {
+        const act = follower.undoing.act.value
+        if (act === null) return
+        const run = () => void follower.undoing.undo({ link, say })
+        showToast(spoken(act), may.scene ? { label: words.value.lab.undo, run } : undefined)
+      }),
+    [follower, link, may],
+  )
+  const leave = (id: string, all: readonly Present[]) => {
+    const gone = present.value.find((each) => each.id === id)
+    if (gone !== undefined && all.every((each) => each.id !== id))
+      say(words.value.lab.hasLeft(named(gone.name)))
+  }
+  const point = (event: MouseEvent) => {
+    if (!pointing.value) return
+    pointing.value = false
+    view.current?.point(event.clientX, event.clientY)
+  }
+  const eyes = present.value.find(({ id }) => id === seen.value)
 
   const w = words.value.lab
   const robots = follower.robots.value
@@ -139,6 +174,15 @@ export function Lab({ link }: { link: Link }) {
               label={w.showAll}
               onClick={() => view.current?.scene.frame(true)}
             />
+            {may.scene && (
+              <Button
+                look="quiet"
+                icon="target"
+                label={w.lookHere}
+                aria-pressed={pointing.value}
+                onClick={toggle(pointing)}
+              />
+            )}
             <Button
               look="quiet"
               icon="projector"
@@ -160,7 +204,22 @@ export function Lab({ link }: { link: Link }) {
             </span>
           </div>
           <div class="lab-stage">
-            <div class="lab-view" ref={host} />
+            {/* biome-ignore lint/a11y: the picture has keys of its own; a point needs a pointer */}
+            <div
+              class={`lab-view${pointing.value ? ' lab-points' : ''}`}
+              ref={host}
+              onClick={point}
+            />
+            {(eyes || pointing.value) && (
+              <p class="lab-eyes" role="status">
+                {pointing.value ? w.lookHereHow : eyes && w.seesWith(named(eyes.name))}
+                {!pointing.value && (
+                  <Button look="quiet" onClick={() => view.current?.seeWith('')}>
+                    {w.ownView}
+                  </Button>
+                )}
+              </p>
+            )}
             {trouble.value && (
               <p class="lab-note small" role="status">
                 {trouble.value}
@@ -238,6 +297,12 @@ export function Lab({ link }: { link: Link }) {
                   {w.addRobot}
                 </Button>
               )}
+              <PeopleCard
+                place={follower.place.value}
+                present={present.value}
+                seen={seen.value}
+                onSee={(id) => view.current?.seeWith(id)}
+              />
               <ReplayCard follower={follower} />
             </fieldset>
           </aside>

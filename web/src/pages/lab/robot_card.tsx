@@ -1,6 +1,7 @@
 import { useEffect, useMemo, useRef, useState } from 'preact/hooks'
 import { Button } from '../../design/button'
 import { StateChip } from '../../design/chip'
+import { Icon } from '../../design/icons'
 import { Menu } from '../../design/menu'
 import type { LabCatalogue } from '../../lab/catalogue'
 import { removeType } from '../../protocol/mrlab_msgs'
@@ -146,6 +147,12 @@ export function RobotCard({ view, catalogue, system, idle }: RobotCardProps) {
           <p class={halted ? 'lab-halt small' : 'small'}>{spoken(playback)}</p>
         )}
         {view.down && <p class="lab-halt small">{w.outages.robot}</p>}
+        {view.overlaps.length > 0 && (
+          <p class="lab-not-checked small">
+            <Icon name="warning" />
+            {w.standsIn(view.overlaps.map((each) => named(each)).join(', '))}
+          </p>
+        )}
         {touching && !halted && <p class="lab-halt small">{touching}</p>}
         <Next view={view} system={system} />
         {holding && <p class="small">{w.holds(holding)}</p>}

@@ -17,6 +17,9 @@ const READ_S = 1.5
 const MOST_WAITING = 3
 /** s between two checks whether the text of the shown tab has changed. */
 const ASK_PERIOD = 1
+/** mm */
+const UNDO_WIDTH = 180
+const UNDO_HEIGHT = 50
 /** mm between two tabs; and the width of a tab's margins, in letters. */
 const TAB_GAP = 8
 const TAB_MARGIN = 2.5
@@ -35,6 +38,13 @@ export interface TabPorts extends Speech, Lab {
   repaintBoard(): void
 }
 
+/** An act that can be undone: what was done, and the words of the button. */
+interface Undoable {
+  readonly words: string
+  readonly label: string
+  undo(): void
+}
+
 /** Return a tab of another part of the pages. */
 export type MakeTab = (ports: TabPorts, follower: LabFollower, drawings: Drawings) => Tab
 
@@ -50,6 +60,8 @@ export class Board {
   private readonly waiting: { readonly text: string; readonly warns: boolean }[] = []
   private now = 0
   private askedAt = 0
+  /** What was done and can be undone; null: nothing. */
+  private undoable: Undoable | null = null
   /** The changing text of the tab when it was last read. */
   private said = ''
 
@@ -61,6 +73,12 @@ export class Board {
   set standing(text: string) {
     if (text === this.stands) return
     this.stands = text
+    this.panel.repaint()
+  }
+
+  /** Offer to undo an act of anybody; null: there is none. */
+  offer(act: Undoable | null): void {
+    this.undoable = act
     this.panel.repaint()
   }
 
@@ -125,11 +143,26 @@ export class Board {
       x += width + TAB_GAP
     })
     this.tabs[this.chosen]?.draw(pen)
-    const text = this.notice || this.stands
+    const { undoable } = this
+    const text = undoable?.words || this.notice || this.stands
     if (text === '') return
-    const warns = this.notice === '' || this.warns
+    const warns = undoable !== null || this.notice === '' || this.warns
     const ink = warns ? PANEL_THEME.states.PAUSED : PANEL_THEME.colours.second
-    pen.lines(EDGE, BOTTOM + 18, text, TEXT.small, undefined, ink, 2)
+    const wide = BOARD_WIDTH - 2 * EDGE - (undoable === null ? 0 : UNDO_WIDTH + EDGE)
+    pen.lines(EDGE, BOTTOM + 18, text, TEXT.small, wide, ink, 2)
+    if (undoable === null) return
+    const left = BOARD_WIDTH - EDGE - UNDO_WIDTH
+    const look = { primary: true, small: true }
+    pen.button(
+      'undo',
+      left,
+      BOTTOM + 4,
+      UNDO_WIDTH,
+      undoable.label,
+      undoable.undo,
+      look,
+      UNDO_HEIGHT,
+    )
   }
 }
 

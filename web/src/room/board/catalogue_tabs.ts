@@ -1,7 +1,6 @@
 import { order } from '../../lab/commands'
 import { type ObjectType, triggerType } from '../../protocol/mrlab_msgs'
 import { named } from '../../words/words'
-import { Asking } from '../panels/asking'
 import { GAP, HIT, TEXT } from '../panels/pen'
 import type { Catalogue, Entry, Lab, Speech } from '../ports'
 import { BOTTOM, drawCards, EDGE, type Tab, TOP } from './board'
@@ -54,7 +53,6 @@ export function objectsTab(
   choose: (type: ObjectType) => void,
   count: () => { readonly here: number; readonly most: number },
 ): Tab {
-  const asking = new Asking(ports.say)
   const page = { value: 0 }
   return {
     id: 'objects',
@@ -83,9 +81,7 @@ export function objectsTab(
       const words = ports.words.room.objectCount(here, most)
       pen.lines(EDGE + 250 + GAP, BOTTOM - HIT / 2 - 12, words, TEXT.small, 250, 'second', 2)
       pen.button('clear_objects', EDGE, BOTTOM - HIT, 250, ports.words.room.clearObjects, () => {
-        asking.press('clear_objects', ports.words.room.asksClear, () => {
-          order(ports, 'physics/clear_objects', triggerType, {})
-        })
+        order(ports, 'physics/clear_objects', triggerType, {})
       })
     },
   }

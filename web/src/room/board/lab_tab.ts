@@ -11,7 +11,6 @@ import {
 import { sentence } from '../../words/diagnostic'
 import { fixed, named } from '../../words/words'
 import type { Stats } from '../latency'
-import { Asking } from '../panels/asking'
 import { GAP, HIT, PANEL_THEME, type Pen, TEXT } from '../panels/pen'
 import { BOARD_WIDTH, BOTTOM, EDGE, type Tab, type TabPorts, TOP } from './board'
 
@@ -31,7 +30,6 @@ function sceneName(date: Date): string {
 export function labTab(ports: TabPorts, follower: LabFollower, stats: Stats): Tab {
   const { link } = ports
   const w = ports.words.room
-  const asking = new Asking(ports.say)
   let scenes: readonly string[] = []
   let bags: readonly string[] = []
   let listed = false
@@ -69,10 +67,9 @@ export function labTab(ports: TabPorts, follower: LabFollower, stats: Stats): Ta
       pen.lines(EDGE, TOP + 116, w.noScenes, TEXT.small, COLUMN, 'second')
     }
     firstScene = drawRows(pen, EDGE, scenes, firstScene, 'scenes', (name, y) => {
-      const load = () =>
-        asking.press(name, w.asksLoad(named(name)), () => {
-          order(ports, 'lab/load_scene', sceneFileType, { name })
-        })
+      const load = () => {
+        order(ports, 'lab/load_scene', sceneFileType, { name })
+      }
       pen.button(`load ${name}`, EDGE, y, COLUMN, w.loadScene(named(name)), load, { small: true })
     })
   }

@@ -1,9 +1,9 @@
 import type { LabFollower } from '../../lab/follower'
+import { PART_ICONS, type Part } from '../../lab/people/parts'
+import type { People } from '../../lab/people/people'
 import { named } from '../../words/words'
 import { GAP, HIT, TEXT } from '../panels/pen'
-import { PART_ICONS, type Part } from '../people/avatar'
 import { pauseAll } from '../people/pausing'
-import type { People } from '../people/people'
 import type { Lab, Speech } from '../ports'
 import { BOARD_WIDTH, BOTTOM, EDGE, type Tab, TOP } from './board'
 
@@ -11,6 +11,12 @@ import { BOARD_WIDTH, BOTTOM, EDGE, type Tab, TOP } from './board'
 export interface Person {
   readonly name: string
   readonly part: Part
+}
+
+/** Lets the next press show everybody a point. */
+interface Pointing {
+  readonly active: boolean
+  toggle(): void
 }
 
 const MOST_LISTED = 8
@@ -22,6 +28,7 @@ export function peopleTab(
   people: People,
   follower: LabFollower,
   own: Person,
+  pointing: Pointing,
 ): Tab {
   const w = ports.words.room
   const pause = async () => {
@@ -52,6 +59,17 @@ export function peopleTab(
       pen.button('pause_all', EDGE, BOTTOM - HIT - GAP, width, w.pauseAll, () => void pause(), {
         primary: true,
       })
+      const right = EDGE + width + GAP
+      const look = { chosen: pointing.active }
+      pen.button(
+        'look_here',
+        right,
+        BOTTOM - HIT - GAP,
+        width,
+        w.lookHere,
+        () => pointing.toggle(),
+        look,
+      )
     },
   }
 }

@@ -1,5 +1,6 @@
+import type { People } from '../../lab/people/people'
 import type { Surface } from '../../protocol/mrlab_msgs'
-import type { People } from '../people/people'
+import type { OwnPresence } from '../people/own_presence'
 import type { Lab, Speech } from '../ports'
 import { orderSurfaces, type RoomScan } from './scan'
 import type { TouchAlignment } from './touch_alignment'
@@ -22,7 +23,8 @@ export class CommonPlace {
   constructor(
     private readonly ports: Speech & Lab,
     private readonly device: string,
-    private readonly people: Pick<People, 'isFirst' | 'setAligned'>,
+    private readonly people: Pick<People, 'isFirst'>,
+    private readonly presence: Pick<OwnPresence, 'setAligned'>,
     private readonly scan: Pick<RoomScan, 'tellAgain'>,
     private readonly touching: Pick<TouchAlignment, 'canUndo' | 'end'>,
   ) {}
@@ -33,7 +35,7 @@ export class CommonPlace {
     this.enteredAt = now
     this.first = false
     this.known = false
-    this.people.setAligned(false)
+    this.presence.setAligned(false)
   }
 
   /** The session has ended: the surfaces of this headset leave with it. */
@@ -41,7 +43,7 @@ export class CommonPlace {
     this.touching.end()
     this.tell([])
     this.aligned = true
-    this.people.setAligned(true)
+    this.presence.setAligned(true)
   }
 
   /** In each frame with a headset; now: s. */
@@ -52,7 +54,7 @@ export class CommonPlace {
     if (aligned === this.aligned && (this.known || !heard)) return
     this.aligned = aligned
     this.known = true
-    this.people.setAligned(aligned)
+    this.presence.setAligned(aligned)
     if (aligned) this.scan.tellAgain()
     else {
       orderSurfaces(this.ports, this.device, [])

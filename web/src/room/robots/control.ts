@@ -11,7 +11,6 @@ import {
   triggerType,
 } from '../../protocol/mrlab_msgs'
 import { fixed } from '../../words/words'
-import { Asking } from '../panels/asking'
 import { Notice } from '../panels/notice'
 import { type Choice, PagedList } from '../panels/paged_list'
 import type { Surroundings } from '../panels/panel'
@@ -45,7 +44,6 @@ export class ControlPanel {
   readonly collisions: number[] = []
   private page: View = 'control'
   private readonly notice = new Notice(() => this.panel.repaint())
-  private readonly asking = new Asking(this.notice.say)
   private readonly lab: Lab
   private paintedAt = 0
   private robot: RobotView
@@ -153,9 +151,7 @@ export class ControlPanel {
   }
 
   private remove(): void {
-    this.asking.press('remove', this.ports.words.room.asksRemove, () => {
-      order(this.lab, 'lab/remove_robot', removeType, { name: this.name })
-    })
+    order(this.lab, 'lab/remove_robot', removeType, { name: this.name })
   }
 
   private draw(pen: Pen): void {

@@ -34,7 +34,7 @@ export function drawStatus(
   pen: Pen,
   edge: number,
   { words }: Speech,
-  { robot, playback, state, touching, holding, down }: RobotView,
+  { robot, playback, state, touching, holding, overlaps, down }: RobotView,
   { notice, loaded, beside }: ControlShown,
 ): void {
   const w = words.room
@@ -53,6 +53,9 @@ export function drawStatus(
     pen.lines(edge, 108, words.lab.outages.robot, TEXT.read, width, PANEL_THEME.states.PAUSED, 2)
   } else if (notice !== '') {
     pen.lines(edge, 108, notice, TEXT.read, width, PANEL_THEME.states.PAUSED, 2)
+  } else if (overlaps.length > 0) {
+    const stands = words.lab.standsIn(overlaps.map((each) => named(each)).join(', '))
+    pen.lines(edge, 108, stands, TEXT.read, width, PANEL_THEME.states.PAUSED, 2)
   } else if (playback?.message) {
     pen.lines(edge, 108, spoken(playback), TEXT.read, width, 'second', 2)
   } else if (holding) {

@@ -1,4 +1,4 @@
-import { Group, type Object3D, type Vector3 } from 'three'
+import { Group, InstancedMesh, type Object3D, type Vector3 } from 'three'
 import { pushCorners } from '../robot/corners'
 import { Looks } from '../robot/looks'
 import type { MeshSource } from '../robot/meshes'
@@ -90,6 +90,13 @@ export class LabScene {
   /** Return the joints of a robot in the order in which setJoints wants them. */
   robot(name: string): SceneRobot | undefined {
     return this.robots.get(name)?.robot
+  }
+
+  /** What a ray can meet: robots, objects, and surfaces that are not seen through. */
+  get solid(): Object3D[] {
+    const robots = [...this.robots.values()].map(({ robot }) => robot.root)
+    const objects = this.stage.world.children.filter((each) => each instanceof InstancedMesh)
+    return [...robots, ...objects, ...this.surfaces.met]
   }
 
   /** Return a ghost of a robot at its place; the caller disposes of it. */

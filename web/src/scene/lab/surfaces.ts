@@ -9,6 +9,7 @@ import {
   LineSegments,
   Mesh,
   MeshBasicMaterial,
+  type Object3D,
   Shape,
   ShapeGeometry,
 } from 'three'
@@ -50,6 +51,15 @@ export class LabSurfaces {
       place(part, surface.pose)
       this.group.add(part)
     }
+  }
+
+  /** Tables and the like: walls and the room's mesh are seen through. */
+  get met(): Object3D[] {
+    const met: Object3D[] = []
+    this.group.traverse((node) => {
+      if (node instanceof Mesh && node.material === this.solid) met.push(node)
+    })
+    return met
   }
 
   setTheme(theme: SceneTheme): void {

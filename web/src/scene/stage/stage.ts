@@ -5,11 +5,15 @@ import {
   Group,
   HemisphereLight,
   NeutralToneMapping,
+  type Object3D,
   PCFShadowMap,
   PerspectiveCamera,
   PMREMGenerator,
+  Quaternion,
+  type Raycaster,
   Scene,
   Sphere,
+  Vector2,
   Vector3,
   type WebGLRenderer,
 } from 'three'
@@ -32,6 +36,11 @@ const VIEW = new Vector3(1.05, -1.0, 0.62).normalize()
 const LIGHT = new Vector3(0.55, 1.5, 0.75).normalize() // in the scene's axes
 const SHADOW = 1.25 // half of the shadow's width, in radii of the shown points
 const MARGIN = 1.08 // of the distance at which everything just fits
+// degrees, of the height; a headset shows more, which on a screen would look bent
+const FOV = 32
+const EYES_FOV = 68
+// from a camera's axes to those of a head: x forwards, z up
+const EYES = new Quaternion(0.5, -0.5, -0.5, 0.5)
 const TURN = Math.PI / 24 // rad, a press of an arrow key
 
 /** Called before each picture; true requests another one. now: s, of performance.now(). */
@@ -42,7 +51,7 @@ export class Stage {
   readonly scene = new Scene()
   /** The lab's world: z up, m. */
   readonly world = new Group()
-  readonly camera = new PerspectiveCamera(32, 1, 0.02, 60)
+  readonly camera = new PerspectiveCamera(FOV, 1, 0.02, 60)
   readonly canvas: HTMLCanvasElement
   /** Pictures drawn so far. */
   drawn = 0
@@ -56,6 +65,9 @@ export class Stage {
   private readonly themed = new Set<(theme: SceneTheme) => void>()
   private readonly undo: (() => void)[] = []
   private readonly scratch = new Vector3()
+  private readonly pixel = new Vector2()
+  /** The head that the picture is seen with; null: the viewer's own view. */
+  private head: Object3D | null = null
   /** Points that the picture must contain, in the scene's frame. */
   private framed: Vector3[] = []
   private touched = false
@@ -158,6 +170,30 @@ export class Stage {
     this.invalidate()
   }
 
+  /** Show the picture that a person has whose head this is, x forwards, until null is given: then
+   * the view is as it was. */
+  seeWith(head: Object3D | null): void {
+    if ((head === null) === (this.head === null)) {
+      this.head = head
+      return
+    }
+    this.head = head
+    this.controls.enabled = head === null
+    this.camera.fov = head === null ? FOV : EYES_FOV
+    this.camera.updateProjectionMatrix()
+    if (head === null) this.controls.update()
+    this.invalidate()
+  }
+
+  /** Return the ray through a place of the page, CSS pixels, in the world's frame. */
+  ray(clientX: number, clientY: number, into: Raycaster): Raycaster {
+    const { left, top, width, height } = this.canvas.getBoundingClientRect()
+    const x = ((clientX - left) / width) * 2 - 1
+    const y = 1 - ((clientY - top) / height) * 2
+    into.setFromCamera(this.pixel.set(x, y), this.camera)
+    return into
+  }
+
   /** Return where on the canvas, CSS pixels from its corner, a point of the world frame is. */
   toScreen(point: Vector3, into: Vector3): Vector3 {
     into.copy(point).applyMatrix4(this.world.matrixWorld).project(this.camera)
@@ -211,13 +247,21 @@ export class Stage {
     const now = performance.now() / 1000
     let more = false
     for (const listener of this.listeners) more = listener(now) || more
-    this.controls.update()
+    if (this.head === null) this.controls.update()
+    else this.follow(this.head)
     this.adapt(now)
     if (this.scene.environment === null) this.scene.traverse(matt)
     this.shadow.apply()
     this.renderer.render(this.scene, this.camera)
     this.drawn++
     if (more) this.invalidate()
+  }
+
+  private follow(head: Object3D): void {
+    head.updateWorldMatrix(true, false)
+    head.matrixWorld.decompose(this.camera.position, this.camera.quaternion, this.scratch)
+    this.camera.quaternion.multiply(EYES)
+    this.camera.updateMatrixWorld()
   }
 
   private readonly drawSoon = (): void => {

@@ -35,7 +35,7 @@ describe('the common place of headsets', () => {
     link.answer('physics/set_surfaces', setSurfacesType, () => ({ success: true, message: '' }))
     const ports = { link, words: en, say: (text: string) => said.push(text) }
     const scan = { tellAgain: () => tellings++ }
-    place = new CommonPlace(ports as never, 'quest', people, scan as never, touching)
+    place = new CommonPlace(ports as never, 'quest', people, people, scan as never, touching)
   })
 
   it('is defined by the first, after it has listened for others', () => {

@@ -1,21 +1,12 @@
-import { type Object3D, Quaternion, Vector3 } from 'three'
+import { type Object3D, Vector3 } from 'three'
 import type { Link } from '../../link/link'
-import {
-  createPresence,
-  type Presence,
-  presenceReader,
-  presenceWriter,
-} from '../../protocol/mrlab_msgs'
+import { type Presence, presenceReader } from '../../protocol/mrlab_msgs'
 import type { Words } from '../../words/en'
-import type { Viewer } from '../ports'
-import { poseInWorld } from '../scene/frames'
-import { Avatar, AvatarShapes, type Part, partOf } from './avatar'
+import { Avatar, AvatarShapes } from './avatar'
+import { type Part, partOf } from './parts'
 
-/** s between two of our own messages: less than 20 a second. */
-const PERIOD = 0.055
 /** s without a message after which an avatar is removed. */
 const GONE = 4
-const LEVEL = new Quaternion()
 /** m: radius of a standing person, and from the eyes to the top of the head. */
 const WIDE = 0.2
 const CROWN = 0.15
@@ -42,48 +33,52 @@ interface Person {
   seenAt: number
 }
 
-/** Places of a person's hands; null: not tracked. */
-interface Hands {
-  hand(side: 'left' | 'right'): Vector3 | null
-}
-
-/** A person in the room. */
-interface Present {
+/** A person in the room. id: of the display. */
+export interface Present {
+  readonly id: string
   readonly name: string
   readonly part: Part
   readonly aligned: boolean
 }
 
 /** The frame of displays that are in the same place; any other one is a display's own. */
-const COMMON = 'world'
+export const COMMON = 'world'
 
-/** The other people in the room: receives their presence and publishes ours. */
+/** The other people in the room, from their presence. */
 export class People {
+  /** True if this display is in the same place as the others: avatars are drawn between displays
+   * in one place only. */
+  inPlace = true
+  /** The display whose eyes the picture is seen with: nothing of it is drawn. Empty: our own. */
+  seenBy = ''
   private readonly people = new Map<string, Person>()
   private readonly shapes = new AvatarShapes()
-  private readonly own = createPresence()
   private readonly undo: () => void
-  private toldAt = Number.NEGATIVE_INFINITY
-  private now = 0
 
   /** id: of this display, unique in the lab. changed: a person came or left. */
   constructor(
-    private readonly link: Link,
+    link: Pick<Link, 'subscribe'>,
     private readonly world: Object3D,
     readonly id: string,
     private readonly words: Words,
     private readonly changed: () => void,
   ) {
-    this.own.id = id
-    this.own.header.frame_id = COMMON
     this.undo = link.subscribe('presence', presenceReader, (message) => this.take(message))
   }
 
   /** The others. */
   get present(): Present[] {
-    return [...this.people.values()].map(({ avatar: { name, part }, aligned }) => {
-      return { name, part, aligned }
-    })
+    return [...this.people].map(
+      ([
+        id,
+        {
+          avatar: { name, part },
+          aligned,
+        },
+      ]) => {
+        return { id, name, part, aligned }
+      },
+    )
   }
 
   /** Where people stand, in the lab's frame, this one first. head: in the scene. */
@@ -102,68 +97,32 @@ export class People {
     }
   }
 
+  /** Return the head of a display, whose x points forwards; undefined: it is not here. */
+  eyes(id: string): Object3D | undefined {
+    return this.people.get(id)?.avatar.eyes
+  }
+
   /** True if nobody else is in the common place, and nobody with a lower id waits for it. */
   get isFirst(): boolean {
     for (const [id, { aligned }] of this.people) if (aligned || id < this.id) return false
     return true
   }
 
-  /** Set if this display is in the same place as the others: avatars are drawn between displays in
-   * one place only. */
-  setAligned(aligned: boolean): void {
-    this.own.header.frame_id = aligned ? COMMON : this.id
-  }
-
   /** Before each picture: update avatars, and remove silent people. Returns whether any is drawn.
    * now, step: s. */
   update(now: number, step: number): boolean {
-    this.now = now
-    const inPlace = this.own.header.frame_id === COMMON
     for (const [id, { avatar, aligned, seenAt }] of this.people) {
-      avatar.group.visible = aligned && inPlace
+      avatar.group.visible = aligned && this.inPlace && id !== this.seenBy
       if (now - seenAt > GONE) this.remove(id)
       else avatar.update(step)
     }
     return this.people.size > 0
   }
 
-  /** Publish our pose; call it in each frame with a headset. */
-  tell({ head, look }: Viewer, hands: Hands): void {
-    if (this.now - this.toldAt < PERIOD) return
-    this.toldAt = this.now
-    const { own, world } = this
-    own.head = poseInWorld(world, head, look)
-    const left = hands.hand('left')
-    own.has_left = left !== null
-    if (left !== null) own.left = poseInWorld(world, left, LEVEL)
-    const right = hands.hand('right')
-    own.has_right = right !== null
-    if (right !== null) own.right = poseInWorld(world, right, LEVEL)
-    this.send(false)
-  }
-
-  /** Publish that we leave; nothing if we never published our presence. */
-  leave(): void {
-    if (this.toldAt === Number.NEGATIVE_INFINITY) return
-    this.toldAt = Number.NEGATIVE_INFINITY
-    this.send(true)
-  }
-
   dispose(): void {
     this.undo()
-    this.leave()
     for (const id of [...this.people.keys()]) this.remove(id)
     this.shapes.dispose()
-  }
-
-  private send(away: boolean): void {
-    const { own, link } = this
-    const time = link.labTime()
-    const { stamp } = own.header
-    stamp.sec = Math.floor(time)
-    stamp.nanosec = Math.floor((time - stamp.sec) * 1e9)
-    own.away = away
-    link.publish('presence', presenceWriter, own)
   }
 
   private take(message: Presence): void {

@@ -3,13 +3,15 @@ import {
   type Material,
   Mesh,
   MeshStandardMaterial,
+  type Object3D,
   Quaternion,
   SphereGeometry,
   Vector3,
 } from 'three'
-import { Presence } from '../../protocol/mrlab_msgs'
+import type { Presence } from '../../protocol/mrlab_msgs'
 import { Label } from '../../scene/stage/labels'
 import type { Pose } from '../../scene/stage/pose'
+import { PART_ICONS, type Part } from './parts'
 
 /** m */
 const HEAD = 0.11
@@ -23,16 +25,7 @@ const JUMP = 0.6 // m
 const place = new Vector3()
 const turn = new Quaternion()
 
-/** An icon beside the word: a part is never shown by a colour alone. */
-export const PART_ICONS = { 0: '○', 1: '▶', 2: '★' } as const
 const PART_COLOURS = { 0: 0xa9b5c2, 1: 0x6cb6ff, 2: 0xffe08a } as const
-
-export type Part = keyof typeof PART_ICONS
-
-/** Return a part as one of the three that there are. */
-export function partOf({ part }: Pick<Presence, 'part'>): Part {
-  return part === Presence.TEACHES || part === Presence.DRIVES ? (part as Part) : 0
-}
 
 /** The shapes that all avatars share. */
 export class AvatarShapes {
@@ -122,6 +115,11 @@ export class Avatar {
   /** Of the head, in the lab's frame. */
   get place(): Vector3 {
     return this.head.group.position
+  }
+
+  /** The head, whose x points forwards. */
+  get eyes(): Object3D {
+    return this.head.group
   }
 
   take(message: Presence): void {

@@ -1,13 +1,12 @@
 import { Group } from 'three'
 import { expect, it, vi } from 'vitest'
+import { People } from '../../../src/lab/people/people'
 import { createPresence, presenceReader } from '../../../src/protocol/mrlab_msgs'
-import { People } from '../../../src/room/people/people'
 import { en } from '../../../src/words/en'
 import { FakeLink } from '../../fake_link'
 
-vi.mock('../../../src/room/people/avatar', () => ({
+vi.mock('../../../src/lab/people/avatar', () => ({
   AvatarShapes: class {},
-  partOf: ({ part }: { part: number }) => part,
   Avatar: class {
     readonly group = new Group()
     constructor(
@@ -37,7 +36,7 @@ it('draws avatars between displays in one place only', () => {
   expect([drawn(), people.isFirst]).toEqual([[false], true])
   come('c', 'world')
   expect([drawn(), people.isFirst]).toEqual([[true], false])
-  people.setAligned(false)
+  people.inPlace = false
   people.update(performance.now() / 1000, 0.01)
   expect(drawn()).toEqual([false])
   come('c', 'c')
