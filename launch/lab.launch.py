@@ -84,6 +84,7 @@ ARGUMENTS = {
     "oidc": ("", "YAML file of an OpenID Connect provider by which people sign in"),
     "web_limits": ("", "YAML file of how many pages there may be and what each may send"),
     "class": ("", "folder that mrlab class made, for instructors to step through"),
+    "lti": ("", "YAML file of the learning platform whose course the class is"),
     "state_dir": ("", "folder for scene and trajectories; empty: a temporary one"),
     "store": ("", "uploads and trajectories: a folder or URL; empty: in state_dir"),
     "discovery": (
@@ -139,6 +140,7 @@ def processes(context):
             oidc=path("oidc"),
             limits=path("web_limits"),
             classroom=path("class"),
+            lti=path("lti"),
         )
         if keys is not None:
             prepare_keys(keys)

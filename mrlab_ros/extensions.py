@@ -3,7 +3,9 @@
 Each package has
 - COMMANDS: module and attribute of each command of `mrlab`, by its name;
 - ROUTERS: module and attribute of each router of the gateway;
-- POLICY: role that each of its routes needs, by method and path;
+- POLICY: role that each of its routes needs, by method and path; "everybody": none;
+- POSTED: paths to which pages of other sites may post, for each of which the package says what
+  takes the place of the guard's tokens;
 - check(settings): raises BadInput where the settings of a gateway cannot be served.
 Its own module imports nothing of these, so that the command line starts quickly.
 """

@@ -83,6 +83,11 @@ class Desk:
             return [(f.name, f.stat().st_size) for f in files if f.name != FORM]
         return []
 
+    @property
+    def export(self) -> Path:
+        """Return the place of the export that the next run marks."""
+        return self.folder / SOURCES / job.EXPORT
+
     def missing(self) -> list[str]:
         """Return the files that the rubric names and that are not there. Raises BadInput."""
         path = self.folder / SOURCES / job.RUBRIC
@@ -100,25 +105,12 @@ class Desk:
 
     async def take(self, name: str, body: AsyncIterator[bytes]) -> None:
         """Take a file for the next run, in place of one of its name. Raises BadInput."""
-        known = name in LARGEST
-        if not known and (
-            PurePosixPath(name).name != name
-            or not name.isprintable()
-            or name.startswith(".")
-            or not name.lower().endswith(BESIDE)
-        ):
-            raise BadInput(SOURCE_NAME(file=name))
+        if name not in LARGEST:
+            check_name(name)
         most = LARGEST.get(name, LARGEST_OTHER)
         folder = self.folder / SOURCES
         folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(dir=folder.parent, prefix=".taking-") as place:
-            path, size = Path(place) / name, 0
-            with path.open("wb") as file:
-                async for chunk in body:
-                    size += len(chunk)
-                    if size > most:
-                        raise BadInput(SOURCE_TOO_LARGE(file=name, most=most))
-                    await asyncio.to_thread(file.write, chunk)
+        async with taken(body, folder.parent, name, most) as path:
             if name == job.RUBRIC:
                 await asyncio.to_thread(_named_beside, path)
             os.replace(path, folder / name)
@@ -281,6 +273,33 @@ class Desk:
                 text = gradebook.words_of(student)
                 archive.writestr(_place(document["form"], student, "txt"), text)
         return path
+
+
+def check_name(name: str) -> None:
+    """Raise BadInput where a file cannot be handed in under this name."""
+    if (
+        PurePosixPath(name).name != name
+        or not name.isprintable()
+        or name.startswith(".")
+        or not name.lower().endswith(BESIDE)
+    ):
+        raise BadInput(SOURCE_NAME(file=name))
+
+
+@contextlib.asynccontextmanager
+async def taken(
+    body: AsyncIterator[bytes], beside: Path, name: str, most: int
+) -> AsyncIterator[Path]:
+    """Yield a file with a body, in a folder of its own. Raises BadInput where it is too large."""
+    with tempfile.TemporaryDirectory(dir=beside, prefix=".taking-") as place:
+        path, size = Path(place) / name, 0
+        with path.open("wb") as file:
+            async for chunk in body:
+                size += len(chunk)
+                if size > most:
+                    raise BadInput(SOURCE_TOO_LARGE(file=name, most=most))
+                await asyncio.to_thread(file.write, chunk)
+        yield path
 
 
 def _place(form: str, student: Mapping[str, Any], ending: str) -> str:

@@ -18,7 +18,7 @@ from mrlab_ros.app.check.file import scene_of
 from mrlab_ros.classroom.folder import HELD, PROPOSED, SOURCES, WORKSHEET
 from mrlab_ros.classroom.mark import read_rubric
 from mrlab_ros.classroom.run import Request, form_of, marked, of_rubric
-from mrlab_ros.classroom.setup import Bounds
+from mrlab_ros.classroom.setup import Bounds, Setup
 from mrlab_ros.core.base.diagnostic import Diagnostic, Severity, plain
 from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.conversion.options import Options
@@ -33,10 +33,8 @@ def work(folder: Path, how: str, form: str) -> list[Diagnostic]:
     PROPOSE writes no page and changes no mark that holds; HOLD and FINAL let the marks hold.
     """
     sources = folder / (HELD if how == FINAL else SOURCES)
-    rubric = read_rubric(sources / RUBRIC)
     proposes = how == PROPOSE
-    scene = scene_of(rubric.scene, share.directory())
-    setup = of_rubric(rubric, scene, Options(), Bounds(), pages=not proposes)
+    setup = setup_of(sources, pages=not proposes)
     sheet = folder / SOURCES / SHEET
     *_, problems = marked(
         Request(
@@ -55,6 +53,13 @@ def work(folder: Path, how: str, form: str) -> list[Diagnostic]:
         hold(folder / SOURCES, folder / HELD)
         shutil.rmtree(folder / PROPOSED, ignore_errors=True)
     return [each for each in problems if each.severity is not Severity.INFO]
+
+
+def setup_of(sources: Path, *, pages: bool) -> Setup:
+    """Return how a class is checked by the rubric among its sources. Raises LabError."""
+    rubric = read_rubric(sources / RUBRIC)
+    scene = scene_of(rubric.scene, share.directory())
+    return of_rubric(rubric, scene, Options(), Bounds(), pages=pages)
 
 
 def hold(source: Path, target: Path) -> None:

@@ -132,6 +132,7 @@ def create_app(settings: Settings, ports: Ports) -> FastAPI:
         public_origin=hosts.public_origin,
         csrf_matches=people.csrf_matches,
         token_of=token_of,
+        posted=[path for each in extensions() for path in each.POSTED],
     )
     return app
 

@@ -72,7 +72,8 @@ TOO_MANY_REQUESTS = Code(
     "too_many_requests",
     "Too many {what:choice uploads=uploads|conversions=conversions|checks=checks"
     "|sign_ins_by_address=sign-ins from this address|sign_ins_by_name=sign-ins with this name"
-    "|links=links from this address|pairings=pairings from this address|tries=tries}.",
+    "|links=links from this address|pairings=pairings from this address|tries=tries"
+    "|launches=launches from this address|hand_ins=files that are handed in}.",
     "Try again in {wait:time}.",
 )
 

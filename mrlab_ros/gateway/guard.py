@@ -11,7 +11,7 @@ from __future__ import annotations
 import ipaddress
 import re
 import socket
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
 from urllib.parse import urlsplit
 
@@ -111,7 +111,8 @@ class Guard:
     host_allowed: whether a Host, without its port, is a name of this gateway. public_origin: that
     of a reverse proxy before it, or empty. csrf_matches: whether a token is the right one for the
     Cookie header of its request. token_of: finds a program's token in a header Authorization,
-    which no page of another site can send.
+    which no page of another site can send. posted: paths to which other sites may post; what is
+    posted there proves itself.
     """
 
     def __init__(
@@ -121,12 +122,14 @@ class Guard:
         public_origin: str,
         csrf_matches: Callable[[str, str], bool],
         token_of: Callable[[str], str],
+        posted: Collection[str] = (),
     ) -> None:
         self._app = app
         self._host_allowed = host_allowed
         self._public_origin = public_origin
         self._csrf_matches = csrf_matches
         self._token_of = token_of
+        self._posted = frozenset(posted)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Pass a request on, or refuse it."""
@@ -162,7 +165,8 @@ class Guard:
         if not self._host_allowed(without_port(host)):
             return "host", WRONG_HOST(host=host[:100])
         unsafe = scope["type"] == "websocket" or scope["method"] not in SAFE
-        if not unsafe or self._is_program(scope, headers):
+        elsewhere = scope["type"] == "http" and scope["path"] in self._posted
+        if not unsafe or elsewhere or self._is_program(scope, headers):
             return None
         origin = headers.get("origin", "")
         secure = scope.get("scheme") in ("https", "wss")

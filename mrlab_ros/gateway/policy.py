@@ -115,7 +115,11 @@ ROUTES: Mapping[tuple[str, str], Everybody | Role | Need] = {
     ("HEAD", "/assets/{path:path}"): Need(Verb.RECEIVE, "assets"),
     # The socket itself checks the rights of the keys that it is asked for.
     (SOCKET, "/link"): Role.DISPLAY,
-    **{route: Role(role) for each in extensions() for route, role in each.POLICY.items()},
+    **{
+        route: EVERYBODY if role == EVERYBODY.value else Role(role)
+        for each in extensions()
+        for route, role in each.POLICY.items()
+    },
 }
 
 

@@ -36,7 +36,8 @@ class Settings:
     this machine without keys. allow_list: the bridge's YAML file, the shipped one if None. store:
     URL or folder of the object store; empty: in state_dir. oidc: YAML file of an OpenID Connect
     provider. limits: YAML file of what pages may take. pages: folder of the built pages; None: the
-    installed ones. classroom: a folder of `mrlab class` for instructors to step through.
+    installed ones. classroom: a folder of `mrlab class` for instructors to step through. lti:
+    YAML file of the learning platform whose course the class is.
     """
 
     state_dir: Path
@@ -56,6 +57,7 @@ class Settings:
     limits: Path | None = None
     pages: Path | None = None
     classroom: Path | None = None
+    lti: Path | None = None
     lab_name: str = field(default="MR-Lab")
 
     @property

@@ -17,7 +17,7 @@ class WebOptions:
     host, port: where it listens. certificate, certificate_key: for HTTPS in place of those of the
     keys folder. public_url: the address of a reverse proxy before it. oidc: YAML file of an OpenID
     Connect provider. limits: YAML file of what pages may take. classroom: a folder that `mrlab
-    class` made.
+    class` made. lti: YAML file of the learning platform whose course the class is.
     """
 
     host: str
@@ -28,6 +28,7 @@ class WebOptions:
     oidc: Path | None = None
     limits: Path | None = None
     classroom: Path | None = None
+    lti: Path | None = None
 
 
 @dataclass(frozen=True)

@@ -58,6 +58,7 @@ class GatewayProcess:
             "oidc": web.oidc,
             "limits": web.limits,
             "classroom": web.classroom,
+            "lti": web.lti,
             "store": options.store or parameter(options.config, "converter", "store"),
         }
         arguments = [

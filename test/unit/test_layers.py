@@ -260,7 +260,7 @@ def test_the_class_is_no_node_and_its_rubrics_and_marks_are_pure() -> None:
 
 def test_only_the_doors_of_the_class_know_the_doors_of_the_lab() -> None:
     """What checks and marks a submission prints nothing and answers no request."""
-    doors = {"commands", "rubric_run", "run", "words", "routes", "shown"}
+    doors = {"commands", "rubric_run", "run", "words", "routes", "shown", "launch"}
 
     def others(path: Path) -> set[str]:
         return {name for name in own_imports(path) if layer_of(name) in ("commands", "gateway")}

@@ -32,6 +32,8 @@ CANVAS = re.compile(
     re.IGNORECASE | re.DOTALL,
 )
 GRADESCOPE = re.compile(r"submission_(?P<id>\d+)")
+# What students handed in on the page, for a course that is connected.
+COURSE = re.compile(r"handed_in_(?P<id>\d+)")
 METADATA = "submission_metadata.yml"
 # Canvas and browsers number the attempts: motion-1.mat, motion (2).mat
 ATTEMPT = re.compile(r"(?:-| ?\()(\d{1,2})\)?$")
@@ -42,8 +44,8 @@ GERMAN = str.maketrans(
 )
 MOST_KEY, MOST_NAME = 60, 200  # characters
 REFERENCE = "reference"  # the key of the solution, which no student has
-FOLDER, MOODLE_FORM, GRADESCOPE_FORM, CANVAS_FORM, ILIAS_FORM = FORMS = (
-    "folder", "Moodle", "Gradescope", "Canvas", "ILIAS",
+FOLDER, MOODLE_FORM, GRADESCOPE_FORM, CANVAS_FORM, ILIAS_FORM, COURSE_FORM = FORMS = (
+    "folder", "Moodle", "Gradescope", "Canvas", "ILIAS", "course",
 )  # fmt: skip
 # ILIAS has all submissions in a folder of this name.
 SUBMISSIONS = {"abgaben", "submissions"}
@@ -118,8 +120,9 @@ def recognise(
     """Return who handed in what.
 
     suffixes: endings of files that may hold a motion. pattern: a file name pattern such as
-    "motion*.mat", which decides among several. metadata: the content of Gradescope's
-    submission_metadata.yml. form: one of FORMS; empty: the one that most paths have.
+    "motion*.mat", which decides among several. metadata: the content of submission_metadata.yml,
+    of Gradescope or of a course; people of a course who sent nothing have a row. form: one of
+    FORMS; empty: the one that most paths have.
     """
     kept, left_out = [], []
     for entry in sorted(entries, key=lambda e: e.path):
@@ -144,8 +147,13 @@ def recognise(
         known.text |= one.text
         if not one.text:
             known.files.append((entry, rest))
-    if form == GRADESCOPE_FORM:
-        _names_of_gradescope(students, metadata or {})
+    if form == COURSE_FORM:
+        here = {found.folder for found in students.values()}
+        for name in map(str, metadata or ()):
+            if name not in here and (match := COURSE.fullmatch(name)):
+                students[name, match["id"]] = _Found(name, match["id"], name)
+    if form in (GRADESCOPE_FORM, COURSE_FORM):
+        _names_of_metadata(students, metadata or {})
     ordered = sorted(students.values(), key=lambda s: (s.name.casefold(), s.identifier))
     taken = {REFERENCE}
     submissions = tuple(_submission(s, form, suffixes, pattern, taken) for s in ordered)
@@ -184,6 +192,7 @@ def _form(entries: Sequence[Entry]) -> str:
     counts = {
         MOODLE_FORM: sum(any(map(MOODLE.fullmatch, parts)) for parts in paths),
         GRADESCOPE_FORM: sum(any(map(GRADESCOPE.fullmatch, parts[:-1])) for parts in paths),
+        COURSE_FORM: sum(any(map(COURSE.fullmatch, parts[:-1])) for parts in paths),
         CANVAS_FORM: sum(any(map(CANVAS.fullmatch, parts)) for parts in paths),
         ILIAS_FORM: _of_ilias(paths),
     }
@@ -228,7 +237,8 @@ def _named(parts: Sequence[str], form: str) -> tuple[_Found, str] | None:
             file = "/".join(each for each in (match["file"], rest) if each)
             late, text = bool(match["late"]), bool(match["text"])
             return _Found(match["name"], match["id"], "", late, text=text), file
-        if form == GRADESCOPE_FORM and rest and (match := GRADESCOPE.fullmatch(part)):
+        pattern = {GRADESCOPE_FORM: GRADESCOPE, COURSE_FORM: COURSE}.get(form)
+        if pattern and rest and (match := pattern.fullmatch(part)):
             return _Found(part, match["id"], part), rest
     return None
 
@@ -260,7 +270,7 @@ def _wrapper(entries: Sequence[Entry], suffixes: Sequence[str]) -> int:
     return depth
 
 
-def _names_of_gradescope(
+def _names_of_metadata(
     students: Mapping[tuple[str, str], _Found], metadata: Mapping[str, Any]
 ) -> None:
     for found in students.values():
@@ -270,6 +280,7 @@ def _names_of_gradescope(
         if not people:
             found.notes.append(SENDER_NOT_NAMED(file=METADATA, folder=found.folder))
             continue
+        found.late |= str(about.get(":late")) == "true" if isinstance(about, Mapping) else False
         found.name = ", ".join(str(p.get(":name") or "?") for p in people)
         found.identifier = ", ".join(str(p[":sid"]) for p in people if p.get(":sid"))
         found.email = ", ".join(str(p[":email"]) for p in people if p.get(":email"))

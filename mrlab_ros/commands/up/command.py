@@ -123,6 +123,10 @@ def up(
             help="Folder that mrlab class made: instructors step through it in pages and room.",
         ),
     ] = None,
+    lti: Annotated[
+        Path | None,
+        typer.Option(help="YAML file of the learning platform whose course the class is."),
+    ] = None,
 ) -> None:
     """Start the lab and keep it running until Ctrl-C.
 
@@ -152,6 +156,7 @@ def up(
             oidc=oidc,
             limits=web_limits,
             classroom=class_folder,
+            lti=lti,
         )
         if keys is not None:
             prepare_keys(keys)

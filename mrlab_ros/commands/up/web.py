@@ -32,6 +32,7 @@ def checked_web(
     oidc: Path | None = None,
     limits: Path | None = None,
     classroom: Path | None = None,
+    lti: Path | None = None,
 ) -> WebOptions:
     """Return where the pages are served; raises BadInput where they may not or cannot be.
 
@@ -54,6 +55,7 @@ def checked_web(
         public_url=public_url,
         oidc=oidc,
         classroom=classroom,
+        lti=lti,
         insecure=insecure and not (https or public_url),
     ).check()
     return WebOptions(
@@ -65,6 +67,7 @@ def checked_web(
         _absolute(oidc),
         _absolute(limits),
         _absolute(classroom),
+        _absolute(lti),
     )
 
 

@@ -16,13 +16,14 @@ from argon2 import PasswordHasher, profiles
 from argon2.exceptions import Argon2Error, InvalidHashError
 
 from mrlab_ros.core.base.diagnostic import Fix
-from mrlab_ros.core.base.errors import BadInput, Misuse
+from mrlab_ros.core.base.errors import BadInput, LabError, Misuse
 from mrlab_ros.core.bridge.rules import Role
-from mrlab_ros.gateway.errors import NotFound
+from mrlab_ros.gateway.errors import NotAllowed, NotFound
 from mrlab_ros.gateway.people.diagnostics import (
     BAD_PERSON_NAME,
     LAST_INSTRUCTOR,
     LINK_USED,
+    NO_NAME_LEFT,
     NO_PERSON,
     PASSWORD_LENGTH,
     PERSON_EXISTS,
@@ -222,6 +223,19 @@ class Accounts:
         rows = self._database.rows(f"{PEOPLE} WHERE p.subject = ?", subject)
         return _account(rows[0]) if rows else None
 
+    def of_provider(self, subject: str, wanted: str, role: Role) -> Account:
+        """Return the person whom a provider calls so, a new one with a name such as `wanted` where
+        there is none. Raises NotAllowed where no such name is left."""
+        known = self.of_subject(subject)
+        if known is not None:
+            return known
+        for name in (wanted, *(f"{wanted[:36]}-{i}" for i in range(2, 100))):
+            try:
+                return self.add(name, role, subject)
+            except LabError:
+                continue
+        raise NotAllowed(NO_NAME_LEFT(name=wanted))
+
     def _link(self, kind: str, name: str, expires: float) -> str:
         secret = new_secret()
         with self._database.writing() as connection:
@@ -243,6 +257,16 @@ class Accounts:
         if not rows:
             raise _no_link()
         return str(rows[0]["name"])
+
+
+def plain_name(text: str) -> str:
+    """Return a name as this lab takes them: what is before an @, other letters as _."""
+    name = re.sub(r"[^A-Za-z0-9_.-]", "_", text.partition("@")[0])[:41].lstrip("_.-")
+    try:
+        check_name(name)
+    except BadInput:
+        return f"person-{name}"[:41].rstrip("-")
+    return name
 
 
 def check_name(name: str) -> None:

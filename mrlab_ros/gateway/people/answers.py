@@ -42,13 +42,14 @@ class Rights(BaseModel):
     """Commands that the pages offer to a person; the socket checks each call by the same policy.
 
     commands: loads and plays robots. scene: puts robots there and takes them away. replay: plays
-    bags. grades: steps through the class that this gateway shows.
+    bags. grades: steps through the class that this gateway shows. hands_in: hands in for it.
     """
 
     commands: bool
     scene: bool
     replay: bool
     grades: bool
+    hands_in: bool
 
 
 class Session(BaseModel):

@@ -27,14 +27,13 @@ with warnings.catch_warnings():
 from mrlab_ros.adapters.yaml_files import read_yaml
 from mrlab_ros.core.base.checks import TEXT, Text
 from mrlab_ros.core.base.checks import enum_values as one_of
-from mrlab_ros.core.base.errors import BadInput, LabError, Unavailable
+from mrlab_ros.core.base.errors import Unavailable
 from mrlab_ros.core.base.records import field, read
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.gateway.errors import NotAllowed
-from mrlab_ros.gateway.people.accounts import Account, Accounts, check_name
+from mrlab_ros.gateway.people.accounts import Account, Accounts, plain_name
 from mrlab_ros.gateway.people.diagnostics import (
     MAIL_NOT_ADMITTED,
-    NO_NAME_LEFT,
     NOT_CONFIRMED,
     PROVIDER_INCOMPLETE,
     PROVIDER_OTHER,
@@ -181,16 +180,8 @@ class Oidc:
         """
         self._check_email(claims)
         subject = f"{claims['iss']} {claims['sub']}"
-        known = accounts.of_subject(subject)
-        if known is not None:
-            return known
         wanted = plain_name(str(claims.get(self.provider.name_claim) or claims["sub"]))
-        for name in (wanted, *(f"{wanted[:36]}-{i}" for i in range(2, 100))):
-            try:
-                return accounts.add(name, self.provider.role, subject)
-            except LabError:
-                continue
-        raise NotAllowed(NO_NAME_LEFT(name=wanted))
+        return accounts.of_provider(subject, wanted, self.provider.role)
 
     def _check_email(self, claims: Mapping[str, Any]) -> None:
         patterns = self.provider.emails.lower().split()
@@ -234,16 +225,6 @@ class Oidc:
             transport=self._transport,
             timeout=TIMEOUT_S,
         )
-
-
-def plain_name(text: str) -> str:
-    """Return a name as this lab takes them: what is before an @, other letters as _."""
-    name = re.sub(r"[^A-Za-z0-9_.-]", "_", text.partition("@")[0])[:41].lstrip("_.-")
-    try:
-        check_name(name)
-    except BadInput:
-        return f"person-{name}"[:41].rstrip("-")
-    return name
 
 
 def _unreachable(provider: Provider, error: Exception) -> Unavailable:

@@ -44,7 +44,7 @@ async def start(request: Request, people: ThePeople, oidc: TheOidc) -> Response:
         people.sign_ins_by_address.check(address_of(request), people.steady())
         url, state = await oidc.begin(f"{base_url(request, people)}{PATH}/callback")
     except LabError as error:
-        return _back_to_sign_in(error)
+        return back_to_sign_in(error)
     response = RedirectResponse(url, 303)
     # Lax: the provider's page leads back here. It proves that this browser began.
     response.set_cookie(
@@ -70,14 +70,14 @@ async def callback(request: Request, people: ThePeople, oidc: TheOidc) -> Respon
         claims = await oidc.finish(str(request.url), state)
         account = await to_thread.run_sync(oidc.account, claims, people.accounts)
     except LabError as error:
-        return _back_to_sign_in(error)
+        return back_to_sign_in(error)
     response = RedirectResponse("/", 303)
     response.delete_cookie(state_cookie(people), path=PATH)
     await to_thread.run_sync(people.sign_in, response, account.name, account.role)
     return response
 
 
-def _back_to_sign_in(error: LabError) -> Response:
+def back_to_sign_in(error: LabError) -> Response:
     """Lead to the page of signing in, which knows a sentence for each of these words."""
     logger.warning("nobody was signed in by the provider: %s", error)
     word = error.kind if isinstance(error, GatewayError) else "unavailable"

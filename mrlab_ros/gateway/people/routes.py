@@ -224,7 +224,12 @@ def session_answer(
         user=None
         if person is None
         else answers.User(id=person.id, name=person.name, role=person.role),
-        may=rights(request.app.state.policy, person, settings.classroom is not None),
+        may=rights(
+            request.app.state.policy,
+            person,
+            graded=settings.classroom is not None,
+            hands_in=settings.lti is not None,
+        ),
         csrf=csrf,
         ways=answers.Ways(
             password=settings.signs_in, oidc=settings.oidc is not None, pairing=settings.signs_in
@@ -232,19 +237,24 @@ def session_answer(
     )
 
 
-def rights(policy: Policy, person: Person | None, graded: bool) -> answers.Rights:
-    """Return what the pages offer to a person. graded: the gateway shows a class."""
+def rights(
+    policy: Policy, person: Person | None, *, graded: bool, hands_in: bool
+) -> answers.Rights:
+    """Return what the pages offer to a person. graded: the gateway shows a class; hands_in: its
+    students hand in here."""
 
     def calls(*services: str) -> bool:
         return person is not None and all(
             policy.may(person.role, Verb.CALL, service) for service in services
         )
 
+    teaches = person is not None and person.role.may(Role.INSTRUCTOR)
     return answers.Rights(
         commands=calls("robot/load", "robot/play"),
         scene=calls("lab/spawn_robot", "lab/remove_robot"),
         replay=calls("recorder/replay", "recorder/stop"),
-        grades=graded and person is not None and person.role.may(Role.INSTRUCTOR),
+        grades=graded and teaches,
+        hands_in=hands_in and person is not None and person.role.may(Role.STUDENT) and not teaches,
     )
 
 

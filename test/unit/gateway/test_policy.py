@@ -47,6 +47,8 @@ def test_what_is_open_to_everybody_is_the_sign_in_and_the_pages() -> None:
     signing_in = {
         ("GET", "/api/session"), ("POST", "/api/session"), ("DELETE", "/api/session"),
         ("GET", "/api/oidc/start"), ("GET", "/api/oidc/callback"),
+        ("GET", "/api/lti/login"), ("POST", "/api/lti/login"), ("POST", "/api/lti/launch"),
+        ("GET", "/api/lti/keys"),
         ("GET", "/api/invitations/{token}"), ("POST", "/api/invitations/{token}"),
         ("POST", "/api/pairings"), ("GET", "/api/pairings/{secret}"),
     }  # fmt: skip

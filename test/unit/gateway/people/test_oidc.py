@@ -18,12 +18,12 @@ from joserfc import jwk, jwt
 from mrlab_ros.core.base.errors import BadInput, Unavailable
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.gateway.errors import NotAllowed, TooMany
+from mrlab_ros.gateway.people.accounts import plain_name
 from mrlab_ros.gateway.people.oidc import (
     PENDING_LIFETIME_S,
     NotBegun,
     NotConfirmed,
     Provider,
-    plain_name,
     read_provider,
 )
 
