@@ -240,9 +240,9 @@ export class FakeApi implements Api {
     return {
       lab: { id: 'lab', name: 'MR-Lab', version: '0.1.0' },
       user: this.user,
-      may: { commands: true, scene: true, replay: true, grades: true },
+      may: { commands: true, scene: true, replay: true, grades: true, hands_in: false },
       csrf: 'token',
-      ways: { password: true, oidc: true, pairing: true },
+      ways: { password: true, oidc: true, pairing: true, course: false },
     }
   }
   async signIn(name: string, password: string): Promise<Session> {
@@ -419,6 +419,16 @@ export class FakeApi implements Api {
   }
   async classSource(): Promise<void> {}
   async classDo(): Promise<void> {}
+  course(): Promise<never> {
+    throw new Error('not of a course')
+  }
+  sendMarks(): Promise<never> {
+    throw new Error('not of a course')
+  }
+  handedIn(): Promise<never> {
+    throw new Error('not of a course')
+  }
+  async handIn(): Promise<void> {}
   async classFile(key: string): Promise<File> {
     return new File(['{}'], `${key}.json`)
   }

@@ -158,7 +158,7 @@ async def _form(request: Request) -> dict[str, str]:
     try:
         return dict(parse_qsl(body.decode("ascii"), max_num_fields=50))
     except ValueError as error:
-        raise NotConfirmed(LTI_NOT_UNDERSTOOD(why=str(error)[:100])) from None
+        raise NotConfirmed(LTI_NOT_UNDERSTOOD(why=str(error))) from None
 
 
 def _entered(people: People, lti: Lti, found: Launch) -> Account:

@@ -36,6 +36,7 @@ class Ways(BaseModel):
     password: bool
     oidc: bool
     pairing: bool
+    course: bool
 
 
 class Rights(BaseModel):

@@ -232,7 +232,10 @@ def session_answer(
         ),
         csrf=csrf,
         ways=answers.Ways(
-            password=settings.signs_in, oidc=settings.oidc is not None, pairing=settings.signs_in
+            password=settings.signs_in,
+            oidc=settings.oidc is not None,
+            pairing=settings.signs_in,
+            course=settings.lti is not None,
         ),
     )
 

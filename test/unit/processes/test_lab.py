@@ -154,7 +154,15 @@ def test_the_gateway_gets_what_the_lab_and_its_bridge_are_started_with(tmp_path:
 
 def test_the_gateway_s_arguments_are_its_settings(tmp_path: Path) -> None:
     web = WebOptions(
-        "::", 1, Path("/c.pem"), Path("/c.key"), "https://l.org", Path("/o"), Path("/l")
+        "::",
+        1,
+        Path("/c.pem"),
+        Path("/c.key"),
+        "https://l.org",
+        Path("/o"),
+        Path("/l"),
+        Path("/class"),
+        Path("/lti"),
     )
     changes = {"keys": tmp_path, "listen": "tls/0.0.0.0:9", "store": "s3://b"}
     found = settings_of(list(arguments("web", web=web, **changes)))
@@ -163,7 +171,8 @@ def test_the_gateway_s_arguments_are_its_settings(tmp_path: Path) -> None:
     assert found.zenoh_config == tmp_path / "gateway.json5"
     assert (found.certificate, found.certificate_key) == (Path("/c.pem"), Path("/c.key"))
     assert (found.public_url, found.oidc, found.store) == ("https://l.org", Path("/o"), "s3://b")
-    assert found.limits == Path("/l")
+    assert (found.limits, found.classroom) == (Path("/l"), Path("/class"))
+    assert found.lti == Path("/lti")
     insecure = settings_of(list(arguments("web", web=WEB, insecure=True)))
     assert insecure.insecure
 

@@ -4,13 +4,16 @@ import type {
   Check,
   Conversion,
   ConversionRequest,
+  CourseState,
   Device,
   Fate,
   GradedClass,
+  HandInState,
   Invitation,
   InvitationLink,
   Listing,
   Live,
+  MarksSent,
   NewPerson,
   NewToken,
   Pairing,
@@ -63,6 +66,13 @@ export interface Api {
   classSource(name: string, file: File, onProgress: (share: number) => void): Promise<void>
   /** Do something at the desk of the class, such as POST run. */
   classDo(method: 'POST' | 'DELETE', part: ClassPart, body?: object): Promise<void>
+  /** The course of the class. */
+  course(): Promise<CourseState>
+  /** Send the marks that were released to the gradebook of the course. */
+  sendMarks(): Promise<MarksSent>
+  /** What the person handed in for the class, and what its check found. */
+  handedIn(): Promise<HandInState>
+  handIn(file: File, onProgress: (share: number) => void): Promise<void>
   /** The motion of a submission as a file that can be uploaded. */
   classFile(key: string): Promise<File>
 
@@ -85,7 +95,14 @@ export interface Api {
 }
 
 /** Parts of the desk of a class below /api/class. */
-export type ClassPart = 'run' | 'proposed' | 'acts' | 'release'
+export type ClassPart =
+  | 'run'
+  | 'proposed'
+  | 'acts'
+  | 'release'
+  | 'course'
+  | 'course/members'
+  | 'course/export'
 
 export class ApiError extends ToldError {
   override readonly name = 'ApiError'

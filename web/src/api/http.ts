@@ -5,13 +5,16 @@ import type {
   Check,
   Conversion,
   ConversionRequest,
+  CourseState,
   Device,
   Fate,
   GradedClass,
+  HandInState,
   Invitation,
   InvitationLink,
   Listing,
   Live,
+  MarksSent,
   NewPerson,
   NewToken,
   Pairing,
@@ -187,6 +190,19 @@ export class HttpApi implements Api {
   }
   async classDo(method: 'POST' | 'DELETE', part: ClassPart, body?: object): Promise<void> {
     await this.#ask(method, `/api/class/${part}`, body ?? (method === 'POST' ? {} : undefined))
+  }
+  course(): Promise<CourseState> {
+    return this.#ask('GET', '/api/class/course')
+  }
+  sendMarks(): Promise<MarksSent> {
+    return this.#ask('POST', '/api/class/course/marks', {})
+  }
+  handedIn(): Promise<HandInState> {
+    return this.#ask('GET', '/api/hand_in')
+  }
+  handIn(file: File, onProgress: (share: number) => void): Promise<void> {
+    const url = `/api/hand_in/${encodeURIComponent(file.name)}`
+    return this.#sent(url, file, onProgress, new AbortController().signal)
   }
   async classFile(key: string): Promise<File> {
     const url = `/api/class/${encodeURIComponent(key)}/file`

@@ -13,6 +13,8 @@ export interface Rights {
   readonly replay: boolean
   /** Steps through the class that the gateway shows. */
   readonly grades: boolean
+  /** Hands in for the class. */
+  readonly hands_in: boolean
 }
 
 export interface Session {
@@ -21,7 +23,13 @@ export interface Session {
   readonly may: Rights
   /** To be sent with every request that changes something. */
   readonly csrf: string
-  readonly ways: { readonly password: boolean; readonly oidc: boolean; readonly pairing: boolean }
+  /** course: people come from a course of a learning platform. */
+  readonly ways: {
+    readonly password: boolean
+    readonly oidc: boolean
+    readonly pairing: boolean
+    readonly course: boolean
+  }
 }
 
 export interface Robot {
@@ -329,6 +337,59 @@ export interface ClassDesk {
   /** Moodle's worksheet is filled. */
   readonly worksheet: boolean
   readonly left_out: readonly { readonly file: string; readonly why: Diagnostic }[]
+}
+
+/** The course that a class belongs to. */
+export interface CourseState {
+  /** A teacher has opened the lab from it. */
+  readonly connected: boolean
+  readonly course: string
+  readonly task: string
+  /** How many students are known, how many have handed in, and who has not. */
+  readonly count: number
+  readonly handed_in: number
+  readonly silent: readonly string[]
+  /** The platform offers its list of people, and its gradebook. */
+  readonly members: boolean
+  readonly scores: boolean
+}
+
+export interface MarksSent {
+  readonly said: Diagnostic
+  readonly problems: readonly Diagnostic[]
+}
+
+/** What a student is told of the own file. */
+export interface InstantCheck {
+  readonly said: Diagnostic
+  /** Those that are not hidden; the points count after the release only. */
+  readonly tests: readonly {
+    readonly name: string
+    readonly passed: boolean
+    readonly found: Diagnostic
+    readonly hint: string
+    readonly points: number
+    readonly of: number
+  }[]
+  /** Of hidden tests. */
+  readonly hints: readonly string[]
+}
+
+export interface HandInState {
+  readonly course: string
+  readonly task: string
+  readonly robot: string
+  /** The person came from the course. */
+  readonly member: boolean
+  /** Who closed it; empty: it is open. */
+  readonly closed: string
+  readonly handed_in: { readonly file: string; readonly at: number; readonly size: number } | null
+  /** null: nothing is handed in, or the check goes on. */
+  readonly check: InstantCheck | null
+  /** Once it is released. */
+  readonly mark:
+    | (InstantCheck & { readonly points: number; readonly of: number; readonly comment: string })
+    | null
 }
 
 export interface ClassRun {

@@ -5,9 +5,11 @@ import { Select } from '../design/field'
 import { Icon } from '../design/icons'
 import { Notice } from '../design/notice'
 import { showToast } from '../design/toast'
+import { session } from '../shell/session'
 import { say, sentence } from '../words/diagnostic'
 import { dateTime, fileSize, number, words } from '../words/words'
 import type { ClassSteps } from './class_steps'
+import { Course } from './course'
 
 /** The files that a class is marked from, by the names that the desk has for them. */
 const SOURCES = [
@@ -16,7 +18,7 @@ const SOURCES = [
   ['solution', '', '.mat,.m,.json,.csv,.txt,.npz,.yaml,.yml,.mcap'],
   ['worksheet', 'worksheet.csv', '.csv'],
 ] as const
-const FORMS = ['Moodle', 'Canvas', 'ILIAS', 'Gradescope', 'folder'] as const
+const FORMS = ['Moodle', 'Canvas', 'ILIAS', 'Gradescope', 'folder', 'course'] as const
 /** ms between two looks at a run. */
 const LOOK = 700
 
@@ -47,7 +49,7 @@ export function Desk({ steps }: DeskProps) {
   const has = (name: string) => desk.sources.some((source) => source.name === name)
   const ready = has('export.zip') && has('rubric.yaml') && desk.missing.length === 0
   const fixed = desk.locked !== ''
-  const formName = (each: string) => (each === 'folder' ? w.forms.folder : each)
+  const formName = (each: string) => (w.forms as Readonly<Record<string, string>>)[each] ?? each
   return (
     <details
       class="card desk"
@@ -59,6 +61,7 @@ export function Desk({ steps }: DeskProps) {
       </summary>
       <div class="desk-parts">
         <section class="stack-8" aria-label={w.handIn}>
+          {session.value?.ways.course && <Course steps={steps} />}
           {SOURCES.map(([kind, name, accept]) => (
             <Source key={kind} steps={steps} kind={kind} name={name} accept={accept} />
           ))}

@@ -16,6 +16,7 @@ import { ClassSteps, type Order, REFERENCE, stepOf } from './class_steps'
 import './class.css'
 import '../pages/motion/verdict.css'
 import { Desk } from './desk'
+import { HandIn } from './hand_in'
 import { Marks } from './marks'
 import { PlayInLab } from './play_in_lab'
 
@@ -118,8 +119,13 @@ function show(steps: ClassSteps, key: string): void {
   history.replaceState(null, '', `/class/${encodeURIComponent(key)}`)
 }
 
-/** A graded class, one submission after another beside the solution. */
+/** The class: a student hands in, a teacher marks. */
 export function ClassPage() {
+  return session.value?.may.hands_in ? <HandIn /> : <Graded />
+}
+
+/** A graded class, one submission after another beside the solution. */
+function Graded() {
   const api = useApi()
   const w = words.value.grades
   const steps = useMemo(() => new ClassSteps(api), [api])

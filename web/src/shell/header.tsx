@@ -119,7 +119,9 @@ function AccountMenu() {
 export function Header() {
   const w = words.value
   const user = session.value?.user
-  const shown = { people: mayAdmit(session.value), grades: session.value?.may.grades ?? false }
+  const may = session.value?.may
+  const grades = (may?.grades || may?.hands_in) ?? false
+  const shown = { people: mayAdmit(session.value), grades }
   const places = PLACES.filter(({ name }) => !(name in shown) || shown[name as keyof typeof shown])
   return (
     <header class="header">

@@ -47,7 +47,8 @@ export function SignInPage() {
           <ButtonLink href="/">{words.value.nav.upload}</ButtonLink>
         </Notice>
       )}
-      {!ways?.password && !ways?.oidc && !user && (
+      {ways?.course && !user && <p>{w.course}</p>}
+      {!ways?.password && !ways?.oidc && !ways?.course && !user && (
         <Notice severity="warning">
           <p>{w.noWay}</p>
         </Notice>

@@ -32,7 +32,13 @@ import type { LabView } from './view'
 
 /** s, of a round trip that is worth words. */
 const SLOW_S = 0.1
-const NOTHING: Rights = { commands: false, scene: false, replay: false, grades: false }
+const NOTHING: Rights = {
+  commands: false,
+  scene: false,
+  replay: false,
+  grades: false,
+  hands_in: false,
+}
 
 const say = (text: string) => showToast(text)
 
