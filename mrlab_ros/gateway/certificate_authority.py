@@ -64,7 +64,8 @@ pre { padding: 12px; border: 1px solid var(--border); border-radius: 8px; font-s
   white-space: pre-wrap; overflow-wrap: anywhere; font-variant-numeric: tabular-nums }
 li { margin: 8px 0 }
 a { color: var(--accent) }
-.button { display: inline-block; padding: 10px 16px; border-radius: 8px; min-height: 24px;
+.button { display: inline-block; padding: 10px 16px; border: 0; border-radius: 8px;
+  min-height: 44px; box-sizing: border-box; font: inherit; cursor: pointer;
   background: var(--accent); color: var(--on-accent); text-decoration: none; font-weight: 600 }
 .second { color: var(--second); font-size: 14px }
 """

@@ -75,6 +75,6 @@ MARK_NOT_SENT = Code(
 )
 CHECKED_AT_ONCE = Code(
     "checked_at_once",
-    "{passed:count test passes|tests pass}, {lost:count needs|need} work.",
+    "{passed:count test passes|tests pass}[, {lost:count needs|need} work].",
     severity=INFO,
 )

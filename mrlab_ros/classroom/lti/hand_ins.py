@@ -130,6 +130,6 @@ def _public(marks: Any, hints: Any, found: Mapping[str, Any]) -> dict[str, Any]:
         if not each.get("hidden")
     ]
     passed = sum(each["passed"] for each in tests)
-    said = plain(CHECKED_AT_ONCE(passed=passed, lost=len(tests) - passed))
+    said = plain(CHECKED_AT_ONCE(passed=passed, lost=len(tests) - passed or None))
     none = not any(each["passed"] or each["points"] for each in tests)
     return {"said": found if none else said, "tests": tests, "hints": list(hints)}

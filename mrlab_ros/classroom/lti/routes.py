@@ -115,6 +115,10 @@ async def login(request: Request, people: ThePeople) -> Response:
         state_cookie(people), state, max_age=int(PENDING_LIFETIME_S), path=PATH,
         secure=people.secure, httponly=True, samesite="none" if people.secure else "lax",
     )  # fmt: skip
+    if people.secure:
+        # The choice of a task is in a frame of the platform, where browsers keep no other cookie.
+        name, value = response.raw_headers.pop()
+        response.raw_headers.append((name, value + b"; Partitioned"))
     return response
 
 

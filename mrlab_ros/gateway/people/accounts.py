@@ -10,6 +10,7 @@ import logging
 import re
 import sqlite3
 import threading
+import unicodedata
 from dataclasses import dataclass
 
 from argon2 import PasswordHasher, profiles
@@ -260,8 +261,13 @@ class Accounts:
 
 
 def plain_name(text: str) -> str:
-    """Return a name as this lab takes them: what is before an @, other letters as _."""
-    name = re.sub(r"[^A-Za-z0-9_.-]", "_", text.partition("@")[0])[:41].lstrip("_.-")
+    """Return a name as this lab takes them: what is before an @, accents gone, the rest as _."""
+    plain = "".join(
+        c
+        for c in unicodedata.normalize("NFKD", text.partition("@")[0])
+        if not unicodedata.combining(c)
+    )
+    name = re.sub(r"[^A-Za-z0-9_.-]", "_", plain)[:41].lstrip("_.-")
     try:
         check_name(name)
     except BadInput:

@@ -1456,7 +1456,9 @@ export const diagnostics: Templates = {
     'Die Prüfung dauerte länger als {limit:time}, weil dieser Rechner beschäftigt oder die Bewegung lang ist.',
     'Halte an, was läuft, und prüfe noch einmal.',
   ],
-  checked_at_once: ['{passed:count Test ist|Tests sind} erfüllt, an {lost:count Test|Tests} ist noch zu tun.'],
+  checked_at_once: [
+    '{passed:count Test ist|Tests sind} erfüllt[, an {lost:count Test|Tests} ist noch zu tun].',
+  ],
   claim: [
     'Das sagt nur, was das Modell zeigt: nominelle Kinematik, konvexe Hüllen der Glieder, starre Körper, die Gegenstände der Szene und vorgegebene Gelenkwinkel. Es kennt keine Momente, keine eigenen Grenzen der Steuerung, keine Bremsen, keine Kabel, keine Menschen und nicht den Weg des Arms zur ersten Zeile. Fahre zuerst langsam, mit der Hand am Not-Halt.',
   ],
@@ -1580,8 +1582,14 @@ export const diagnostics: Templates = {
     'Sag, wie viele Zählschritte eine Umdrehung sind, oder speichere Radiant.',
   ],
   course_leads_away: ['Die Plattform nennt eine Adresse auf einem anderen Rechner: {address}.'],
-  course_offers_not: ['Die Plattform gibt diesem Labor {what:choice members=die Liste der Studierenden|scores=die Bewertungen} nicht frei.', 'Erlaube es in den Einstellungen des Werkzeugs auf der Plattform, und öffne das Labor noch einmal aus dem Kurs.'],
-  course_silent: ['Die Plattform {issuer} antwortet nicht wie erwartet: {why:problem}.', 'Versuche es gleich noch einmal.'],
+  course_offers_not: [
+    'Die Plattform gibt diesem Labor {what:choice members=die Liste der Studierenden|scores=die Bewertungen} nicht frei.',
+    'Erlaube es in den Einstellungen des Werkzeugs auf der Plattform, und öffne das Labor noch einmal aus dem Kurs.',
+  ],
+  course_silent: [
+    'Die Plattform {issuer} antwortet nicht wie erwartet: {why:problem}.',
+    'Versuche es gleich noch einmal.',
+  ],
   create_system: ['das System {system} erstellen'],
   cut_before_checksum: ['eine komprimierte Variable ist vor ihrer Prüfsumme abgeschnitten'],
   cycle_time: ['Der Zyklus dauert {value:time}; erwartet: höchstens {limit:time}.'],
@@ -2143,13 +2151,25 @@ export const diagnostics: Templates = {
     'Wähle eine engere Grenze.',
   ],
   lost_points: ['{test}: {found:problem}.', '[{hint}]'],
-  lti_key_unusable: ['Der Schlüssel {path} ist nicht lesbar oder nicht schreibbar: {why:problem}.'],
-  lti_not_understood: ['Der Start der Plattform ist nicht so, wie LTI 1.3 ihn festlegt: {why:problem}.'],
-  lti_other_course: ["Der Start ist aus dem Kurs '{course}'[ ({title})], nicht aus {known:either}.", 'Soll er zu diesem Labor gehören, schreibe seine Kennung in die Datei der Plattform.'],
+  lti_key_unusable: [
+    'Der Schlüssel {path} ist nicht lesbar oder nicht schreibbar: {why:problem}.',
+  ],
+  lti_not_understood: [
+    'Der Start der Plattform ist nicht so, wie LTI 1.3 ihn festlegt: {why:problem}.',
+  ],
+  lti_other_course: [
+    "Der Start ist aus dem Kurs '{course}'[ ({title})], nicht aus {known:either}.",
+    'Soll er zu diesem Labor gehören, schreibe seine Kennung in die Datei der Plattform.',
+  ],
   lti_other_deployment: ["Der Start ist vom Deployment '{deployment}', nicht von {known:either}."],
-  lti_other_platform: ['Der Start kommt von einer anderen Plattform oder einem anderen Client[: {issuer}].'],
+  lti_other_platform: [
+    'Der Start kommt von einer anderen Plattform oder einem anderen Client[: {issuer}].',
+  ],
   lti_used: ['Dieser Start wurde schon benutzt.', 'Öffne das Labor noch einmal aus dem Kurs.'],
-  lti_without_class: ['Studierende eines Kurses geben für eine Klasse ab, und es ist keine genannt.', 'Nenne ihren Ordner, der leer sein darf.'],
+  lti_without_class: [
+    'Studierende eines Kurses geben für eine Klasse ab, und es ist keine genannt.',
+    'Nenne ihren Ordner, der leer sein darf.',
+  ],
   machine_lacks: [
     '{lack:choice disk=Der Datenträger ist voll|quota=Das Kontingent auf dem Datenträger ist aufgebraucht|read_only=Der Datenträger ist schreibgeschützt|device=Der Datenträger hat einen Fehler|descriptors=Der Prozess hat keinen Dateideskriptor mehr frei|files=Der Rechner hat keinen Dateideskriptor mehr frei|memory=Es ist kein Speicher mehr frei}.',
     '{lack:choice disk=Mach auf dem Datenträger Platz.|quota=Mach auf dem Datenträger Platz.|read_only=Nenn einen Ordner, in den geschrieben werden kann.|device=Prüfe den Datenträger.|descriptors=Heb die Grenze an (ulimit -n).|files=Beende andere Programme.|memory=Beende andere Programme.}',
@@ -2169,7 +2189,10 @@ export const diagnostics: Templates = {
     'Die Punkte von {count:count Abgabe|Abgaben} wurden von Hand geändert; sie bleiben so.',
     'Schreibe die Punkte des Tests wieder in die Tabelle, um eine Änderung zurückzunehmen.',
   ],
-  marks_of_another_form: ['Diese Punkte gehören nicht zu dem, was hier abgegeben wurde; der Kurs weiß nicht, wessen sie sind.', 'Bewerte das Abgegebene, oder nimm die Bewertungstabelle.'],
+  marks_of_another_form: [
+    'Diese Punkte gehören nicht zu dem, was hier abgegeben wurde; der Kurs weiß nicht, wessen sie sind.',
+    'Bewerte das Abgegebene, oder nimm die Bewertungstabelle.',
+  ],
   marks_sent: ['{count:count Bewertung steht|Bewertungen stehen} im Kurs.'],
   mass_or_fixed: [
     'eine Zahl {limits:problem} (kg), oder fixed: true für einen Gegenstand, der sich nie bewegt',
@@ -2535,7 +2558,10 @@ export const diagnostics: Templates = {
   ],
   no_link: ["{robot} hat kein Glied '{link}'; seine Glieder: {known:list}."],
   no_link_in_file: ["{file} hat kein Glied '{link}'; ihre Glieder: {known:list}."],
-  no_lti: ['Dieses Labor gehört zu keinem Kurs einer Lernplattform.', 'Starte es mit der Datei der Plattform.'],
+  no_lti: [
+    'Dieses Labor gehört zu keinem Kurs einer Lernplattform.',
+    'Starte es mit der Datei der Plattform.',
+  ],
   no_matrix: ["'{variable}' ist keine Matrix aus Zahlen"],
   no_matrix_q: ['ihre Zeilen enthalten keine Matrix q; wandle den Workspace noch einmal um'],
   no_members: ['Ein System braucht mindestens ein Mitglied.', 'Nenne die Roboter, die es bewegt.'],
@@ -2607,7 +2633,10 @@ export const diagnostics: Templates = {
   ],
   nothing_handed_in: ['Noch hat niemand etwas abgegeben.'],
   nothing_proposed: ['Es sind keine Punkte vorgeschlagen; starte zuerst die Bewertung.'],
-  nothing_to_hand_in_for: ['Es gibt noch keine Aufgabe.', 'Warte, bis deine Lehrperson sie bereitgestellt hat.'],
+  nothing_to_hand_in_for: [
+    'Es gibt noch keine Aufgabe.',
+    'Warte, bis deine Lehrperson sie bereitgestellt hat.',
+  ],
   nothing_to_undo: ['Es wurde nichts getan, das sich zurücknehmen ließe.'],
   objects_taken_out: ['Aus der Szene entfernt: {objects:list}.'],
   of_reference: ['{rubric}: Referenz: {why:problem}.'],

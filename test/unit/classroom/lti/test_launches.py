@@ -35,7 +35,7 @@ def problem_of(answer: Any) -> str:
 
 
 def test_people_of_the_course_come_signed_in(course) -> None:
-    for who, name, role in (("t", "Grace_Teacher", "instructor"), ("a", "Anna__rmel", "student")):
+    for who, name, role in (("t", "Grace_Teacher", "instructor"), ("a", "Anna_Armel", "student")):
         browser = course.gateway.browser()
         answer = course.launch(browser, who)
         assert (answer.status_code, answer.headers["location"]) == (303, "/class"), answer.text
@@ -143,6 +143,11 @@ def test_a_teacher_adds_the_task_to_the_course(course, tmp_path) -> None:
         "  - {name: In time, expect: cycle < 30 s, points: 12}\n"
     )
     browser = course.gateway.browser()
+    asked = course.platform.begins("t")
+    begun = browser.http.post("/api/lti/login", data=asked, follow_redirects=False)
+    assert {"secure", "httponly", "samesite=none", "partitioned"} <= {
+        part.strip().lower() for part in begun.headers["set-cookie"].split(";")
+    }  # the platform shows this in a frame
     page = course.launch(browser, "t", "link")
     assert page.status_code == 200
     assert "Diese Aufgabe in den Kurs aufnehmen" in page.text
