@@ -13,6 +13,7 @@
 %   check   - Say what is wrong with a motion, and the line that mends it.
 %   show    - Show a motion on the page that is open.
 %   play    - Play a motion on a robot of the lab.
+%   stop    - End the run of a robot, after a collision too.
 %   publish - Put a motion into the lab's catalogue.
 %   state   - Return where the robots stand and what they play.
 %   compare - Compare two motions, such as planned and measured.

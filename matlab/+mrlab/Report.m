@@ -46,8 +46,15 @@ classdef Report
         end
 
         function raise(obj)
-            % Throw the first finding that refuses the motion as an error; nothing where it is taken.
+            % Throw the first finding that refuses the motion as an error; give the doubts of one
+            % that is taken as warnings.
             if obj.ok
+                doubts = obj.findings(strcmp({obj.findings.severity}, 'warning'));
+                before = warning('off', 'backtrace');
+                restored = onCleanup(@() warning(before));
+                for i = 1:numel(doubts)
+                    warning(mrlab.internal.identifier(doubts(i).code), '%s', mended(doubts(i)));
+                end
                 return
             end
             found = obj.findings(strcmp({obj.findings.severity}, 'error'));
@@ -57,10 +64,7 @@ classdef Report
             if isempty(found)
                 error('mrlab:refused', '%s', obj.message);
             end
-            text = found(1).message;
-            if ~isempty(found(1).mend)
-                text = sprintf('%s\n  mend: %s', text, found(1).mend);
-            end
+            text = mended(found(1));
             if numel(found) > 1
                 text = sprintf('%s\n  %d findings; mrlab.check lists them', text, numel(found));
             end
@@ -88,6 +92,14 @@ classdef Report
             end
         end
     end
+end
+
+function text = mended(one)
+% What is wrong, and the line that mends it.
+text = one.message;
+if ~isempty(one.mend)
+    text = sprintf('%s\n  mend: %s', text, one.mend);
+end
 end
 
 function text = mending(one)

@@ -23,7 +23,7 @@ function report = check(varargin)
 %
 %   See also mrlab.show, mrlab.connect.
 
-[lab, motion] = mrlab.internal.arguments(varargin);
+[lab, motion] = mrlab.internal.arguments(varargin, {});
 motion.name = inputname(motion.place);
 report = mrlab.Report(mrlab.internal.send(lab, motion, false));
 end

@@ -12,6 +12,8 @@ function result = compare(q1, q2, fs)
 %       planned = q;  [measured, fs] = mrlab.fromBag('run_1');
 %       mrlab.compare(planned, measured, fs)
 %
+%   Errors: mrlab:columnsDiffer where the motions do not have equally many columns.
+%
 %   See also mrlab.fromBag.
 
 if nargin < 3
@@ -20,7 +22,12 @@ if nargin < 3
 else
     reach = round(2 * fs);
 end
-columns = min(size(q1, 2), size(q2, 2));
+columns = size(q1, 2);
+if columns ~= size(q2, 2)
+    error('mrlab:columnsDiffer', ...
+        'Both motions have a column a joint; they have %d and %d. Take the same columns of each.', ...
+        columns, size(q2, 2));
+end
 if columns == 0 || size(q1, 1) < 2 || size(q2, 1) < 2
     error('mrlab:noMotion', 'Each motion needs two rows and a column; they are %s and %s.', ...
         mat2str(size(q1)), mat2str(size(q2)));

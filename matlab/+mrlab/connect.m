@@ -14,7 +14,8 @@ function lab = connect(url, varargin)
 %   LAB is a structure that the other functions take as their first argument; left out, the lab of
 %   the last mrlab.connect is meant.
 %
-%   Errors: mrlab:noAnswer where no lab answers, mrlab:notConfirmed where nobody confirms the code.
+%   Errors: mrlab:noAnswer where no lab answers, mrlab:notConfirmed where nobody confirms the code,
+%   mrlab:noRobotModel where the lab has no such model.
 %
 %   See also mrlab.check, mrlab.show, mrlab.play.
 
@@ -48,7 +49,9 @@ if isempty(user)
     user = whoami(lab);
 end
 lab.user = user.name;
-if ~isfield(options, 'robot')
+if isfield(options, 'robot')
+    check_model(lab);
+else
     lab.robot = first_robot(lab);
 end
 mrlab.internal.remember(lab);
@@ -81,6 +84,15 @@ while true
             'Nobody confirmed the code %s in time. Call mrlab.connect again.', begun.code);
     end
     pause(1);
+end
+end
+
+function check_model(lab)
+found = mrlab.internal.request(lab, 'GET', '/assets/robots.json');
+known = {found.robots.id};
+if ~any(strcmp(lab.robot, known))
+    error('mrlab:noRobotModel', 'There is no robot ''%s''; there are: %s.', lab.robot, ...
+        strjoin(known, ', '));
 end
 end
 

@@ -10,7 +10,7 @@ function [q, fs] = fromBag(varargin)
 %
 %   See also mrlab.compare.
 
-[lab, motion] = mrlab.internal.arguments(varargin);
+[lab, motion] = mrlab.internal.arguments(varargin, {});
 path = char(motion.q);
 if exist(path, 'dir')
     inside = [dir(fullfile(path, '*.mcap')); dir(fullfile(path, '*.db3'))];

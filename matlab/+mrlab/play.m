@@ -4,16 +4,19 @@ function played = play(varargin)
 %   the first row, then along the motion. Everybody in the room and on the pages sees it. LAB may be
 %   left out. Further arguments are those of mrlab.check and mrlab.publish, and
 %     'rate', 0.5       at half speed; negative: backwards
-%     'replace', true   where the robot moves, pause it and blend to this motion from there
+%     'replace', true   where the robot moves, pause it and blend to this motion from there; after
+%                       a collision stop it first
 %
 %   mrlab.play(LAB, 'ur5e_1', 'pick') plays a trajectory of the catalogue.
 %
 %   Errors: the first finding's, such as mrlab:jointLimit, where the lab refuses the motion;
-%   mrlab:illegalEvent where the robot moves; mrlab:roleTooLow where your role may not play.
+%   mrlab:illegalEvent where the robot moves, and nothing is published then; mrlab:roleTooLow where
+%   your role may not play. Findings that do not refuse the motion are warnings.
 %
-%   See also mrlab.state, mrlab.publish.
+%   See also mrlab.stop, mrlab.state, mrlab.publish.
 
-[lab, motion] = mrlab.internal.arguments(varargin, 'robot first');
+[lab, motion] = mrlab.internal.arguments(varargin, ...
+    {'rate', 'replace', 'id', 'shared'}, 'robot first');
 motion.name = inputname(motion.place);
 [playing, motion] = mrlab.internal.take(motion, {'rate', 'replace'});
 if ischar(motion.q)
@@ -27,14 +30,18 @@ else
     end
     motion.options.robot_model = robot.model;
     motion.options.end_effector = robot.end_effector;
-    made = mrlab.internal.publish(lab, motion, true);
-    playing.trajectory = sprintf('%s@%d', made.id, made.version);
+    playing.publish = mrlab.internal.draft(lab, motion, true);
 end
 try
     found = mrlab.internal.request(lab, 'POST', ['/api/robots/' motion.robot '/play'], playing);
 catch problem
     if strcmp(problem.identifier, 'mrlab:illegalEvent')
-        error(problem.identifier, '%s\n  mend: %s', problem.message, way_on(lab, motion.robot));
+        mend = sprintf(['mrlab.play(..., ''replace'', true)\n  or:   mrlab.stop(''%s'')'], ...
+            motion.robot);
+        if isfield(playing, 'replace') && playing.replace
+            mend = sprintf('move the robot, or what it touches, on the page %s/lab', lab.url);
+        end
+        error(problem.identifier, '%s\n  mend: %s', problem.message, mend);
     end
     rethrow(problem);
 end
@@ -42,14 +49,5 @@ if nargout > 0
     played = found;
 else
     mrlab.internal.say('%s plays %s.\n', found.robot, found.trajectory);
-end
-end
-
-function text = way_on(lab, name)
-robots = mrlab.state(lab);
-robot = robots(strcmp({robots.name}, name));
-text = 'mrlab.play(..., ''replace'', true)';
-if ~isempty(robot) && strcmp(robot.state, 'COLLISION_HALT')
-    text = sprintf('press Stop of %s on the page Lab, or run in a terminal: mrlab stop %s', name, name);
 end
 end

@@ -6,13 +6,15 @@ function trajectory = publish(varargin)
 %
 %   TRAJECTORY has id, version, frame_rate, frame_count, duration, and more.
 %
-%   Errors: the first finding's, such as mrlab:jointLimit, where the lab refuses the motion.
+%   Errors: the first finding's, such as mrlab:jointLimit, where the lab refuses the motion. Other
+%   findings are warnings.
 %
 %   See also mrlab.play, mrlab.check.
 
-[lab, motion] = mrlab.internal.arguments(varargin);
+[lab, motion] = mrlab.internal.arguments(varargin, {'id', 'shared'});
 motion.name = inputname(motion.place);
-made = mrlab.internal.publish(lab, motion, false);
+made = mrlab.internal.request(lab, 'POST', '/api/trajectories', ...
+    mrlab.internal.draft(lab, motion, false));
 if nargout > 0
     trajectory = made;
 else

@@ -15,7 +15,7 @@ function report = show(varargin)
 %
 %   See also mrlab.check, mrlab.live, mrlab.play.
 
-[lab, motion] = mrlab.internal.arguments(varargin);
+[lab, motion] = mrlab.internal.arguments(varargin, {});
 motion.name = inputname(motion.place);
 shown = mrlab.Report(mrlab.internal.send(lab, motion, true));
 raise(shown);

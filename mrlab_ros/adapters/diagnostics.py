@@ -104,6 +104,12 @@ ARRAY_SHAPE = Code(
     "An array of {kind} with the shape {shape:list} is no motion.",
     "Expected a matrix of real numbers, with a row a frame and a column a joint.",
 )
+ARRAY_RATE = Code(
+    "array_rate",
+    "fs is {found}, which is no rate.",
+    "Expected a number of Hz above 0, or the time of each of the {rows:count row|rows} in s.",
+    meaning="The rate that comes with an array cannot be one.",
+)
 
 # what is set aside
 SET_ASIDE = Code("set_aside", "It is now called {file}", severity=INFO)

@@ -13,8 +13,27 @@ METHOD_NOT_POSSIBLE = Code("method_not_possible", "{method} is not possible at {
 HTTP_ERROR = Code("http_error", "The request was not accepted: {detail:problem}.")
 BAD_REQUEST = Code(
     "bad_request",
-    "The request is not as /api/openapi.json describes it: {mistakes:list}.",
+    "This request is not understood: {mistakes:reasons}.",
+    "/api/openapi.json describes it.",
     meaning="A body, a path or a query does not have the described fields.",
+)
+FIELD_UNKNOWN = Code(
+    "field_unknown",
+    "there is no '{field}'",
+    meaning="A request has a field that there is none of.",
+)
+FIELD_MISSING = Code(
+    "field_missing", "'{field}' is missing", meaning="A request lacks a field that it must have."
+)
+FIELD_OUT_OF_RANGE = Code(
+    "field_out_of_range",
+    "'{field}' is {found}; expected [at least {least:exact}][at most {most:exact}]",
+    meaning="A number in a request, or the length of a text, is out of range.",
+)
+FIELD_REFUSED = Code(
+    "field_refused",
+    "'{field}' is {found}: {why:problem}",
+    meaning="A field of a request is not what it must be; what the reader of requests says.",
 )
 GATEWAY_FAULT = Code(
     "gateway_fault",

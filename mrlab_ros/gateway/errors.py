@@ -16,9 +16,15 @@ from starlette.exceptions import HTTPException
 from mrlab_ros.adapters.store.port import Missing, StoreFailure
 from mrlab_ros.adapters.trajectories.catalogue import NoTrajectory
 from mrlab_ros.core.base.diagnostic import Diagnostic, plain
+from mrlab_ros.core.base.diagnostics import BAD_REQUEST_FIELD
 from mrlab_ros.core.base.errors import BadInput, LabError, Misuse, Unavailable
+from mrlab_ros.core.base.foreign_text import visible
 from mrlab_ros.gateway.diagnostics import (
     BAD_REQUEST,
+    FIELD_MISSING,
+    FIELD_OUT_OF_RANGE,
+    FIELD_REFUSED,
+    FIELD_UNKNOWN,
     GATEWAY_FAULT,
     HTTP_ERROR,
     METHOD_NOT_POSSIBLE,
@@ -166,6 +172,30 @@ async def close(websocket: WebSocket, code: int, why: Diagnostic | None) -> None
     await websocket.close(code, reason)
 
 
+# What the reader of requests calls a value of another type, and what is expected then.
+KINDS = {"float": "number", "int": "integer", "bool": "boolean", "string": "text"}
+LEAST, MOST = ("ge", "gt", "min_length"), ("le", "lt", "max_length")
+
+
+def _mistake(error: Mapping[str, Any]) -> Diagnostic:
+    """Return what is wrong with a field of a request, of an entry of pydantic's errors."""
+    place = [str(part) for part in error["loc"][1:]] or [str(part) for part in error["loc"]]
+    field, kind, bounds = ".".join(place), str(error["type"]), error.get("ctx", {})
+    if kind == "extra_forbidden":
+        return FIELD_UNKNOWN(field=field)
+    if kind == "missing":
+        return FIELD_MISSING(field=field)
+    found = visible(repr(error["input"]))[:80]
+    name, _, rest = kind.partition("_")
+    if name in KINDS and rest in ("parsing", "type"):
+        return BAD_REQUEST_FIELD(field=field, found=found, expected=KINDS[name])
+    least = next((bounds[each] for each in LEAST if each in bounds), None)
+    most = next((bounds[each] for each in MOST if each in bounds), None)
+    if least is not None or most is not None:
+        return FIELD_OUT_OF_RANGE(field=field, found=found, least=least, most=most)
+    return FIELD_REFUSED(field=field, found=found, why=str(error["msg"]))
+
+
 def _is_page(request: Request) -> bool:
     """Return whether a request matched the route of the pages, which takes any path."""
     return getattr(request.scope.get("route"), "path", "") == "/{path:path}"
@@ -197,10 +227,7 @@ def install(app: FastAPI) -> None:
 
     @app.exception_handler(RequestValidationError)
     async def _(_: Request, error: RequestValidationError) -> JSONResponse:
-        found = [
-            f"{'.'.join(str(part) for part in each['loc'])}: {each['msg']}"
-            for each in error.errors()
-        ]
+        found = [_mistake(each) for each in error.errors()]
         return problem(422, "bad_request", BAD_REQUEST(mistakes=found))
 
     @app.exception_handler(Exception)

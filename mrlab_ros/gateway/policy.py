@@ -80,6 +80,7 @@ ROUTES: Mapping[tuple[str, str], Everybody | Role | Need] = {
     ("POST", "/api/pairings"): EVERYBODY,
     ("GET", "/api/pairings/{secret}"): EVERYBODY,
     # A device can let no further device in.
+    ("GET", "/api/pairings/shown/{code}"): Role.STUDENT,
     ("POST", "/api/pairings/approve"): Role.STUDENT,
     ("GET", "/api/people"): Role.INSTRUCTOR,
     ("POST", "/api/people"): Role.INSTRUCTOR,
@@ -98,6 +99,7 @@ ROUTES: Mapping[tuple[str, str], Everybody | Role | Need] = {
     ("GET", "/api/live/{draft}/file"): CONVERTS_OWN,
     ("GET", "/api/robots"): READS,
     ("POST", "/api/robots/{robot}/play"): DRIVES,
+    ("POST", "/api/robots/{robot}/stop"): Need(Verb.CALL, "robot/stop"),
     ("GET", "/api/trajectories"): Need(Verb.CALL, "converter/list"),
     ("POST", "/api/trajectories"): CONVERTS_OWN,
     ("GET", "/api/trajectories/{trajectory:path}/motion"): READS,

@@ -2,27 +2,36 @@
 
 from __future__ import annotations
 
+import asyncio
+import time
 from collections.abc import Mapping
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Path
 from fastapi.concurrency import run_in_threadpool
-from pydantic import BaseModel, Field
+from pydantic import BaseModel, Field, model_validator
 
+from mrlab_ros.core.base.diagnostics import NO_ROBOT_IN_SCENE
 from mrlab_ros.core.base.errors import Misuse, Unavailable
-from mrlab_ros.core.playback.states import MOVING
+from mrlab_ros.core.playback.diagnostics import DRIVEN_BY_SYSTEM
+from mrlab_ros.core.playback.states import MOVING, TABLE, Event, State
 from mrlab_ros.gateway.checks.routes import TheChecking
 from mrlab_ros.gateway.diagnostics import GATEWAY_WITHOUT_LAB
+from mrlab_ros.gateway.errors import NotFound
 from mrlab_ros.gateway.lab.connection import LabConnection
 from mrlab_ros.gateway.people.person import CurrentPerson
-from mrlab_ros.gateway.store.answers import Strict
-from mrlab_ros.gateway.store.routes import ThePorts, TheShelf
+from mrlab_ros.gateway.store.answers import Publishing, Strict
+from mrlab_ros.gateway.store.routes import ThePorts, TheShelf, publish
 from mrlab_ros.gateway.uploads.motions import said
 
 STATE = "mrlab_msgs/msg/PlaybackState"
 TRIGGER = "mrlab_msgs/srv/Trigger"
 LOAD = "mrlab_msgs/srv/LoadTrajectory"
 RATE = "mrlab_msgs/srv/SetRate"
+# An arm that went back to its first frame is confirmed to be clear within this time; how often its
+# state is read meanwhile, s.
+CLEAR_S = 3.0
+LOOK_S = 0.05
 
 router = APIRouter(prefix="/api/robots", tags=["robots"])
 RobotName = Annotated[str, Path(pattern="^[A-Za-z][A-Za-z0-9_]*$", description="such as ur5e_1")]
@@ -54,14 +63,23 @@ class Robots(BaseModel):
 
 
 class Playing(Strict):
-    """Which trajectory shall be played. rate: 1 is the declared speed.
+    """Which trajectory shall be played: one of the catalogue, or a draft that is published first.
 
-    replace: where the robot moves it is paused first; it blends from where it stands then.
+    A draft is published once the robot may play it, so that a refusal leaves nothing. rate: 1 is
+    the declared speed. replace: a robot that moves is paused first, and blends from where it
+    stands then; one that a collision halted is stopped first, and begins at its first frame.
     """
 
-    trajectory: Annotated[str, Field(min_length=1, max_length=600)]
+    trajectory: Annotated[str, Field(max_length=600)] = ""
+    publish: Publishing | None = None
     rate: Annotated[float, Field(ge=-4, le=4, allow_inf_nan=False)] = 1.0
     replace: bool = False
+
+    @model_validator(mode="after")
+    def _one_of_both(self) -> Playing:
+        if bool(self.trajectory) == (self.publish is not None):
+            raise ValueError("name a trajectory, or a draft to publish, and not both")
+        return self
 
 
 class Played(BaseModel):
@@ -69,6 +87,14 @@ class Played(BaseModel):
 
     robot: str
     trajectory: str
+    message: str
+
+
+class Stopped(BaseModel):
+    """A robot that was stopped. state: its playback's then; message: what it says of it."""
+
+    robot: str
+    state: str
     message: str
 
 
@@ -128,14 +154,60 @@ async def play(
 ) -> Played:
     """Load a trajectory that the person may see on a robot, and play it."""
     lab = _connected(there)
-    record, version = await run_in_threadpool(shelf.find, person, wanted.trajectory)
-    named = f"{record.id}@{version.number}"
-    if wanted.replace:
-        sample = await lab.get(f"{robot}/playback_state")
-        state = sample and lab.definitions.decode(STATE, sample.payload)
-        if state and state.state in [each.value for each in MOVING]:
-            await _do(lab, f"{robot}/pause", TRIGGER, {})
+    named = wanted.trajectory
+    if named:
+        record, version = await run_in_threadpool(shelf.find, person, named)
+        named = f"{record.id}@{version.number}"
+    state = await _state(lab, robot)
+    if state.system:
+        raise Misuse(DRIVEN_BY_SYSTEM(system=state.system))
+    if wanted.replace and State(state.state) in MOVING:
+        await _do(lab, f"{robot}/pause", TRIGGER, {})
+    elif wanted.replace and State(state.state) is State.COLLISION_HALT:
+        state = await _stopped(lab, robot)
+    now = State(state.state)
+    if not (wanted.replace and now in MOVING) and (now, Event.LOAD) not in TABLE.rows:
+        raise TABLE.refused(now, Event.LOAD, said(state) if state.message else "")
+    if wanted.publish is not None:
+        made = await publish(person, shelf, there, wanted.publish)
+        named = f"{made.id}@{made.version}"
     await _do(lab, f"{robot}/load", LOAD, {"id": named})
     await _do(lab, f"{robot}/set_rate", RATE, {"rate": wanted.rate})
     message = await _do(lab, f"{robot}/play", TRIGGER, {})
     return Played(robot=robot, trajectory=named, message=message)
+
+
+@router.post("/{robot}/stop")
+async def stop(person: CurrentPerson, there: ThePorts, robot: RobotName) -> Stopped:
+    """End the run of a robot; one that a collision halted goes back to its first frame."""
+    lab = _connected(there)
+    await _state(lab, robot)
+    state = await _stopped(lab, robot)
+    return Stopped(robot=robot, state=state.label, message=state.message)
+
+
+async def _state(lab: LabConnection, robot: str) -> Any:
+    """Return the playback state of a robot; raise NotFound where the scene has no such robot."""
+    sample = await lab.get(f"{robot}/playback_state")
+    if sample is None:
+        raise NotFound(NO_ROBOT_IN_SCENE(robot=robot))
+    return lab.definitions.decode(STATE, sample.payload)
+
+
+async def _stopped(lab: LabConnection, robot: str) -> Any:
+    """Stop a robot; return its state once a halt has ended.
+
+    An arm that is not clear at its first frame within CLEAR_S is stopped once more, which takes it
+    to its home pose.
+    """
+    for _ in range(2):
+        await _do(lab, f"{robot}/stop", TRIGGER, {})
+        deadline = time.monotonic() + CLEAR_S
+        while True:
+            state = await _state(lab, robot)
+            if State(state.state) is not State.COLLISION_HALT:
+                return state
+            if time.monotonic() > deadline:
+                break
+            await asyncio.sleep(LOOK_S)
+    return state

@@ -43,6 +43,28 @@ found = mrlab.compare(back, [repmat(q(1, :), 7, 1); q], fs);
 printf('%d %g %g\\n', fs, found.delay, max(found.most));
 """
 
+# The first row is below the floor, so that the arm is not clear there either.
+HALTED = """
+t = (0:100)' / 100;
+q = [sin(t), -4.8 + 0 * t, zeros(101, 4)];
+mrlab.stop('ur5e_1');
+mrlab.play('ur5e_1', q, 100, 'id', 'floor')
+robots = mrlab.state();
+while ~strcmp(robots(1).state, 'COLLISION_HALT')
+  pause(0.1);
+  robots = mrlab.state();
+end
+try
+  mrlab.play('ur5e_1', q, 100)
+catch problem
+  printf('%s\\n%s\\n', problem.identifier, problem.message);
+end
+q(:, 2) = -1.2;
+mrlab.play('ur5e_1', q, 100, 'id', 'good', 'replace', true)
+found = mrlab.state();
+assert(~strcmp(found(1).state, 'COLLISION_HALT'));
+"""
+
 
 class Octave:
     """Octave with the toolbox and a home of its own."""
@@ -205,3 +227,12 @@ def test_a_script_is_shown_again_when_it_is_saved(
     plan.write_text("fs = 100; q = [sin((0:177)' / 100), -ones(178, 5)];\n")
     script.until(r"(178 frames)")
     expect(page.locator(".verdict-message")).to_contain_text("178 frames")
+
+
+def test_a_robot_that_hit_the_floor_plays_again_by_the_lines_that_are_advised(
+    octave: Octave,
+) -> None:
+    said = octave.run(HALTED)
+    assert "mrlab:illegalEvent" in said
+    assert "mend: mrlab.play(..., 'replace', true)" in said
+    assert "ur5e_1 plays good@1" in said

@@ -13,6 +13,7 @@ import type {
   NewPerson,
   NewToken,
   Pairing,
+  PairingDevice,
   PairingState,
   Person,
   RobotLibrary,
@@ -473,6 +474,9 @@ export class FakeApi implements Api {
   }
   async pairing(): Promise<PairingState> {
     return this.#pairing
+  }
+  async pairingDevice(code: string): Promise<PairingDevice> {
+    return { device: code === 'MATXLABX' ? 'MATLAB' : 'Quest 3', program: code === 'MATXLABX' }
   }
   async approvePairing(code: string, _role: Role): Promise<string> {
     if (!code) throw new ApiError(404, 'unknown_code', own('No headset shows this code now.'))

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import sys
 import tempfile
+import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
@@ -25,6 +28,7 @@ from mrlab_ros.core.trajectory.trajectory import Trajectory
 
 WIDTH, HEIGHT = 160, 28  # of a sparkline, px
 MOST_POINTS = 160
+SILENT_S = 3.0
 
 
 def check(
@@ -35,20 +39,37 @@ def check(
     end_effector: str = "",
     scene: str = "",
     options: Options | None = None,
+    progress: bool = True,
 ) -> ArrayCheck:
     """Check whether a robot can run a motion: limits, collisions, grasps.
 
     q: (N, J) rad, a row a frame and a column a joint; a further column is the gripper. fs: Hz, or
     (N,) s, the time of each row. robot: a model, such as ur5e. scene: a name or a file; empty: a
-    floor alone. Raises LabError where it cannot be checked, such as an unknown robot.
+    floor alone. progress: a check that takes longer than SILENT_S says on stderr how far it is.
+    Raises LabError where it cannot be checked, such as an unknown robot.
     """
     folder = share.directory()
     stage = Stage(folder, RobotLibrary(folder / "robots"))
     setting = Setting(
-        stage, scene_of(scene, folder), scene, robot, end_effector, options or Options()
-    )
+        stage, scene_of(scene, folder), scene, robot, end_effector, options or Options(),
+        progress=_told() if progress else None,
+    )  # fmt: skip
     with tempfile.TemporaryDirectory(prefix="mrlab-") as made:
         return ArrayCheck(check_file(array_file.write(Path(made), q, fs), setting), stage, folder)
+
+
+def _told() -> Callable[[float, float], None]:
+    """Return what writes once a second which part of a motion was rehearsed, if it takes long."""
+    written = time.monotonic() + SILENT_S - 1.0
+
+    def tell(seconds: float, whole: float) -> None:
+        nonlocal written
+        if time.monotonic() - written >= 1.0:
+            written = time.monotonic()
+            sys.stderr.write(f"\rchecked {seconds:.0f} of {whole:.0f} s of the motion")
+            sys.stderr.flush()
+
+    return tell
 
 
 @dataclass(frozen=True, eq=False)

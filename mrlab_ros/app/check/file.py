@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -41,6 +42,7 @@ class Setting:
     scene_name: what the scene was asked for by, empty: none. points: m in world, that tool0 shall
     pass within `within` m. closest: m. enclosed: a cell reaches only files beside it.
     drawn: record where everything was. convert: what reads a file; see `app.convert.converted`.
+    progress: is called with the time of a motion that was rehearsed, s, and its whole duration.
     """
 
     stage: Stage
@@ -55,6 +57,7 @@ class Setting:
     drawn: bool = True
     convert: cell.Convert = converted
     enclosed: bool = False
+    progress: Callable[[float, float], None] | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,7 +126,11 @@ def check_file(file: Path, setting: Setting) -> CheckedFile:
         Actor(r.name, r.model.home, t if r is moving else None, first_link=first_link(r))
         for r in robots
     ]
-    played = stage.rehearse(robots, actors, scene, drawn=setting.drawn)
+    told = setting.progress
+    played = stage.rehearse(
+        robots, actors, scene, drawn=setting.drawn,
+        progress=None if told is None else lambda seconds: told(seconds, t.duration),
+    )  # fmt: skip
     report = motion.report_of(
         result, moving, figures, played.recorded, inputs=inputs, scene=shown,
         graspable=played.graspable, points=setting.points, within=setting.within,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import importlib.metadata
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -111,9 +111,11 @@ class Stage:
         *,
         drawn: bool = True,
         in_tool: Mapping[str, Pose] = NOTHING_HELD,
+        progress: Callable[[float], None] | None = None,
     ) -> Played:
         """Play the actors, one for each robot, among the scene's objects and surfaces.
 
+        progress: see Rehearsal.
         in_tool: T_tool0_object of held objects whose `in_hand` the scene does not say, by name.
         Raises BadInput where pybullet is missing or the scene names what there is not.
         """
@@ -130,7 +132,7 @@ class Stage:
                 self._add(world, robot)
             for thing in scene.objects:
                 world.spawn(thing.type, thing.name, thing.pose, automatic=thing.automatic)
-            rehearsal = Rehearsal(world, engine, actors, drawn=drawn)
+            rehearsal = Rehearsal(world, engine, actors, drawn, progress)
             rehearsal.place()
             for thing in scene.objects:
                 held = None

@@ -6,7 +6,7 @@ physics node's. A collision is recorded and the motion goes on: the lab would ha
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from mrlab_ros.core.base.clock import SECOND, PlaybackClock
@@ -44,6 +44,7 @@ DISTANCE_TICKS, FARTHEST = 2, 0.5
 DISTANCE_PERIOD = DISTANCE_TICKS * TICK_NS / SECOND
 # Pictures are recorded 25 times a second.
 DRAWN_TICKS = 4
+PROGRESS_TICKS = 10
 # How long what was let go is watched as it falls, ns.
 FALLS_NS = TAIL_NS
 # A member waits for ever where nothing else has moved for so long, ns.
@@ -86,12 +87,19 @@ class _Playing:
 class Rehearsal:
     """One run of all actors in a world that holds them already, with its objects.
 
-    engine: the world's own. drawn: record where everything was, for a page.
+    engine: the world's own. drawn: record where everything was, for a page. progress: is called
+    ten times a second of the motion with the time that was rehearsed, s.
     """
 
     def __init__(
-        self, world: World, engine: Engine, actors: Sequence[Actor], drawn: bool = True
+        self,
+        world: World,
+        engine: Engine,
+        actors: Sequence[Actor],
+        drawn: bool = True,
+        progress: Callable[[float], None] | None = None,
     ) -> None:
+        self._progress = progress
         self._world = world
         self._engine = engine
         self._drawn = drawn
@@ -127,6 +135,8 @@ class Rehearsal:
                 self._measure()
             if self._drawn and ticks % DRAWN_TICKS == 0:
                 self._draw()
+            if self._progress is not None and ticks % PROGRESS_TICKS == 0:
+                self._progress(self._seconds)
             self._advance()
             ticks += 1
             if until_ns is None and all(each.done or each.stuck for each in self._playing):

@@ -189,9 +189,11 @@ WRONG_CLASS = Code(
 )
 NON_FINITE = Code(
     "non_finite",
-    "'{variable}' holds {count:count value that is|values that are} NaN or Inf, the first in row "
-    "{first_row:integer}, column {column:integer}.",
-    "Remove those samples, or find what made them with isfinite.",
+    "'{variable}' holds {count:count value that is|values that are} NaN or Inf, in "
+    "{rows:integer} of {of:count row|rows}, the first in row {first_row:integer}, column "
+    "{column:integer}.",
+    "Find what made them with isfinite. Rows at an end can be left out; rows inside are filled "
+    "from their neighbours, as the motion would be shorter without them.",
     meaning="The matrix holds NaN or Inf.",
 )
 TRANSPOSED = Code(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Sequence
 from dataclasses import replace
@@ -349,6 +350,9 @@ def _unit_finding(
         "why": why,
     }
     few = _spanning_little(arm)
+    if evidence.unit == "deg":
+        # as the value is: in the unit that it seems to have
+        words["limit"] = math.degrees(words["limit"])
     if evidence.unit == "deg" and few:
         many = [i for i in range(arm.shape[1]) if np.abs(arm[:, i]).max() > units.LEAST_DEGREES]
         text = columns_text(many)

@@ -47,6 +47,10 @@ STRAY_SHARE = 0.05
 OF_STRAY = frozenset({"joint_limit", "velocity_limit"})  # that such rows lead to
 
 
+# A variable that MATLAB can assign to, whole.
+PLAIN = re.compile(r"[A-Za-z]\w*(\.[A-Za-z]\w*)*", re.ASCII)
+
+
 def non_finite(values: NDArray[Any], variable: str) -> Diagnostic | None:
     """Return the finding where `values`, (N, d), hold NaN or Inf."""
     # The sum is finite unless something in it is not (or overflows, which the full look sorts
@@ -64,19 +68,29 @@ def non_finite(values: NDArray[Any], variable: str) -> Diagnostic | None:
         last_row=int(rows[-1]),
         column=int(bad[0, 1]) + 1,
         count=len(bad),
+        rows=len(rows),
+        of=len(values),
         fixes=_without(rows, len(values), variable),
     )
 
 
 def _without(rows: NDArray[Any], count: int, variable: str) -> tuple[Fix, ...]:
-    """Return what leaves out rows, from 1, that are not finite: whole ends, or in MATLAB any."""
-    line = "q = q(all(isfinite(q), 2), :);"
+    """Return what mends rows, from 1, that are not finite.
+
+    A whole end is left out; rows inside are filled in MATLAB along a straight line between their
+    neighbours, so that the motion keeps its time.
+    """
+    name = variable if PLAIN.fullmatch(variable) else "q"
     first, last = int(rows[0]), int(rows[-1])
-    if len(rows) == last - first + 1 and last == count and first > 2:
-        return (Fix("variable", rows_of(variable, 1, first - 1), line),)
-    if len(rows) == last - first + 1 and first == 1 and last < count - 1:
-        return (Fix("variable", rows_of(variable, last + 1, count), line),)
-    return (Fix("", "", line),)
+    if len(rows) == last - first + 1 and (first == 1 or last == count):
+        kept = (last + 1, count) if first == 1 else (1, first - 1)
+        if kept[1] > kept[0]:
+            line = f"{name} = {name}({kept[0]}:{kept[1]}, :);"
+            return (Fix("variable", rows_of(variable, *kept), line),)
+    if count - len(rows) < 2:
+        return (Fix(matlab=f"find(any(~isfinite({name}), 2)).'"),)
+    filled = f"interp1(find(ok), {name}(ok, :), (1:size({name}, 1))')"
+    return (Fix(matlab=f"ok = all(isfinite({name}), 2); {name} = {filled};"),)
 
 
 def against_robot(

@@ -47,6 +47,13 @@ BACK_AT_BEGIN = Code(
     meaning="The run was stopped in a halt, which goes on until physics confirms that the arm is "
     "clear.",
 )
+BACK_AT_HOME = Code(
+    "back_at_home",
+    "in its home pose, waits until it is clear",
+    severity=INFO,
+    meaning="The run was stopped again in a halt at its first frame, where the arm touches "
+    "something too.",
+)
 HELD_BY_WAIT = Code(
     "held_by_wait",
     "waits for its system",

@@ -117,12 +117,18 @@ class Playback(Execution):
     def stop(self, now_ns: int, by: str = "") -> None:
         """End the run: READY to play from the first frame, the arm stays where it is.
 
-        In COLLISION_HALT the arm goes back to the first frame, and the halt goes on until the
-        arm is clear. A playback that goes backwards begins at its last frame.
+        In COLLISION_HALT the arm goes back to the first frame, and from there, where it is not
+        clear either, to the model's home pose; the halt goes on until the arm is clear. A member
+        of a system stays at its first frame. A playback that goes backwards begins at its last.
         """
         self.require_owner(by)
         if self.machine.check(Event.STOP) is State.COLLISION_HALT:
-            self.jump(now_ns, Event.STOP, self.stream.begin, say.BACK_AT_BEGIN())
+            if by or not self.stream.is_at(self.stream.begin):
+                self.jump(now_ns, Event.STOP, self.stream.begin, say.BACK_AT_BEGIN())
+            else:
+                self.machine.fire(Event.STOP)
+                self.stream.stand_at(now_ns, self.model.home)
+                self.announce(say.BACK_AT_HOME())
         else:
             begin = 0.0 if self.trajectory is None else self.stream.begin
             self.stand(now_ns, Event.STOP, begin, say.STOPPED())

@@ -104,6 +104,13 @@ class PairingState(BaseModel):
     token: str = ""
 
 
+class PairingDevice(BaseModel):
+    """What shows a code: the name that it gives itself, and whether it is a program."""
+
+    device: str
+    program: bool
+
+
 class PairingApproval(BaseModel):
     """The code that a device shows, and as what it is let in."""
 

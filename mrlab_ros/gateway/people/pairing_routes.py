@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from fastapi import APIRouter, Request, Response
+from typing import Annotated
+
+from fastapi import APIRouter, Path, Request, Response
 
 from mrlab_ros.gateway.errors import NotAllowed, NotFound
 from mrlab_ros.gateway.people import answers
@@ -65,6 +67,15 @@ async def collect(
         lifetime=DEVICE_LIFETIME_S,
     )
     return answers.PairingState(state="approved", user=user)
+
+
+@router.get("/shown/{code}")
+async def shown_by(
+    people: ThePeople, person: CurrentPerson, code: Annotated[str, Path(max_length=40)]
+) -> answers.PairingDevice:
+    """Return what shows a code, so that a person sees what they let in."""
+    pairing = people.pairings.waiting(code, person, people.steady())
+    return answers.PairingDevice(device=pairing.device, program=pairing.program)
 
 
 @router.post("/approve")

@@ -17,6 +17,7 @@ import type {
   NewPerson,
   NewToken,
   Pairing,
+  PairingDevice,
   PairingState,
   Person,
   RobotLibrary,
@@ -90,6 +91,8 @@ export interface Api {
   makeToken(program: NewToken): Promise<string>
   startPairing(): Promise<Pairing>
   pairing(secret: string): Promise<PairingState>
+  /** Return what shows a code. */
+  pairingDevice(code: string): Promise<PairingDevice>
   /** Return the name of the device. */
   approvePairing(code: string, role: Role): Promise<string>
 }

@@ -18,6 +18,7 @@ import type {
   NewPerson,
   NewToken,
   Pairing,
+  PairingDevice,
   PairingState,
   Person,
   RobotLibrary,
@@ -245,6 +246,9 @@ export class HttpApi implements Api {
   }
   pairing(secret: string): Promise<PairingState> {
     return this.#ask('GET', `/api/pairings/${encodeURIComponent(secret)}`)
+  }
+  pairingDevice(code: string): Promise<PairingDevice> {
+    return this.#ask('GET', `/api/pairings/shown/${encodeURIComponent(code)}`)
   }
   async approvePairing(code: string, role: Role): Promise<string> {
     const body = { code, role }

@@ -228,6 +228,13 @@ export interface Pairing {
   readonly expires_in: number
 }
 
+/** What shows a code, by the name that it gives itself. */
+export interface PairingDevice {
+  readonly device: string
+  /** It keeps a token, and is no headset. */
+  readonly program: boolean
+}
+
 export interface PairingState {
   readonly state: 'waiting' | 'approved' | 'expired'
 }

@@ -447,9 +447,12 @@ export const words: Words = {
     stepWait: 'Warte hier: Das Labor öffnet sich von selbst.',
     goodFor: (seconds) => `In ${seconds} s kommt ein neuer Code.`,
     withPassword: 'Stattdessen ein Passwort verwenden',
-    approveTitle: 'Ein Headset einlassen',
+    approveTitle: 'Ein Gerät oder Programm einlassen',
     approveExplanation:
-      'Gib den Code ein, den das Headset zeigt. Bestätige ihn nur, wenn du das Headset vor dir siehst.',
+      'Gib den Code ein, den das Headset oder das Programm zeigt. Bestätige ihn nur, wenn du es vor dir siehst.',
+    shownBy: (device) => `${device} zeigt diesen Code.`,
+    shownByProgram: (device) =>
+      `${device} zeigt diesen Code. Bestätige ihn nur, wenn du dieses Programm gerade gestartet hast.`,
     code: 'Code',
     as: 'Es darf, was diese Rolle darf',
     approve: 'Bestätigen',
@@ -1098,6 +1101,10 @@ export const diagnostics: Templates = {
     "{file}: Am Glied '{link}' beginnen Ketten von {first:integer} und {second:integer} Gelenken; das Labor bewegt nur einen Arm.",
     'Nenne das letzte Glied des Arms, etwa {tip}.',
   ],
+  array_rate: [
+    'fs ist {found} und damit keine Rate.',
+    'Erwartet wird eine Zahl von Hz über 0, oder die Zeit jeder der {rows:count Zeile|Zeilen} in s.',
+  ],
   array_shape: [
     'Ein Array aus {kind} mit der Form {shape:list} ist keine Bewegung.',
     'Erwartet wird eine Matrix reeller Zahlen, mit einer Zeile je Frame und einer Spalte je Gelenk.',
@@ -1128,6 +1135,7 @@ export const diagnostics: Templates = {
   at_rest: ['{instant:choice start=Die Bewegung beginnt|end=Die Bewegung endet} in Ruhe.'],
   at_start: ['am Start'],
   back_at_begin: ['wieder am Anfang; wartet, bis es frei ist'],
+  back_at_home: ['in seiner Grundstellung; wartet, bis es frei ist'],
   backend_not_installed: [
     'Das Backend {backend} braucht Pakete, die nicht installiert sind ({missing}).',
     'Installiere sie.',
@@ -1237,7 +1245,8 @@ export const diagnostics: Templates = {
     'Das Tempo ist {rate:number}; erwartet wird {low:number} bis {high:number}, 1 ist wie aufgenommen.',
   ],
   bad_request: [
-    'Die Anfrage ist nicht so, wie /api/openapi.json sie beschreibt: {mistakes:list}.',
+    'Diese Anfrage ist nicht zu verstehen: {mistakes:reasons}.',
+    '/api/openapi.json beschreibt sie.',
   ],
   bad_request_field: [
     '{field} ist {found}; erwartet wird {expected:choice number=eine Zahl|integer=eine ganze Zahl|boolean=True oder False|text=ein Text}.',
@@ -1735,6 +1744,12 @@ export const diagnostics: Templates = {
     'Das Feld {field} von {type} ist im Bag von anderer Art als hier.',
     'Spiele es mit dem Labor ab, das es aufgenommen hat.',
   ],
+  field_missing: ["'{field}' fehlt"],
+  field_out_of_range: [
+    "'{field}' ist {found}; erwartet wird [mindestens {least:exact}][höchstens {most:exact}]",
+  ],
+  field_refused: ["'{field}' ist {found}: {why:problem}"],
+  field_unknown: ["'{field}' gibt es nicht"],
   file_changed_meanwhile: [
     'sie wurde während des Lesens geändert; sichere sie vollständig und versuche es noch einmal',
   ],
@@ -2947,8 +2962,8 @@ export const diagnostics: Templates = {
     'Niemand antwortet auf {key}: Sein Knoten läuft nicht, der Roboter ist nicht da, oder der Schlüssel des Gateways darf ihn nicht aufrufen.',
   ],
   non_finite: [
-    "'{variable}' enthält {count:count Wert|Werte}, NaN oder Inf, den ersten in Zeile {first_row:integer}, Spalte {column:integer}.",
-    'Entferne diese Messpunkte, oder suche mit isfinite, woher sie kommen.',
+    "'{variable}' enthält {count:count Wert|Werte} NaN oder Inf, in {rows:integer} von {of:count Zeile|Zeilen}, den ersten in Zeile {first_row:integer}, Spalte {column:integer}.",
+    'Suche mit isfinite, woher sie kommen. Zeilen am Rand kannst du weglassen; Zeilen im Innern werden aus ihren Nachbarn gefüllt, denn ohne sie wäre die Bewegung kürzer.',
   ],
   none_named_so: ['Keine Datei heißt so: {pattern}.'],
   not_a_file: [

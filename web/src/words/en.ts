@@ -398,9 +398,12 @@ export const en = {
     stepWait: 'Wait here: the lab opens by itself.',
     goodFor: (seconds: number) => `A new code comes in ${seconds} s.`,
     withPassword: 'Use a password instead',
-    approveTitle: 'Let a headset in',
+    approveTitle: 'Let a device or a program in',
     approveExplanation:
-      'Type the code that the headset shows. Approve it only if you see that headset before you.',
+      'Type the code that the headset or the program shows. Approve it only if you see it before you.',
+    shownBy: (device: string) => `${device} shows this code.`,
+    shownByProgram: (device: string) =>
+      `${device} shows this code. Approve it only if you have just started that program.`,
     code: 'Code',
     as: 'It may do what this role may',
     approve: 'Approve',

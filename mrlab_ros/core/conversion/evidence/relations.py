@@ -220,10 +220,13 @@ def evidence(values: NDArray[Any], robot: RobotModel) -> PoseEvidence:
     if limits is not None and largest_point > 4 * np.pi and sample.shape[1] == 6:
         ranges: dict[str, Any] = {"far": largest_point, "near": largest_turn}
         in_mm = bool((np.linalg.norm(point, axis=1) <= 1e3 * (within + 1)).all())
-        # millimetres beside radians, or beside degrees that no joint would reach
-        if largest_turn <= 2 * np.pi + 1e-3 and largest_point > 12 * largest_turn and in_mm:
-            return PoseEvidence(POSE_RANGES(angles="rad", **ranges))
+        # millimetres beside radians, or beside degrees that no joint would reach; a wrist that
+        # rests at 0 is no orientation where the arm may be in degrees
         beyond = 1.2 * float(np.degrees(np.abs(limits).max()))
+        oriented = largest_turn > 0 or largest_point > beyond
+        small = largest_turn <= 2 * np.pi + 1e-3 and largest_point > 12 * largest_turn
+        if oriented and small and in_mm:
+            return PoseEvidence(POSE_RANGES(angles="rad", **ranges))
         if largest_turn <= 180.5 and largest_point > beyond and in_mm and largest_turn > 7:
             return PoseEvidence(POSE_RANGES(angles="deg", **ranges))
     if sample.shape[1] != 6 or not _in_reach(point, within):

@@ -38,7 +38,7 @@ def test_a_picture_does_not_depend_on_what_was_drawn_before(tmp_path):
 
 def test_refused_rows_are_marked(tmp_path):
     shown = Preview("q", np.arange(1, 51), np.zeros((50, 6)))
-    found = NON_FINITE(variable="q", column=1, count=1, first_row=7, last_row=9)
+    found = NON_FINITE(variable="q", column=1, count=1, rows=1, of=50, first_row=7, last_row=9)
     formats.plot_refused(shown, [], "a.mat", make_model(6), tmp_path / "plain.png")
     formats.plot_refused(shown, [found], "a.mat", make_model(6), tmp_path / "marked.png")
     _, (axis,) = formats._figure(5, 1)

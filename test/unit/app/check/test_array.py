@@ -10,7 +10,7 @@ import pytest
 from refusals import refused
 
 import mrlab_ros
-from mrlab_ros.adapters.diagnostics import ARRAY_SHAPE, NOTHING_TO_SHOW
+from mrlab_ros.adapters.diagnostics import ARRAY_RATE, ARRAY_SHAPE, NOTHING_TO_SHOW
 
 TIMES = np.arange(101) / 100
 GOOD = np.column_stack([np.sin(TIMES), *([-1.2 + 0 * TIMES] * 2), *([TIMES / 3] * 3)])
@@ -43,6 +43,12 @@ def test_what_is_no_matrix_of_numbers_is_refused() -> None:
         mrlab_ros.check(np.zeros(6), 100, robot="ur5e")
     with refused(ARRAY_SHAPE):
         mrlab_ros.check([["a"] * 6], 100, robot="ur5e")
+
+
+@pytest.mark.parametrize("fs", [0, -1.0, np.nan, "fast", [0.0, 0.1], np.inf, 1j, True])
+def test_what_is_no_rate_is_refused(fs: object) -> None:
+    with refused(ARRAY_RATE):
+        mrlab_ros.check(GOOD, fs, robot="ur5e")  # type: ignore[arg-type]
 
 
 def test_a_frame_of_pandas_has_a_column_a_joint(monkeypatch: pytest.MonkeyPatch) -> None:

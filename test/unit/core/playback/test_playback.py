@@ -263,6 +263,11 @@ def test_seek_and_stop_in_a_halt_move_the_arm_and_keep_the_halt():
     playback.stop(START + 2 * SECOND)
     assert playback.state is State.COLLISION_HALT
     assert np.array_equal(playback.arm, playback.trajectory.positions[0])
+    playback.stop(START + 3 * SECOND)
+    assert playback.state is State.COLLISION_HALT
+    assert np.array_equal(playback.arm, playback.model.home)
+    playback.clear(START + 4 * SECOND)
+    assert playback.state is State.PAUSED
 
 
 def test_staging_waits_at_the_start_until_the_common_stamp():

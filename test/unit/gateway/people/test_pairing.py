@@ -91,6 +91,8 @@ def test_a_headset_is_paired_by_a_phone(class_lab: Gateway) -> None:
     assert shown_there["url"].startswith("https://lab.example.org/pair/")
     asked = f"/api/pairings/{shown_there['secret']}"
     assert headset.get(asked).json()["state"] == "waiting"
+    shows = phone.get(f"/api/pairings/shown/{shown_there['code']}")
+    assert shows.json() == {"device": "Quest 3", "program": False}
     body = {"code": shown_there["code"], "role": "student"}
     approved = phone.send("POST", "/api/pairings/approve", json=body)
     user = {"id": "anna", "name": "Quest 3", "role": "student"}

@@ -1,5 +1,5 @@
-import { useState } from 'preact/hooks'
-import type { Role } from '../../api/types'
+import { useEffect, useState } from 'preact/hooks'
+import type { PairingDevice, Role } from '../../api/types'
 import { Button, ButtonLink } from '../../design/button'
 import { Field, Select } from '../../design/field'
 import { Icon } from '../../design/icons'
@@ -18,6 +18,12 @@ export function rolesUpTo(own: Role): readonly Role[] {
   return ORDER.slice(0, ORDER.indexOf(own) + 1)
 }
 
+/** Return the role that is proposed: programs play robots, which an operator may. */
+export function proposedRole(own: Role, program: boolean): Role {
+  const wanted = program ? 'operator' : 'student'
+  return rolesUpTo(own).includes(wanted) ? wanted : own
+}
+
 /** Return a code as the headset shows it, such as BCDF-GHJK; an incomplete code stays as it is. */
 export function codeForm(text: string): string {
   const plain = text.toUpperCase().replace(/[^A-Z0-9]/g, '')
@@ -31,11 +37,29 @@ export function ApprovePage({ code: given }: { code: string }) {
   const api = useApi()
   const own = session.value?.user?.role ?? 'student'
   const [code, setCode] = useState(codeForm(given))
-  const [role, setRole] = useState<Role>(own === 'display' ? 'display' : 'student')
+  const [role, setRole] = useState<Role>(proposedRole(own, false))
+  const [found, setFound] = useState<PairingDevice | null>(null)
   const [error, setError] = useState('')
   const [device, setDevice] = useState('')
   const [busy, setBusy] = useState(false)
   const w = words.value.pairing
+  const plain = code.replace(/[^A-Z0-9]/g, '')
+  useEffect(() => {
+    setFound(null)
+    if (plain.length !== LENGTH) return
+    let here = true
+    api.pairingDevice(plain).then(
+      (shown) => {
+        if (!here) return
+        setFound(shown)
+        setRole(proposedRole(own, shown.program))
+      },
+      (problem: unknown) => here && setError(sentence(problem)),
+    )
+    return () => {
+      here = false
+    }
+  }, [api, plain, own])
   const approve = async (event: Event) => {
     event.preventDefault()
     setBusy(true)
@@ -66,12 +90,19 @@ export function ApprovePage({ code: given }: { code: string }) {
   return (
     <section class="card account-card stack">
       <h1>{w.approveTitle}</h1>
-      <p class="second">{w.approveExplanation}</p>
+      <p class="second">
+        {found
+          ? (found.program ? w.shownByProgram : w.shownBy)(found.device)
+          : w.approveExplanation}
+      </p>
       <form class="stack" onSubmit={(event) => void approve(event)}>
         <Field
           label={w.code}
           value={code}
-          onInput={(text) => setCode(codeForm(text))}
+          onInput={(text) => {
+            setCode(codeForm(text))
+            setError('')
+          }}
           error={error}
           placeholder="BCDF-GHJK"
           autocomplete="off"
