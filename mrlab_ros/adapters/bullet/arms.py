@@ -101,7 +101,6 @@ class Arms:
             couplings=description.couplings,
             ignored=set(),
             made_of=made_of,
-            followers=frozenset(c.follower for c in description.couplings),
         )
         self._free(arm)
         self._let_collide(arm, collide=False)

@@ -17,7 +17,7 @@ from mrlab_ros.adapters.bullet.objects import Objects
 from mrlab_ros.adapters.bullet.quiet import pybullet
 from mrlab_ros.adapters.bullet.shapes import STATIC_GROUP, make_body, make_shape, mass_frame
 from mrlab_ros.core.base.errors import BadInput, Misuse
-from mrlab_ros.core.base.geometry import Pose, Vector, compose
+from mrlab_ros.core.base.geometry import Pose, Vector, add, compose
 from mrlab_ros.core.physics.diagnostics import ALREADY_IN_WORLD
 from mrlab_ros.core.physics.engine import (
     Arm,
@@ -32,6 +32,8 @@ from mrlab_ros.core.physics.engine import (
 )
 
 GRAVITY = 9.80665  # m/s^2, the standard value
+# Rounds in which fingers come out of what they press on: those that turn need some.
+SETTLED_IN = 3
 RAY = 100.0  # m, length of the ray that searches the support below a point
 # At most: a tower of ten needs that many to stand, and all else few.
 SOLVER_ITERATIONS = 200
@@ -122,6 +124,15 @@ class BulletEngine:
 
     def set_fingers(self, name: str, positions: Sequence[float]) -> None:
         self._fingers.place(self._arms[name], positions)
+
+    def settle(self, name: str, thing: str) -> None:
+        arm, body = self._arms[name], self._objects.body(thing)
+        for _ in range(SETTLED_IN):
+            way = self._fingers.settle(arm, body, fixed=thing in self._holding.held)
+            if way != (0.0, 0.0, 0.0):
+                at = self._objects.motion(thing).pose
+                moved = Pose(add(at.position, way), at.orientation)
+                self._objects.set_motion(thing, BodyState(moved))
 
     def fingers(self, name: str) -> tuple[FingerState, ...]:
         return self._fingers.states(self._arms[name])

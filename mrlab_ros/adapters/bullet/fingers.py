@@ -6,9 +6,11 @@ An arm as Bullet knows it.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Container, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
+
+import numpy as np
 
 from mrlab_ros.adapters.bullet.description import Coupling, Description
 from mrlab_ros.adapters.bullet.diagnostics import BAD_FINGERS, FINGER_BEYOND
@@ -31,6 +33,8 @@ COUPLED = 1e-7  # m or rad; coupled fingers that are nearer to their places are 
 # Limit of the finger force, N or N*m: what they hold is fixed to the gripper, and a light object
 # between strong fingers would jitter.
 PRESS = 15.0
+# Force that holds a finger where it is to stand, N or N*m.
+LOCK = 1e4
 
 
 class Fingers:
@@ -99,14 +103,37 @@ class Fingers:
         """Drive fingers at `velocities`, m/s or rad/s; raise BadInput where they do not fit."""
         if len(velocities) != len(arm.fingers) or not all(map(math.isfinite, velocities)):
             raise BadInput(BAD_FINGERS(robot=name, found=[*velocities], count=len(arm.fingers)))
+        arm.driven, arm.locked = tuple(velocities), ()
         if arm.fingers:
+            states = pybullet.getJointStates(arm.body, arm.fingers, self._client)
+            self._lock(arm, [state[0] for state in states])
+
+    def _lock(
+        self, arm: LoadedArm, positions: Sequence[float], pushed: Container[int] = ()
+    ) -> None:
+        """Lock the fingers that are to stand, or are at the end they are driven to: nothing pushes
+        them from there. pushed: leaders that were pushed past an end in the last step."""
+        locked = [False] * len(arm.fingers)
+        for leader, members in arm.groups:
+            finger, velocity = arm.facts.fingers[leader], arm.driven[leader]
+            end = finger.upper if velocity > 0 else finger.lower
+            stands = not velocity or leader in pushed or abs(positions[leader] - end) < COUPLED
+            for i, _, _ in members:
+                locked[i] = stands
+        if arm.locked != (now := tuple(locked)):
+            arm.locked = now
             self._call(
                 pybullet.setJointMotorControlArray,
                 arm.body,
                 arm.fingers,
                 pybullet.VELOCITY_CONTROL,
-                targetVelocities=list(velocities),
-                forces=[min(f.max_force, PRESS) for f in arm.facts.fingers],
+                targetVelocities=[
+                    0.0 if held else v for held, v in zip(now, arm.driven, strict=True)
+                ],
+                forces=[
+                    LOCK if held else min(f.max_force, PRESS)
+                    for held, f in zip(now, arm.facts.fingers, strict=True)
+                ],
             )
 
     def place(self, arm: LoadedArm, positions: Sequence[float]) -> None:
@@ -134,10 +161,7 @@ class Fingers:
         if link in arm.ways:
             way: Vector = (0.0, 0.0, 0.0)
             for joint in arm.ways[link]:
-                state = pybullet.getLinkState(arm.body, joint.index, 0, 0, self._client)
-                axis = scale(rotate(state[5], joint.axis), joint.rate)
-                moved = axis if joint.slides else cross(axis, subtract(point, state[4]))
-                way = add(way, moved)
+                way = add(way, self._carried(arm, joint, point))
             size = math.hypot(*way)
             return -dot(way, normal) / size if size > 0 else 0.0
         if arm.links[link] not in arm.facts.face_links:
@@ -155,28 +179,64 @@ class Fingers:
         """Keep fingers in their ranges; place each leader at the mean of what its followers'
         positions mean for it, and them; call it after every step."""
         states = pybullet.getJointStates(arm.body, arm.fingers, self._client)
-        led: dict[int, list[tuple[int, float, float]]] = {
-            i: [(i, 1.0, 0.0)] for i in range(len(arm.fingers)) if i not in arm.followers
-        }
-        for c in arm.couplings:
-            led.setdefault(c.leader, []).append((c.follower, c.multiplier, c.offset))
-        for leader, members in led.items():
+        positions, pushed = [state[0] for state in states], set()
+        for leader, members in arm.groups:
             finger = arm.facts.fingers[leader]
-            mean = _mean([(states[i][0] - o) / m for i, m, o in members])
-            velocity = _mean([states[i][1] / m for i, m, _ in members])
+            mean = sum([(positions[i] - o) / m for i, m, o in members]) / len(members)
             position = min(max(mean, finger.lower), finger.upper)
+            if all(abs(positions[i] - m * position - o) < COUPLED for i, m, o in members):
+                continue
+            velocity = sum([states[i][1] / m for i, m, _ in members]) / len(members)
             if position != mean:
                 velocity = 0.0
-            if all(abs(states[i][0] - m * position - o) < COUPLED for i, m, o in members):
-                continue
+                pushed.add(leader)
             for i, m, o in members:
+                positions[i] = m * position + o
                 self._call(
-                    pybullet.resetJointState,
-                    arm.body,
-                    arm.fingers[i],
-                    m * position + o,
-                    m * velocity,
+                    pybullet.resetJointState, arm.body, arm.fingers[i], positions[i], m * velocity
                 )
+        self._lock(arm, positions, pushed)
+
+    def settle(self, arm: LoadedArm, body: int, *, fixed: bool) -> Vector:
+        """Open the fingers that are in what they press on; return how it moves out of them, m.
+
+        fixed: it does not move. Each link that is in it gives one equation: by how much the finger
+        opens along its normal and the thing moves against it is its depth. The least such changes
+        are taken.
+        """
+        deepest: dict[int, Any] = {}
+        for p in pybullet.getClosestPoints(arm.body, body, 0.0, physicsClientId=self._client):
+            grips = arm.links[p[3]] in arm.facts.grip_links
+            if grips and (p[3] not in deepest or p[8] < deepest[p[3]][8]):
+                deepest[p[3]] = p
+        if not deepest:
+            return (0.0, 0.0, 0.0)
+        changes = np.zeros((len(deepest), 3 + len(arm.groups)))
+        for row, (index, p) in zip(changes, deepest.items(), strict=True):
+            # The normal points out of the thing.
+            row[:3] = (0.0, 0.0, 0.0) if fixed else p[7]
+            for way in arm.ways.get(index, ()):
+                row[3 + way.group] += dot(self._carried(arm, way, p[5]), p[7])
+        depths = [p[8] for p in deepest.values()]
+        x, y, z, *ways = np.linalg.lstsq(changes, np.array(depths), rcond=None)[0].tolist()
+        self._open(arm, ways)
+        return (x, y, z)
+
+    def _open(self, arm: LoadedArm, ways: Sequence[float]) -> None:
+        """Open the fingers of each leader by so much, m or rad, within their range."""
+        states = self.states(arm)
+        for (leader, members), way in zip(arm.groups, ways, strict=True):
+            finger = arm.facts.fingers[leader]
+            at = states[leader].position - finger.closes * way
+            at = min(max(at, finger.lower), finger.upper)
+            for i, m, o in members:
+                self._call(pybullet.resetJointState, arm.body, arm.fingers[i], m * at + o, 0.0)
+
+    def _carried(self, arm: LoadedArm, way: Way, point: Vector) -> Vector:
+        """Return how a joint carries a point along while its leader closes by 1 m or rad."""
+        state = pybullet.getLinkState(arm.body, way.index, 0, 0, self._client)
+        axis = scale(rotate(state[5], way.axis), way.rate)
+        return axis if way.slides else cross(axis, subtract(point, state[4]))
 
 
 def _ways(
@@ -188,29 +248,32 @@ def _ways(
         leader, follower = description.fingers[c.leader], description.fingers[c.follower]
         rates[follower.joint] = closes[c.leader] * c.multiplier
         rates[leader.joint] = closes[c.leader]
+    group = {
+        description.fingers[i].joint: k
+        for k, (_, members) in enumerate(arm.groups)
+        for i, _, _ in members
+    }
     ways = {}
     for link, index in arm.index.items():
         if link in description.finger_of:
             chain = description.chain(link)
             ways[index] = tuple(
-                Way(joint_index[joint], *description.axis(joint), rates[joint]) for joint in chain
+                Way(joint_index[joint], *description.axis(joint), rates[joint], group[joint])
+                for joint in chain
             )
     return ways
-
-
-def _mean(values: Sequence[float]) -> float:
-    return sum(values) / len(values)
 
 
 @dataclass(frozen=True)
 class Way:
     """How a joint carries a finger along while the gripper closes. index: of its link; axis: unit,
-    in the link's frame; rate: its share of the leader's speed, signed."""
+    in the link's frame; rate: its share of the leader's speed, signed; group: of the leader."""
 
     index: int
     axis: Vector
     slides: bool
     rate: float
+    group: int
 
 
 @dataclass(eq=False)
@@ -220,7 +283,8 @@ class LoadedArm:
     index: the number of each link. links: the link that each number counts as: what is fixed to
     a finger is that finger. made_of: its URDF, its joints, its links that never touch. ways: by
     the number of a finger's link, how it closes. present: it was moved to where it stands; before
-    that nothing touches it.
+    that nothing touches it. groups: fingers that move together: the leader, and (finger,
+    multiplier, offset) of each, itself the first. driven: m/s or rad/s; locked: nothing moves it.
     """
 
     body: int
@@ -234,6 +298,22 @@ class LoadedArm:
     couplings: tuple[Coupling, ...]
     ignored: set[tuple[int, int]]
     made_of: tuple[str, tuple[str, ...], LinkPairs]
-    followers: frozenset[int] = frozenset()
     ways: dict[int, tuple[Way, ...]] = field(default_factory=dict)
     present: bool = False
+    groups: tuple[tuple[int, tuple[tuple[int, float, float], ...]], ...] = field(init=False)
+    driven: tuple[float, ...] = ()
+    locked: tuple[bool, ...] = ()
+
+    def __post_init__(self) -> None:
+        led = {c.follower: c for c in self.couplings}
+        self.groups = tuple(
+            (
+                i,
+                (
+                    (i, 1.0, 0.0),
+                    *((f, c.multiplier, c.offset) for f, c in led.items() if c.leader == i),
+                ),
+            )
+            for i in range(len(self.fingers))
+            if i not in led
+        )

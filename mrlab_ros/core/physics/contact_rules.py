@@ -57,7 +57,7 @@ def may_touch(robot: Robot, touch: Touch, name: str, link: str = "") -> bool:
         return True
     if robot.gripper.closes:
         return robot.closed and (
-            touch.grip >= INWARDS
+            touch.grip >= INWARDS and touch.depth <= robot.settings.set_down
             if link in robot.finger_links
             else link in robot.arm.grip_links and _against(robot, touch)
         )

@@ -226,6 +226,11 @@ class Engine(Protocol):
         """Place the fingers at `positions`, at rest."""
         ...
 
+    def settle(self, name: str, thing: str) -> None:
+        """Take an arm's fingers out of an object that they press on from all sides: they open, and
+        it moves to their middle unless another arm holds it."""
+        ...
+
     def fingers(self, name: str) -> tuple[FingerState, ...]: ...
 
     def link(self, arm: str, link: str) -> BodyState:

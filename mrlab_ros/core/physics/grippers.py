@@ -251,6 +251,8 @@ class Grippers:
         if found is not None and self._may_take(robot, found[0]):
             giver = self._world_state.robots.get(found[0].held_by)
             before = giver.holding if giver is not None and giver.closed else None
+            if robot.gripper.closes:
+                self._engine.settle(robot.name, found[0].name)
             self._seize(robot, *found)
             if giver is not None and before is not None and before.grip is not None:
                 giver.still_grips = Gripped(found[0].name, before.in_hand, before.grip)

@@ -90,6 +90,8 @@ class FakeEngine:
     def set_fingers(self, name: str, positions: Sequence[float]) -> None:
         self.arms[name]["fingers"] = list(positions)
 
+    def settle(self, name: str, thing: str) -> None: ...
+
     def fingers(self, name: str) -> tuple[FingerState, ...]:
         return tuple(FingerState(p, 1.0) for p in self.arms[name]["fingers"])
 

@@ -639,6 +639,37 @@ def a_cup_that_is_pressed_on_gives_way_and_pushes_nothing_into_the_floor(cell):
 
 
 @scene
+def what_is_held_lies_between_the_fingers_and_not_in_them(cell):
+    cell.put("pedestal", (0.0, 0.0, 0.2))
+    for kind, half, beside in (("cube", 0.025, 0.0), ("die", 0.015, 0.012), ("sphere", 0.03, 0.0)):
+        thing = cell.put(kind, (0.0, beside, 0.4 + half))
+        name = f"takes_{kind}"
+        cell.add(name, at=(0.0, 0.0, 0.402 + half + PADS))
+        cell.close(name)
+        assert cell.grasps(name) == HELD
+        near = cell.engine.nearest(name, Kind.OBJECT, thing, 0.01)
+        assert abs(near.distance) < 1e-4
+        # Two fingers of one drive hold it in their middle.
+        assert cell.place(thing)[1] == pytest.approx(0.0, abs=1e-4)
+        cell.world.remove_robot(name)
+        cell.world.remove(thing)
+        del cell.at[name]
+
+
+@scene
+def a_fast_hand_pushes_what_its_fingers_press_on_and_halts(cell):
+    cell.put("pedestal", (0.0, 0.0, 0.2))
+    nut = cell.put("nut", (0.0, 0.0, 0.41))
+    cell.add("a", at=(0.0, 0.0, 0.417 + PADS))
+    cell.close("a", 0.3)
+    cell.go("a", (0.0, 0.1, 0.417 + PADS), 0.03)
+    assert {hit[3] for hit in cell.hits()} == {nut}
+    behind = cell.engine.link("a", "gripper_left_finger_link").pose.position
+    before = cell.engine.link("a", "gripper_right_finger_link").pose.position
+    assert behind[1] < cell.place(nut)[1] < before[1]
+
+
+@scene
 def what_flies_at_an_arm_does_not_enter_it(cell):
     cell.add("a", at=(0.0, 0.0, 0.5))
     for k, kind in enumerate(("ball", "cube", "plate")):
