@@ -35,6 +35,9 @@ from mrlab_ros.ros.decoding import decoder
 from mrlab_ros.ros.node import HiddenNode
 from mrlab_ros.ros.raw_streams import WaitSetThread
 
+# Rounds in which messages are taken begin this far apart, ns: half a step of the world.
+SPACING_NS = SECOND // 480
+
 
 @dataclass(eq=False)
 class Followed:
@@ -86,7 +89,7 @@ class GraphListener:
         # The names in the newest /robots; None before the first one.
         self.known_robots: frozenset[str] | None = None
         self._node = HiddenNode("_physics_listener", node.context, remapped=True)
-        self._thread = WaitSetThread(node.context, "physics", turn, self._on_error)
+        self._thread = WaitSetThread(node.context, "physics", turn, self._on_error, SPACING_NS)
         self._subscribe(msg.Robots, "/robots", self._on_robots, qos.LATCHED)
 
     def start(self) -> None:
