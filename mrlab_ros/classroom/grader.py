@@ -207,7 +207,7 @@ class Grader:
             names = self._given(task, folder)
             request = {
                 "folder": str(folder), "out": str(out), "shown": task.shown, "files": names,
-                "changes": dict(task.changes), "comment": task.comment,
+                "changes": dict(task.changes), "comment": task.comment, "late": task.late,
             }  # fmt: skip
             if task.evidence:
                 (folder / worker.GIVEN).write_bytes(task.evidence)

@@ -61,6 +61,7 @@ class Mark(BaseModel):
     hint: str
     hidden: bool
     time: float | None
+    bonus: bool = False
     change: Change | None = None
     second: Change | None = None
 

@@ -339,9 +339,10 @@ def _task(
         raise BadInput(UNREADABLE())  # the values hold names
     if not files:
         raise problems[0]
-    return Task(
-        key, submission.name, tuple(pseudonyms.unnamed(key, files) if pseudonym else files)
-    )
+    named = tuple(pseudonyms.unnamed(key, files) if pseudonym else files)
+    rule = setup.rubric.late
+    late = rule.days(submission.handed_in, submission.late) if rule else 0
+    return Task(key, submission.name, named, late=late)
 
 
 def _stored(

@@ -141,7 +141,8 @@ class Task:
 
     files: name and bytes of the candidates; the first that holds a motion is taken. changes:
     points that a teacher gives, by test; comment: the teacher's. evidence: what an earlier check
-    of these files left, so that nothing is simulated; empty: none.
+    of these files left, so that nothing is simulated; empty: none. late: days that have begun
+    since it was due.
     """
 
     key: str
@@ -150,10 +151,12 @@ class Task:
     changes: Mapping[str, float] = field(default_factory=dict)
     comment: str = ""
     evidence: bytes = b""
+    late: int = 0
 
     def digest(self, setup: str) -> str:
         """Return the sha256 by which the result of a task is known again."""
-        return digest([setup, self.shown, self._parts, dict(self.changes), self.comment])
+        own = [self.shown, self._parts, dict(self.changes), self.comment, self.late]
+        return digest([setup, *own])
 
     def checked(self, ground: str) -> str:
         """Return the sha256 by which the evidence of a task is known again."""

@@ -15,11 +15,12 @@ import numpy as np
 from mrlab_ros.adapters.trajectories import formats
 from mrlab_ros.app.check.file import CheckedFile, Setting
 from mrlab_ros.classroom.mark import mark_file
-from mrlab_ros.classroom.rubrics.marking import Marks
+from mrlab_ros.classroom.rubrics.marking import Marks, mark
 from mrlab_ros.classroom.rubrics.rubric import Rubric
 from mrlab_ros.core.trajectory.trajectory import Channels, Trajectory
 
 NOTHING, REVERSED, REFERENCE = "nothing at all", "reversed", "reference"
+A_DAY_LATE = "reference, a day late"
 SHARES = (0.25, 0.5, 0.75)
 
 
@@ -62,4 +63,8 @@ def trials(
             file = Path(folder) / f"{name.replace(' ', '-')}.json"
             formats.write(trajectory, file)
             found.append(Trial(name, mark_file(file, rubric, setting, reference)[1]))
-    return (*found, Trial(REFERENCE, of_reference))
+    found.append(Trial(REFERENCE, of_reference))
+    if rubric.late is not None:
+        late = mark(rubric, reference.checked, reference.checked, late=1)
+        found.append(Trial(A_DAY_LATE, late))
+    return found

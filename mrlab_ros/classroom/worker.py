@@ -212,7 +212,7 @@ class Warm:
     ) -> Result:
         file = source.name
         checked = found.checked
-        marks = mark(self.setup.rubric, checked, self.reference)
+        marks = mark(self.setup.rubric, checked, self.reference, request["late"])
         trajectory, figures = checked.trajectory, checked.figures
         has_page = self.setup.pages and found.played is not None
         if trajectory is not None:

@@ -11,6 +11,7 @@ import threading
 import zipfile
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
+from datetime import datetime, timezone
 from pathlib import Path
 from typing import Any
 
@@ -194,6 +195,8 @@ class Course:
                     with self._lock:
                         about = self.handed_in(person) if person else None
                         if about is not None:
+                            at = datetime.fromtimestamp(about.at, timezone.utc)
+                            names[folder][":created_at"] = at.isoformat(timespec="seconds")
                             archive.write(self.file(person, about), f"{folder}/{about.file}")
                 if not archive.namelist():
                     raise BadInput(NOTHING_HANDED_IN())

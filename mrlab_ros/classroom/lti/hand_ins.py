@@ -127,7 +127,7 @@ def _public(marks: Any, hints: Any, found: Mapping[str, Any]) -> dict[str, Any]:
     tests = [
         {**{k: each[k] for k in ("name", "passed", "found", "hint", "points", "of")}}
         for each in marks
-        if not each.get("hidden")
+        if not each.get("hidden") and (each["of"] or each["points"])
     ]
     passed = sum(each["passed"] for each in tests)
     said = plain(CHECKED_AT_ONCE(passed=passed, lost=len(tests) - passed or None))

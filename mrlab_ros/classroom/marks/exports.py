@@ -18,6 +18,7 @@ from mrlab_ros.classroom.marks.diagnostics import (
     SENDER_NOT_NAMED,
     TEXT_NOT_READ,
 )
+from mrlab_ros.classroom.rubrics.late import instant
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.foreign_text import visible
 
@@ -65,7 +66,8 @@ class Submission:
     """The submission of one student.
 
     key: a file name of its own for this student, stable for the same export. identifier: the
-    number by which the system knows the student or the submission, or empty. folder: how the
+    number by which the system knows the student or the submission, or empty. handed_in: s since
+    1970, None: the export does not say it. folder: how the
     export names it, for feedback that is sent back. candidates: files that may hold the motion,
     the first to be tried first. notes: what a teacher shall know.
     """
@@ -77,6 +79,7 @@ class Submission:
     folder: str = ""
     email: str = ""
     late: bool = False
+    handed_in: float | None = None
     candidates: tuple[Entry, ...] = ()
     others: tuple[str, ...] = ()
     notes: tuple[Diagnostic, ...] = ()
@@ -107,6 +110,7 @@ class _Found:
     notes: list[Diagnostic] = field(default_factory=list)
     text: bool = False
     email: str = ""
+    handed_in: float | None = None
 
 
 def recognise(
@@ -280,7 +284,7 @@ def _names_of_metadata(
         if not people:
             found.notes.append(SENDER_NOT_NAMED(file=METADATA, folder=found.folder))
             continue
-        found.late |= str(about.get(":late")) == "true" if isinstance(about, Mapping) else False
+        found.handed_in = instant(str(about.get(":created_at", ""))) if about else None
         found.name = ", ".join(str(p.get(":name") or "?") for p in people)
         found.identifier = ", ".join(str(p[":sid"]) for p in people if p.get(":sid"))
         found.email = ", ".join(str(p[":email"]) for p in people if p.get(":email"))
@@ -320,7 +324,7 @@ def _submission(
         rule = pattern if matching and len(matching) < len(can) else None
         notes.append(NEWEST_TAKEN(count=len(can), pattern=rule, files=names))
     return Submission(
-        key, name, form, found.identifier, found.folder, found.email, found.late,
+        key, name, form, found.identifier, found.folder, found.email, found.late, found.handed_in,
         tuple(entry for entry, _ in chosen), tuple(name for _, name in cannot), tuple(notes),
     )  # fmt: skip
 

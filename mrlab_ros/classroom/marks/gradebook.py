@@ -129,9 +129,12 @@ def words_of(student: Mapping[str, Any]) -> str:
 
 def _lines(tests: Sequence[Mapping[str, Any]], hints: Sequence[str]) -> str:
     lines = [
-        f"{m['name']}: {number(m['points'])} of {number(m['of'])}. {text(m['found'])}"
+        f"{m['name']}: {number(m['points'])}"
+        + (f" of {number(m['of'])}" if m["of"] else "")
+        + f". {text(m['found'])}"
         + (f" {m['hint']}" if m["hint"] and not m["passed"] else "")
         for m in tests
+        if m["of"] or m["points"]
     ]
     return "\n".join([*lines, *hints])
 

@@ -14,7 +14,7 @@ from typing import Any
 
 from mrlab_ros.classroom.marks.diagnostics import UNREADABLE
 from mrlab_ros.classroom.marks.exports import Roster, Submission, renamed
-from mrlab_ros.classroom.rubrics.marking import Mark, Marks
+from mrlab_ros.classroom.rubrics.marking import Marks, unmarked
 from mrlab_ros.classroom.rubrics.rubric import Rubric
 from mrlab_ros.core.base.diagnostic import Diagnostic, plain
 
@@ -68,7 +68,7 @@ class Result:
 def without_marks(rubric: Rubric, outcome: str, why: Diagnostic, file: str = "") -> Result:
     """Return the result of what could not be checked: no points, and why."""
     marks = Marks(
-        tuple(Mark(t.name, 0.0, t.points, False, why, t.hint, t.hidden) for t in rubric.tests),
+        tuple(unmarked(test, why) for test in rubric.tests),
         note=why,
     )
     return Result(outcome, plain(why), marks.plain(), marks.public().plain(), file)

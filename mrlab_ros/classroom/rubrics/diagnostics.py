@@ -200,6 +200,13 @@ TEST_COUNT = Code(
     "test_count",
     "tests has {count:count entry|entries}; expected 1 to {most:integer}.",
 )
+HANDED_IN_ON_TIME = Code("handed_in_on_time", "Handed in on time.", severity=INFO)
+HANDED_IN_LATE = Code(
+    "handed_in_late",
+    "Handed in {days:count day|days} late: {share:share} of the points are taken.",
+    severity=WARNING,
+)
+BAD_DUE = Code("bad_due", "There is no such instant as {text}.")
 BAD_CLOSEST = Code(
     "bad_closest", "closest is {text}; expected 0 to {limit:length}, as far as is measured."
 )

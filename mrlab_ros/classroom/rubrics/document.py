@@ -8,6 +8,7 @@ from typing import Any
 
 from mrlab_ros.classroom.rubrics.diagnostics import (
     BAD_CLOSEST,
+    BAD_DUE,
     BAD_POSE,
     NO_PARTIAL,
     POSE_COUNT,
@@ -22,6 +23,7 @@ from mrlab_ros.classroom.rubrics.diagnostics import (
     TURNED_TWICE,
     UNKNOWN_PARTIAL,
 )
+from mrlab_ros.classroom.rubrics.late import Late, instant
 from mrlab_ros.classroom.rubrics.measures import FORMS
 from mrlab_ros.classroom.rubrics.rubric import LENGTH, Rubric, Test
 from mrlab_ros.classroom.rubrics.sentences import Form, Given, form_of
@@ -43,16 +45,16 @@ from mrlab_ros.core.base.diagnostics import IN_PLACE
 from mrlab_ros.core.base.errors import BadInput, LabError
 from mrlab_ros.core.base.geometry import Pose, Vector, normalized, quaternion_from_rpy
 from mrlab_ros.core.base.names import close_to
-from mrlab_ros.core.base.records import Record, every
+from mrlab_ros.core.base.records import Record, every, read
 from mrlab_ros.core.checking.evidence import CLOSE
 from mrlab_ros.core.checking.rehearsal import FARTHEST
 
 FIELDS = (
-    "name", "about", "robot", "tool", "scene", "reference", "files", "closest", "tests",
+    "name", "about", "robot", "tool", "scene", "reference", "files", "closest", "tests", "late",
 )  # fmt: skip
 TEST_FIELDS = (
     "name", "expect", "points", "hint", "hidden", "partial", "poses", "requires",
-    "gate", "cap",
+    "gate", "cap", "bonus",
 )  # fmt: skip
 POSE_FIELDS = ("position", "rpy_deg", "orientation")
 POSITION = Numbers(3, between(-100, 100), "m: x, y, z in world")
@@ -84,6 +86,8 @@ def parse(document: object, origin: str, lines: Lines | None = None) -> Rubric:
     if not 0 <= metres <= FARTHEST:
         raise record.error(BAD_CLOSEST(text=closest, limit=FARTHEST))
     tests = every(lambda numbered: _test(origin, known, *numbered), enumerate(entries), origin)
+    if (late := _late(record)) is not None:
+        tests.append(Test(late.name, "", late, 0.0))
     _unique(tests, origin)
     _require_others(tests, origin)
     assert isinstance(document, Mapping)
@@ -100,6 +104,16 @@ def parse(document: object, origin: str, lines: Lines | None = None) -> Rubric:
         origin=origin,
         plain=document,
     )
+
+
+def _late(record: Record) -> Late | None:
+    """Return the rule for late submissions, None: there is none. Raises BadInput."""
+    if "late" not in record:
+        return None
+    late = read(Late, record.mapping("late"), record.at("late"))
+    if late.due and instant(late.due) is None:
+        raise BadInput(IN_PLACE(place=record.at("late"), why=BAD_DUE(text=late.due)))
+    return late
 
 
 def _unique(tests: list[Test], origin: str) -> None:
@@ -168,6 +182,7 @@ def _test(origin: str, lines: Lines, index: int, value: object) -> Test:
         requires=entry.value("requires", NAMES, ()),
         gate=entry.value("gate", FLAG, False),
         cap=entry.optional("cap", POINTS),
+        bonus=entry.value("bonus", FLAG, False),
     )
 
 

@@ -34,7 +34,8 @@ ROUNDING = 1e-9
 
 @dataclass(frozen=True)
 class Mark:
-    """The result of a test. points: of `of`. time: s, the instant at which points were lost."""
+    """The result of a test. points: of `of`, on top of those of the others where it is a bonus.
+    time: s, the instant at which points were lost."""
 
     name: str
     points: float
@@ -44,6 +45,7 @@ class Mark:
     hint: str = ""
     hidden: bool = False
     time: float | None = None
+    bonus: bool = False
 
     def plain(self) -> dict[str, Any]:
         """Return the mark as a mapping for JSON; numbers with six decimals."""
@@ -68,13 +70,15 @@ class Marks:
     def points(self) -> float:
         if self.total is not None:
             return self.total[0]
-        return min(round(math.fsum(mark.points for mark in self.tests), 6), self.most)
+        earned = math.fsum(mark.points for mark in self.tests if mark.points > 0)
+        taken = math.fsum(mark.points for mark in self.tests if mark.points < 0)
+        return round(min(earned, self.most) + taken, 6)
 
     @property
     def of(self) -> float:
         if self.total is not None:
             return self.total[1]
-        return round(math.fsum(mark.of for mark in self.tests), 6)
+        return round(math.fsum(mark.of for mark in self.tests if not mark.bonus), 6)
 
     @property
     def lost(self) -> tuple[Mark, ...]:
@@ -102,17 +106,31 @@ class Marks:
         }
 
 
-def mark(rubric: Rubric, checked: Checked, reference: Checked | None = None) -> Marks:
+def mark(
+    rubric: Rubric, checked: Checked, reference: Checked | None = None, late: int = 0
+) -> Marks:
     """Return what a checked file gets; one without a motion gets nothing.
 
-    reference: the checked file of `rubric.reference`, for the tests that compare with it.
+    reference: the checked file of `rubric.reference`, for the tests that compare with it. late:
+    days that have begun since it was due.
     """
     if not marked(checked):
         return Marks(tuple(map(_without_motion, rubric.tests)), note=_refused(checked))
     alone = {test.name: _marked(test, checked, reference) for test in rubric.tests}
     tests = tuple(_bound(test, rubric, alone) for test in rubric.tests)
     caps = [test.cap for test in rubric.tests if test.cap is not None and _lost(test, alone)]
-    return Marks(tests, most=min(caps, default=math.inf))
+    return _taken(rubric, Marks(tests, most=min(caps, default=math.inf)), late)
+
+
+def _taken(rubric: Rubric, marks: Marks, days: int) -> Marks:
+    """Return marks without what a late submission loses."""
+    rule = rubric.late
+    if rule is None or not days:
+        return marks
+    taken = points_of(marks.points, rule.share(days))
+    *tests, last = marks.tests
+    row = replace(last, points=-taken or 0.0, passed=not taken, found=rule.found(days))
+    return replace(marks, tests=(*tests, row))
 
 
 def marked(checked: Checked) -> bool:
@@ -121,7 +139,13 @@ def marked(checked: Checked) -> bool:
 
 
 def _without_motion(test: Test) -> Mark:
-    return Mark(test.name, 0.0, test.points, False, NO_MOTION_TO_MARK(), test.hint, test.hidden)
+    return unmarked(test, NO_MOTION_TO_MARK())
+
+
+def unmarked(test: Test, why: Diagnostic) -> Mark:
+    """Return the mark of a test for which there is nothing to be marked."""
+    passed = not test.points  # it gives none
+    return Mark(test.name, 0.0, test.points, passed, why, test.hint, test.hidden, bonus=test.bonus)
 
 
 def _lost(test: Test, alone: Mapping[str, Mark]) -> bool:
@@ -169,6 +193,7 @@ def _marked(test: Test, checked: Checked, reference: Checked | None) -> Mark:
         test.hint,
         test.hidden,
         None if passed else found.time,
+        test.bonus,
     )
 
 
@@ -215,7 +240,7 @@ def _of_tests(rubric: Rubric, ground: Ground) -> Iterator[Flaw]:
 def _of_rubric(rubric: Rubric) -> Iterator[Diagnostic]:
     if not rubric.reference:
         yield NO_REFERENCE()
-    if all(test.hidden for test in rubric.tests):
+    if all(test.hidden for test in rubric.tests if test.points):
         yield ALL_HIDDEN()
 
 
@@ -229,6 +254,7 @@ def flaws_of_reference(rubric: Rubric, marks: Marks) -> list[Flaw]:
             lines[mark.name],
         )
         for mark in marks.lost
+        if not mark.bonus
     ]
 
 
@@ -239,6 +265,8 @@ def flaws_of_trials(rubric: Rubric, standing: Marks, others: Sequence[Marks]) ->
     """
     for number, test in enumerate(rubric.tests):
         still = standing.tests[number]
+        if not test.points:
+            continue
         if all(marks.tests[number].passed for marks in (standing, *others)):
             yield Flaw(LOST_BY_NONE(), test.name, test.line)
         elif still.points:

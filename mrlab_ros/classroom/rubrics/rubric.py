@@ -11,7 +11,7 @@ import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, Protocol
+from typing import Any, Protocol, cast
 
 from mrlab_ros.classroom.rubrics.diagnostics import (
     BEYOND_MOST,
@@ -178,6 +178,14 @@ class Measure(Protocol):
         ...
 
 
+class Taking(Measure, Protocol):
+    """The rule for late submissions, in the place of a measure."""
+
+    def days(self, handed_in: float | None, late: bool) -> int: ...
+    def share(self, days: int) -> float: ...
+    def found(self, days: int) -> Diagnostic: ...
+
+
 @dataclass(frozen=True)
 class Test:
     """One test. expect: its sentence. hint: what a student reads who loses points.
@@ -187,7 +195,7 @@ class Test:
 
     requires: names of tests that must be passed for this one to earn points. gate: where it is
     not passed, no other test earns points. cap: the most that the whole earns then, None: no
-    limit.
+    limit. bonus: its points come on top of those of the others.
     """
 
     __test__ = False  # no test of pytest's
@@ -203,6 +211,7 @@ class Test:
     requires: tuple[str, ...] = ()
     gate: bool = False
     cap: float | None = None
+    bonus: bool = False
 
 
 @dataclass(frozen=True)
@@ -228,9 +237,15 @@ class Rubric:
     plain: Mapping[str, Any] | None = None
 
     @property
+    def late(self) -> Taking | None:
+        """Return the rule for late submissions, whose row is the last one; None: there is none."""
+        last = self.tests[-1] if self.tests else None
+        return None if last is None or last.points else cast("Taking", last.measure)
+
+    @property
     def points(self) -> float:
-        """Return the points of all tests."""
-        return sum(test.points for test in self.tests)
+        """Return the points of all tests, without those on top."""
+        return sum(test.points for test in self.tests if not test.bonus)
 
 
 # Of a limit that is met but for a last decimal.

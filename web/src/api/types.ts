@@ -275,6 +275,8 @@ export interface ClassMark {
   readonly found: Diagnostic
   readonly hint: string
   readonly hidden: boolean
+  /** Its points come on top of the others'. */
+  readonly bonus: boolean
   readonly time: number | null
   /** By the teacher who marks; null: as the test gave it. */
   readonly change: ClassChange | null

@@ -174,7 +174,7 @@ function Tests({ check, points }: { readonly check: InstantCheck; readonly point
               <strong class="grow">{test.name}</strong>
               <span class="class-points">
                 {points
-                  ? `${number(test.points)} / ${number(test.of)}`
+                  ? `${number(test.points)}${test.of > 0 ? ` / ${number(test.of)}` : ''}`
                   : test.passed
                     ? w.passed
                     : w.lost}

@@ -33,7 +33,8 @@ export function Marks({ steps, submission, onSelect }: MarksProps) {
                 <Icon name={icon} />
                 <strong class="grow">{mark.name}</strong>
                 <span class="class-points">
-                  {number(points)} / {number(of)}
+                  {number(points)}
+                  {of > 0 && ` / ${number(of)}`}
                 </span>
               </p>
               <p class="small">
@@ -53,6 +54,7 @@ export function Marks({ steps, submission, onSelect }: MarksProps) {
               </p>
               {!passed && mark.hint && <p class="second small">{mark.hint}</p>}
               {mark.hidden && <p class="second tiny">{w.hidden}</p>}
+              {mark.bonus && <p class="second tiny">{w.bonus}</p>}
               {change && (
                 <p class="small">
                   {w.desk.changed(

@@ -693,6 +693,7 @@ export const words: Words = {
     points: (points, of) => `${points} von ${of} Punkten`,
     marks: 'Bewertung',
     hidden: 'für Studierende verborgen',
+    bonus: 'zusätzlich zu den anderen',
     at: (time) => `bei ${time} s`,
     all: 'Alle Abgaben',
     order: 'Reihenfolge',
@@ -1175,6 +1176,7 @@ export const diagnostics: Templates = {
     'Erwartet werden 1 bis {most:integer} druckbare Zeichen.',
   ],
   bad_domain: ["ROS_DOMAIN_ID ist '{found}'; erwartet wird eine Zahl von 0 bis 232."],
+  bad_due: ['Den Zeitpunkt {text} gibt es nicht.'],
   bad_dwell: ['Die Haltezeit ist {dwell:time}; erwartet wird 0 bis {longest:time}.'],
   bad_endpoint: [
     "Die Bridge soll an '{endpoint}' erreichbar sein; erwartet wird Protokoll/Adresse:Port, etwa tcp/127.0.0.1:7447.",
@@ -1913,6 +1915,10 @@ export const diagnostics: Templates = {
   hand_mimics: [
     "{file}: Das Gelenk '{joint}' folgt '{other}' (mimic), das zu keinem angetriebenen Gelenk der Hand führt; erwartet wird eines, das selbst keinem folgt.",
   ],
+  handed_in_late: [
+    '{days:count Tag|Tage} zu spät abgegeben: {share:share} der Punkte sind abgezogen.',
+  ],
+  handed_in_on_time: ['Rechtzeitig abgegeben.'],
   handed_over: ['{count:count Trajektorie|Trajektorien} von {owner} gehören jetzt {to}.'],
   hand_of_its_own: [
     "Der Roboter '{robot}' hat eine eigene Hand.",

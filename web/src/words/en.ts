@@ -639,6 +639,7 @@ export const en = {
     points: (points: string, of: string) => `${points} of ${of} points`,
     marks: 'Marks',
     hidden: 'hidden from students',
+    bonus: 'on top of the others',
     at: (time: string) => `at ${time} s`,
     all: 'All submissions',
     order: 'Order',

@@ -22,6 +22,7 @@ function submission(key: string, points: number, more: Partial<Submission> = {})
     found: finding({}),
     hint: '',
     hidden: false,
+    bonus: false,
     time: null,
   }
   return {

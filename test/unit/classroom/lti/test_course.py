@@ -17,6 +17,7 @@ name: Take it
 robot: ur5e
 scene: pick_and_place
 reference: solution.mat
+late: {due: "2026-09-20 12:00 +00:00", per_day: 10%}
 tests:
   - {name: Takes the cube, expect: grasps cube_1 between 1 s and 4 s, points: 2, hint: Close it}
   - {name: In time, expect: cycle < 30 s, points: 1}
@@ -101,7 +102,7 @@ def test_a_course_from_the_first_file_to_the_gradebook(course, tmp_path) -> None
     shown = teacher.get("/api/class").json()
     assert shown["form"] == "course"
     assert [(s["name"], s["points"]) for s in shown["submissions"]] == [
-        ("Anna Ärmel", 4), ("Ben Bauer", 2), ("Cleo Klein", 0),
+        ("Anna Ärmel", 3.2), ("Ben Bauer", 1.6), ("Cleo Klein", 0),
     ]  # fmt: skip
     key = shown["submissions"][1]["key"]
     act = {"did": "mark", "key": key, "test": "Takes the cube", "points": 1.5, "text": "by hand"}
@@ -116,12 +117,13 @@ def test_a_course_from_the_first_file_to_the_gradebook(course, tmp_path) -> None
     assert answer.json()["problems"] == []
     scores = course.platform.scores
     assert {who: (s["scoreGiven"], s["scoreMaximum"]) for who, s in scores.items()} == {
-        "a": (4, 4), "b": (3.5, 4), "c": (0, 4),
+        "a": (3.2, 4), "b": (3.1, 4), "c": (0, 4),
     }  # fmt: skip
     assert "Takes the cube: 1.5 of 2" in scores["b"]["comment"]
     assert "Stays free" not in scores["b"]["comment"]
+    assert "Late: -0.4. Handed in 2 days late" in scores["b"]["comment"]
     mark = ben.get("/api/hand_in").json()["mark"]
-    assert (mark["points"], mark["of"]) == (3.5, 4)
+    assert (mark["points"], mark["of"]) == (3.1, 4)
     assert "Stays free" not in str(mark)
     late = ben.send("PUT", "/api/hand_in/run.mat", content=PICK.read_bytes())
     assert code_of(late) == (400, "class_is_locked")

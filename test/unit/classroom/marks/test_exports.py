@@ -57,12 +57,14 @@ def test_gradescope_says_who_sent_a_submission():
             ":submitters": [
                 {":name": "Jane Doe", ":sid": "9", ":email": "j@x.org"},
                 {":name": "Max"},
-            ]
+            ],
+            ":created_at": "2026-11-30 22:59:01.110236000 Z",
         }
     }
     found = students("e/submission_1/a.mat", "e/submission_2/b.mat", metadata=metadata)
     one, other = found.submissions
     assert (one.name, one.identifier, one.email) == ("Jane Doe, Max", "9", "j@x.org")
+    assert (one.handed_in, other.handed_in) == (1796079541.0, None)
     assert other.name == "submission_2"
     assert [n.code for n in other.notes] == ["sender_not_named"]
 

@@ -10,6 +10,7 @@ from mrlab_ros.adapters.diagnostics import KEY_TWICE
 from mrlab_ros.classroom.mark import read_rubric
 from mrlab_ros.classroom.rubrics.diagnostics import (
     BAD_CLOSEST,
+    BAD_DUE,
     BAD_POSE,
     NO_PARTIAL,
     NO_UNIT,
@@ -69,6 +70,22 @@ def test_a_rubric_is_read_with_its_paths_and_lines(tmp_path):
         ("no collision", 8, False), ("Way", 10, True),
     ]  # fmt: skip
     assert isinstance(found.tests[1].measure.poses[1], Pose)
+
+
+def test_a_rubric_says_what_is_on_top_and_what_a_late_submission_loses(tmp_path):
+    late = "late: {due: '2026-11-30 23:59 +01:00', per_day: 10%, at_most: 50%}\n"
+    bonus = "- {expect: cycle < 5 s, points: 1, bonus: true}\n"
+    found = read_rubric(written(tmp_path, f"{late}{ONE}}}\n{bonus}"))
+    assert found.points == 1
+    assert [t.name for t in found.tests] == ["no collision", "cycle < 5 s", "Late"]
+    assert found.late.share(3) == pytest.approx(0.3)
+    flaws = flaws_of(found, Ground(SceneDocument(), (), {}, None, True))
+    assert [flaw.found.code for flaw in flaws] == ["no_reference"]
+    for wrong in ("{per_day: 2}", "{}", "{per_day: 10%, due: tomorrow}", "{per_day: 1%, by: x}"):
+        with pytest.raises(BadInput):
+            read_rubric(written(tmp_path, f"late: {wrong}\n{ONE}}}\n"))
+    with refused(BAD_DUE, BadInput):
+        read_rubric(written(tmp_path, f"{late.replace('11-30', '11-31')}{ONE}}}\n"))
 
 
 ONE = "tests:\n- {expect: no collision, points: 1"

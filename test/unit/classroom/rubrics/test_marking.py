@@ -6,11 +6,13 @@ import json
 import math
 from dataclasses import replace
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from made_motions import checked
 
 from mrlab_ros.classroom.rubrics.diagnostics import NO_MOTION_TO_MARK
+from mrlab_ros.classroom.rubrics.late import Late, instant
 from mrlab_ros.classroom.rubrics.marking import flaws_of_trials, mark, points_of
 from mrlab_ros.classroom.rubrics.rubric import LENGTH, Outcome, Rubric, Test, Threshold
 from mrlab_ros.core.base.diagnostic import Diagnostic, Severity
@@ -146,3 +148,47 @@ def test_a_file_without_a_motion_gets_nothing_and_is_told_why_once():
     assert {m.found.code for m in marks.tests} == {NO_MOTION_TO_MARK.code}
     assert all(m.time is None for m in marks.tests)
     assert json.loads(json.dumps(marks.public().plain()))["hints"] == ["h1"]
+
+
+def test_a_bonus_comes_on_top_and_a_lost_one_costs_nothing():
+    base = Test("a", "no collision", Fixed(1), 4)
+    for share, points in ((1, 6), (0, 4)):
+        extra = Test("b", "no collision", Fixed(share), 2, bonus=True)
+        marks = mark(Rubric("r", (base, extra)), FOUND)
+        assert (marks.points, marks.of) == (points, 4)
+        assert marks.public().of == 4
+    assert Rubric("r", (base, extra)).points == 4
+
+
+@pytest.mark.parametrize(("days", "points"), [(0, 8), (1, 7.2), (2, 6.4), (6, 4), (400, 4)])
+def test_a_late_submission_loses_a_share_of_what_it_earned(days, points):
+    late = Late("10%", at_most="50%")
+    tests = (Test("a", "no collision", Fixed(0.8), 10), Test("Late", "", late, 0.0))
+    marks = mark(Rubric("r", tests), FOUND, late=days)
+    assert (marks.points, marks.of) == (points, 10)
+    assert marks.tests[-1].points == round(points - 8, 6)
+    assert marks.tests[-1].found.code == ("handed_in_late" if days else "handed_in_on_time")
+    none = mark(Rubric("r", (Test("a", "", Fixed(0), 3), tests[1])), FOUND, late=days)
+    assert none.points == 0
+
+
+def test_what_a_cap_leaves_is_what_a_late_submission_loses_a_share_of():
+    capped = Test("a", "no collision", Fixed(0), 4, cap=5)
+    tests = (capped, Test("b", "no collision", Fixed(1), 16), Test("Late", "", Late("20%"), 0.0))
+    assert mark(Rubric("r", tests), FOUND, late=1).points == 4
+
+
+DAY = 24 * 3600
+
+
+def test_days_are_counted_from_the_instant_in_the_rubric_or_as_the_platform_says():
+    due = instant("2026-11-30 23:59 +01:00")
+    assert due == instant("2026-11-30T22:59:00.5Z") == instant("2026-11-30 22:59:00.000 UTC")
+    assert instant("30.11.2026 23:59") is None
+    assert instant("2026-02-30 10:00 Z") is None
+    rule = Late("10%", "2026-11-30 23:59 +01:00")
+    assert [rule.days(due + s, False) for s in (-DAY, 0, 1, DAY, DAY + 1)] == [0, 0, 1, 1, 2]
+    # the platform's word where no instant is known; the rubric's where one is
+    assert [rule.days(None, late) for late in (False, True)] == [0, 1]
+    assert rule.days(due - 1, True) == 0
+    assert Late("10%").days(due + 3 * DAY, True) == 1
