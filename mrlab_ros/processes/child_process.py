@@ -2,7 +2,8 @@
 
 Should the supervisor be killed, the kernel kills its children: each is started through a few
 lines of Python that ask for that (PR_SET_PDEATHSIG) and then become the real program. A hook
-between fork and exec would do the same, but is unsafe beside threads.
+between fork and exec would do the same, but is unsafe beside threads. Processes of ours are forked
+by a zygote (`zygote.py`) where there is one.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ from mrlab_ros.adapters import threads
 from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.runtime.bucket import RepeatedLines
 from mrlab_ros.core.runtime.process_states import Phase, ProcessState
+from mrlab_ros.processes.zygote import Forked, Zygote
 
 FIRST_DELAY_S = 0.1
 LONGEST_DELAY_S = 10.0
@@ -61,6 +63,8 @@ class ProcessSpec:
     nodes: the names of its nodes in the graph.
     unblocks_sigint: the program is started with SIGINT blocked and unblocks it once it has decided
     what SIGINT does. Python would otherwise answer a SIGINT during its start with a traceback.
+    module: the module that argv runs, where a zygote may fork the process instead; it imports
+    `imports` first.
     """
 
     name: str
@@ -68,6 +72,8 @@ class ProcessSpec:
     env: Mapping[str, str] = field(default_factory=dict)
     unblocks_sigint: bool = False
     nodes: tuple[str, ...] = ()
+    module: str = ""
+    imports: tuple[str, ...] = ()
 
 
 # The environment variable with the number of restarts of a process so far.
@@ -144,9 +150,15 @@ class Child:
     """One process, kept by a thread of its own; its output goes line by line to `emit`."""
 
     def __init__(
-        self, spec: ProcessSpec, policy: RestartPolicy, emit: Emit, changed: Callable[[], None]
+        self,
+        spec: ProcessSpec,
+        policy: RestartPolicy,
+        emit: Emit,
+        changed: Callable[[], None],
+        zygote: Zygote | None = None,
     ) -> None:
         self.spec = spec
+        self._zygote = zygote
         self._policy = policy
         # A full disk, say, must not end the thread: the process would end with it.
         self._emit = threads.guarded(spec.name, emit)
@@ -158,7 +170,7 @@ class Child:
         self._down, self._down_steady_ns = 0.0, 0
         # From its last end to the next start, s.
         self._delay = 0.0
-        self._process: subprocess.Popen[bytes] | None = None
+        self._process: subprocess.Popen[bytes] | Forked | None = None
         # Guards _process: while it is set, its process group exists and belongs to this child.
         self._lock = threading.Lock()
         self._stop = threading.Event()
@@ -251,7 +263,11 @@ class Child:
     def _run_once(self) -> None:
         """Run the process to its end."""
         before = self._last_code
-        command = guarded(self.spec.argv, unblock_sigint=not self.spec.unblocks_sigint)
+        environment = {
+            **self.spec.env,
+            RESTARTS: str(self._restarts),
+            LAST_EXIT: "" if before is None else exit_name(before),
+        }
         # Before the start: a program that cannot be started has not run since the one before it.
         self._policy.started(time.monotonic())
         with self._lock:
@@ -259,19 +275,7 @@ class Child:
                 self._last_exit = "not started"
                 return
             try:
-                process = subprocess.Popen(
-                    command,
-                    env={
-                        **os.environ,
-                        **self.spec.env,
-                        RESTARTS: str(self._restarts),
-                        LAST_EXIT: "" if before is None else exit_name(before),
-                    },
-                    stdin=subprocess.DEVNULL,
-                    stdout=subprocess.PIPE,
-                    stderr=subprocess.STDOUT,
-                    start_new_session=True,
-                )
+                process = self._forked(environment) or self._started(environment)
             except OSError as error:
                 failed = f"could not be started: {_why_not(error)}"
             else:
@@ -290,6 +294,23 @@ class Child:
         self._end_process()
         # A process outside the group may still hold the pipe; its reader then runs on alone.
         reader.join(READ_TIMEOUT_S)
+
+    def _forked(self, environment: Mapping[str, str]) -> Forked | None:
+        """Return the process as the zygote forks it; None where it does not."""
+        spec = self.spec
+        if self._zygote is None or not spec.module:
+            return None
+        return self._zygote.fork(spec.module, spec.argv, spec.imports, environment)
+
+    def _started(self, environment: Mapping[str, str]) -> subprocess.Popen[bytes]:
+        return subprocess.Popen(
+            guarded(self.spec.argv, unblock_sigint=not self.spec.unblocks_sigint),
+            env={**os.environ, **environment},
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            start_new_session=True,
+        )
 
     def _end_process(self) -> None:
         """End what is left of the process and its group, and reap it."""

@@ -135,7 +135,10 @@ class LabProcess:
             ),
         }
         nodes = tuple(NODES[name].graph_name for name in self.nodes)
-        return ProcessSpec(self.name, self.command(options), env, True, nodes)
+        imports = tuple(NODES[name].module for name in self.nodes)
+        return ProcessSpec(
+            self.name, self.command(options), env, True, nodes, HOST_MODULE, imports
+        )
 
 
 PROCESSES: tuple[LabProcess | GatewayProcess, ...] = (

@@ -14,6 +14,7 @@ from types import TracebackType
 
 from mrlab_ros.core.runtime.process_states import ProcessState
 from mrlab_ros.processes.child_process import Child, Emit, ProcessSpec, RestartPolicy
+from mrlab_ros.processes.zygote import Zygote
 
 # From SIGINT to SIGKILL, s; a clean stop of a process takes well under 1 s.
 STOP_TIMEOUT_S = 1.5
@@ -23,7 +24,8 @@ class Supervisor:
     """Keeps a set of processes; use it as a context manager, so that all of them end.
 
     `emit(name, line)` gets every line of output, from several threads; `changed(states)` the
-    state of all processes whenever one changes.
+    state of all processes whenever one changes. zygote: forks what it can; it ends with the first
+    stop.
     """
 
     def __init__(
@@ -32,10 +34,12 @@ class Supervisor:
         emit: Emit,
         changed: Callable[[list[ProcessState]], None] = lambda states: None,
         policy: Callable[[], RestartPolicy] = RestartPolicy,
+        zygote: Zygote | None = None,
     ) -> None:
         self._report = changed
         self._reporting = threading.Lock()
-        self.children = [Child(spec, policy(), emit, self._on_change) for spec in specs]
+        self._zygote = zygote
+        self.children = [Child(spec, policy(), emit, self._on_change, zygote) for spec in specs]
 
     @property
     def states(self) -> list[ProcessState]:
@@ -54,6 +58,8 @@ class Supervisor:
     def stop(self, grace: float = STOP_TIMEOUT_S) -> None:
         """Stop everything: SIGINT at once to all, SIGKILL to what is left after `grace` s."""
         deadline = time.monotonic() + grace
+        if self._zygote is not None:
+            self._zygote.kill()
         for child in self.children:
             child.stop(signal.SIGINT)
         for child in self.children:

@@ -78,7 +78,9 @@ class GatewayProcess:
     def spec(self, options: LabOptions) -> ProcessSpec:
         """Return the process as the supervisor starts it."""
         env = {"PYTHONUNBUFFERED": "1"}
-        return ProcessSpec(self.name, self.command(options), env, unblocks_sigint=True)
+        return ProcessSpec(
+            self.name, self.command(options), env, unblocks_sigint=True, module=GATEWAY_MODULE
+        )
 
 
 def zenoh_endpoint(options: LabOptions) -> str:

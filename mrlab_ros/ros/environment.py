@@ -158,6 +158,15 @@ def skip_generator() -> None:
         del sys.modules[GENERATOR]
 
 
+def load_type_supports() -> None:
+    """Load the libraries of all imported messages, which each loads on its first use."""
+    for name, module in list(sys.modules.items()):
+        if name.endswith((".msg", ".srv", ".action")):
+            for kind in vars(module).values():
+                if getattr(kind, "_TYPE_SUPPORT", True) is None:
+                    kind.__import_type_support__()
+
+
 def postpone_numpy() -> None:
     """Import numpy when something of it is used first: messages only need it for fixed arrays.
 

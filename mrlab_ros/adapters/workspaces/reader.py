@@ -72,7 +72,7 @@ class _Killed(BadInput):
 class WorkspaceReader:
     """Takes files one after another in a warm worker process; safe from several threads.
 
-    The worker starts with `start()` or the first file, and again after it was lost. A file whose
+    The worker starts with the first file, and again after it was lost or `rest()`. A file whose
     process was killed from outside (SIGKILL) is tried once more.
     """
 
@@ -82,10 +82,15 @@ class WorkspaceReader:
         self._closed = False
         self._worker = workers.take()
 
-    def start(self) -> None:
-        """Start the worker where there is none, so that the first file need not wait for it."""
+    @property
+    def runs(self) -> bool:
+        """Whether the worker has been started."""
+        return self._worker.pid is not None
+
+    def rest(self) -> None:
+        """End the worker until there is another file."""
         with self._lock:
-            self._worker.warm()
+            self._worker.stop()
 
     def close(self) -> None:
         """End the worker; a file that is being read is given up at once."""
@@ -243,6 +248,8 @@ LARGE = 64 * MiB
 # For the order: bytes that are converted in a second. What waits is taken in the order of its
 # arrival plus its expected time, so a large file lets smaller ones pass, but not for ever.
 BYTES_PER_S = 10 * MiB
+# A worker without a file ends after this long, s: it holds some 40 MB.
+KEEP_S = 60.0
 # Most waiting files, and bytes of those that were sent and not named.
 MOST_WAITING, MOST_BYTES = 1000, 1024 * MiB
 
@@ -268,8 +275,14 @@ class ConversionPool:
     the time of their size: rclpy does not say who calls, so the order goes by size and arrival.
     """
 
-    def __init__(self, limits: Limits, workers: int = 0) -> None:
-        """Start the threads; workers: 0 for one a processor, at least two."""
+    def __init__(self, limits: Limits, workers: int = 0, keep: float = KEEP_S) -> None:
+        """Start the threads; workers: 0 for one a processor, at least two.
+
+        keep: s that a process stays after its last file.
+        """
+        self._keep = keep
+        # By queue: how many threads wait with a process that runs.
+        self._warm = {True: 0, False: 0}
         count = workers or max(2, os.cpu_count() or 1)
         self.limits = limits
         self._changed = threading.Condition()
@@ -327,11 +340,7 @@ class ConversionPool:
         self.close()
 
     def _run(self, reader: WorkspaceReader, quick: bool) -> None:
-        if quick:
-            # where it does not start now, the first file tries again and says so
-            with contextlib.suppress(RuntimeError, OSError):
-                reader.start()
-        while (job := self._next(quick)) is not None:
+        while (job := self._next(reader, quick)) is not None:
             limits = self.limits
             short = quick and limits.time > QUICK_TIME_S
             reader.limits = replace(limits, time=QUICK_TIME_S) if short else limits
@@ -346,12 +355,21 @@ class ConversionPool:
             else:
                 self._done(job, answer=answer)
 
-    def _next(self, quick: bool) -> _Job | None:
+    def _next(self, reader: WorkspaceReader, quick: bool) -> _Job | None:
+        """Return the next file; one whose process runs goes before one that must start it."""
         with self._changed:
-            while not self._closed:
-                if self._queues[quick]:
-                    return heapq.heappop(self._queues[quick])
-                self._changed.wait()
+            warm = reader.runs
+            self._warm[quick] += warm
+            try:
+                while not self._closed:
+                    if len(self._queues[quick]) > (0 if warm else self._warm[quick]):
+                        return heapq.heappop(self._queues[quick])
+                    if not self._changed.wait(self._keep) and warm:
+                        reader.rest()
+                        self._warm[quick] -= 1
+                        warm = False
+            finally:
+                self._warm[quick] -= warm
         return None
 
     def _again(self, job: _Job) -> bool:

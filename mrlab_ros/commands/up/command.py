@@ -20,6 +20,7 @@ from mrlab_ros.processes import physics_support
 from mrlab_ros.processes.lab import parameter_file, robot_models
 from mrlab_ros.processes.options import LabOptions, new_lab_id
 from mrlab_ros.processes.run_file import RunFile
+from mrlab_ros.processes.zygote import Zygote
 from mrlab_ros.ros.environment import domain_id
 
 
@@ -136,53 +137,55 @@ def up(
     The graph stays on this machine unless ROS_AUTOMATIC_DISCOVERY_RANGE says otherwise, and is
     on the domain of ROS_DOMAIN_ID.
     """
-    models = robot_models(robots)
-    listen = None
-    if bridge and zenoh_connect:
-        listen = checked_router(zenoh_connect, zenoh_listen, keys, insecure)
-    elif bridge:
-        listen = checked_listen(zenoh_listen, keys, insecure)
-        if zenoh_listen or config is None:
-            listen = free_endpoint(listen)
-    pages = None
-    if web and bridge:
-        pages = checked_web(
-            http,
-            keys=keys,
-            insecure=insecure,
-            certificate=https_cert,
-            certificate_key=https_key,
-            public_url=public_url.rstrip("/"),
-            oidc=oidc,
-            limits=web_limits,
-            classroom=class_folder,
-            lti=lti,
-        )
-        if keys is not None:
-            prepare_keys(keys)
-    with_physics, no_physics = physics_support.wanted(physics)
     stay_on_this_machine()
-    domain = domain_id()
-    run_file = RunFile(domain)
-    with folder_for_state(state_dir) as folder, stop_signals() as stop:
-        options = LabOptions(
-            lab_id=new_lab_id(),
-            config=parameter_file(config),
-            state_dir=folder,
-            robots=models,
-            physics=with_physics,
-            frames=frames,
-            bridge=bridge,
-            listen=(zenoh_listen and listen) or "",
-            connect=zenoh_connect,
-            keys=keys,
-            insecure=insecure,
-            store=checked_store(store),
-            socket=run_file.socket if bridge else "",
-            web=pages,
-            sim_time=sim_time,
-        )
-        LabRun(options, listen, no_physics, stop).keep(run_file, domain)
+    # Imports take longest: they begin before the checks.
+    with Zygote() as zygote:
+        models = robot_models(robots)
+        listen = None
+        if bridge and zenoh_connect:
+            listen = checked_router(zenoh_connect, zenoh_listen, keys, insecure)
+        elif bridge:
+            listen = checked_listen(zenoh_listen, keys, insecure)
+            if zenoh_listen or config is None:
+                listen = free_endpoint(listen)
+        pages = None
+        if web and bridge:
+            pages = checked_web(
+                http,
+                keys=keys,
+                insecure=insecure,
+                certificate=https_cert,
+                certificate_key=https_key,
+                public_url=public_url.rstrip("/"),
+                oidc=oidc,
+                limits=web_limits,
+                classroom=class_folder,
+                lti=lti,
+            )
+            if keys is not None:
+                prepare_keys(keys)
+        with_physics, no_physics = physics_support.wanted(physics)
+        domain = domain_id()
+        run_file = RunFile(domain)
+        with folder_for_state(state_dir) as folder, stop_signals() as stop:
+            options = LabOptions(
+                lab_id=new_lab_id(),
+                config=parameter_file(config),
+                state_dir=folder,
+                robots=models,
+                physics=with_physics,
+                frames=frames,
+                bridge=bridge,
+                listen=(zenoh_listen and listen) or "",
+                connect=zenoh_connect,
+                keys=keys,
+                insecure=insecure,
+                store=checked_store(store),
+                socket=run_file.socket if bridge else "",
+                web=pages,
+                sim_time=sim_time,
+            )
+            LabRun(options, listen, no_physics, stop, zygote).keep(run_file, domain)
 
 
 def checked_store(place: str) -> str:

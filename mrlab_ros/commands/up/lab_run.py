@@ -25,6 +25,7 @@ from mrlab_ros.processes.readiness import READY_TIMEOUT_S, Readiness
 from mrlab_ros.processes.run_file import RunFile
 from mrlab_ros.processes.supervisor import Supervisor
 from mrlab_ros.processes.web import gateway_answers
+from mrlab_ros.processes.zygote import Zygote
 
 
 @dataclass
@@ -32,13 +33,14 @@ class LabRun:
     """Keeps the processes of one lab running, and says what a person has to know of it.
 
     listen: where zenoh clients connect; None: there is no bridge. no_physics: why there is none;
-    None: there is, or nobody wants it. stop: ends the lab.
+    None: there is, or nobody wants it. stop: ends the lab. zygote: forks its processes.
     """
 
     options: LabOptions
     listen: str | None
     no_physics: Diagnostic | None
     stop: threading.Event
+    zygote: Zygote
     say: Speaker = field(default_factory=Speaker)
 
     def __post_init__(self) -> None:
@@ -69,7 +71,7 @@ class LabRun:
             refusals.check(states)
 
         try:
-            with Supervisor(specs, self.say, changed) as supervisor:
+            with Supervisor(specs, self.say, changed, zygote=self.zygote) as supervisor:
                 self.say(SELF, f"starts the lab on ROS domain {domain}; Ctrl-C stops it")
                 self._say_notices()
                 announcer.open()

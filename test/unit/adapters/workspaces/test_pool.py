@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 
-import pytest
+from graph import wait_for
 from refusals import refused
 
 from mrlab_ros.adapters.workspaces import reader as pools
@@ -13,12 +13,6 @@ from mrlab_ros.adapters.workspaces.reader import ConversionPool, Limits, TooSlow
 from mrlab_ros.core.base.errors import Misuse
 
 LONG = 60.0  # s; far above what any of this takes
-
-
-@pytest.fixture(autouse=True)
-def no_processes(monkeypatch):
-    """Let the threads run work that needs no process."""
-    monkeypatch.setattr(pools.WorkspaceReader, "start", lambda self: None)
 
 
 def too_slow(reader):
@@ -35,6 +29,20 @@ def test_a_slow_file_is_begun_again_with_the_whole_time():
     with ConversionPool(Limits(time=20.0), 2) as pool:
         assert pool.submit(work, 0).result(LONG) == "done"
     assert times == [pools.QUICK_TIME_S, 20.0]
+
+
+def test_a_process_starts_with_the_first_file_serves_the_next_and_rests():
+    def pid(reader):
+        reader._worker.warm()
+        return reader._worker.pid
+
+    with ConversionPool(Limits(), 2, keep=1.0) as pool:
+        assert not any(reader.runs for reader in pool._readers)
+        first = pool.submit(pid, 0).result(LONG)
+        wait_for(lambda: pool._warm[True], "the thread of the first")
+        assert pool.submit(pid, 0).result(LONG) == first
+        wait_for(lambda: not any(reader.runs for reader in pool._readers), "its rest")
+        assert pool.submit(pid, 0).result(LONG) != first
 
 
 def test_a_file_that_stays_too_slow_is_answered():

@@ -137,7 +137,7 @@ def test_a_file_that_passes_a_limit_is_told_which(status, limit):
 @pytest.mark.parametrize("number", [signal.SIGSEGV, signal.SIGABRT])
 def test_a_file_that_kills_the_reading_process_is_reported(number):
     with WorkspaceReader() as reader, ThreadPoolExecutor(1) as pool:
-        reader.start()
+        reader._worker.warm()
         worker = psutil.Process(reader._worker.pid)
         slow = bomb(400)
         pending = pool.submit(refusal, reader.read_bytes, slow, "evil.mat")
@@ -153,7 +153,7 @@ def test_a_file_that_kills_the_reading_process_is_reported(number):
 @pytest.mark.parametrize("kills", [1, 2])
 def test_a_file_whose_process_is_killed_is_read_once_more(kills):
     with WorkspaceReader() as reader, ThreadPoolExecutor(1) as pool:
-        reader.start()
+        reader._worker.warm()
         worker = psutil.Process(reader._worker.pid)
         pending = pool.submit(refusal, reader.read_bytes, bomb(400), "evil.mat")
         seen = set()
@@ -168,7 +168,7 @@ def test_a_file_whose_process_is_killed_is_read_once_more(kills):
 
 def test_a_lost_worker_is_replaced():
     with WorkspaceReader() as reader:
-        reader.start()
+        reader._worker.warm()
         worker = psutil.Process(reader._worker.pid)
         worker.kill()
         wait_for(lambda: worker.status() == psutil.STATUS_ZOMBIE, "its end")
@@ -177,7 +177,7 @@ def test_a_lost_worker_is_replaced():
 
 def test_closing_gives_up_a_file_that_is_being_read():
     reader = WorkspaceReader()
-    reader.start()
+    reader._worker.warm()
     with ThreadPoolExecutor(1) as pool:
         worker = psutil.Process(reader._worker.pid)
         slow = bomb(400)
@@ -190,7 +190,7 @@ def test_closing_gives_up_a_file_that_is_being_read():
 
 def test_closing_ends_the_worker():
     reader = WorkspaceReader()
-    reader.start()
+    reader._worker.warm()
     worker = psutil.Process(reader._worker.pid)
     reader.close()
     assert not worker.is_running()
