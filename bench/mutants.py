@@ -235,7 +235,7 @@ def main() -> None:
     import pytest  # noqa: F401
 
     rows = [measure(name, MODULES[name], given.count) for name in given.module or MODULES]
-    report.show("Mutants that the unit tests kill", rows)
+    report.Page().show("Mutants that the unit tests kill", rows)
 
 
 if __name__ == "__main__":

@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 """Run every measure, or those named, and go on past one that fails.
 
-    python bench/run.py [--quick | --touch] [--json FILE] [--compare FILE] [NAME ...]
+    python bench/run.py [--quick | --touch] [--json FILE] [--compare FILE] [--page FILE] [NAME ...]
     python bench/run.py --soak MINUTES NAME
 
 A measure is a file in measures/. `TABLES` has its questions: a title, and a function that gets the
 Size and returns rows of figures with their units and, where there is one, of a baseline. `SOAKS`
 has those of --soak, which watch memory over a long time. `NEEDS` names programs and modules
-without which it is left out; the last table says how to get them. The exit code is 1 where a
-measure failed.
+without which it is left out; the last table says how to get them. All tables are on one page as
+well, with those figures at its top that are worse than in the last release by more than 15 %. The
+exit code is 1 where a measure failed.
 """
 
 from __future__ import annotations
@@ -33,6 +34,9 @@ from size import Size
 
 # s that a measure may take at most.
 LONGEST_S = {"touch": 180.0, "quick": 900.0, "full": 7200.0}
+# The figures of the last release.
+RELEASED = Path(__file__).parent / "released.json"
+PAGE = Path(__file__).parents[1] / "build" / "bench.html"
 HOW = {"chromium": "apt install chromium", "playwright": "make test installs it"}
 
 
@@ -60,8 +64,10 @@ def measure(pipe: Any, name: str, size: Size) -> None:
 class Runner:
     """Runs measures, shows their tables and keeps their figures."""
 
-    def __init__(self, size: Size, file: Path | None, compared: Path | None) -> None:
-        self._size, self._file = size, file
+    def __init__(
+        self, size: Size, file: Path | None, compared: Path | None, page: report.Page
+    ) -> None:
+        self._size, self._file, self._page = size, file, page
         self._earlier = json.loads(compared.read_text()) if compared else {}
         self._kept = json.loads(file.read_text()) if file and file.exists() else {}
 
@@ -96,7 +102,8 @@ class Runner:
         return "; ".join(problems) or "done"
 
     def _show(self, title: str, rows: report.Rows) -> None:
-        report.show(title, rows, self._earlier.get(title, {}).get("rows", ()))
+        earlier = self._earlier.get(title, {"rows": (), "machine": ""})
+        self._page.show(title, rows, earlier["rows"], earlier["machine"])
         if self._file:
             self._kept[title] = {"machine": report.machine(), "rows": rows}
             self._file.write_text(json.dumps(self._kept, indent=1))
@@ -116,7 +123,13 @@ def options() -> argparse.Namespace:
         "--touch", action="store_const", dest="size", const="touch", help="see only that it runs"
     )
     parser.add_argument("--json", type=Path, metavar="FILE", help="also write the figures here")
-    parser.add_argument("--compare", type=Path, metavar="FILE", help="show these figures beside")
+    parser.add_argument(
+        "--compare", type=Path, metavar="FILE", default=RELEASED if RELEASED.exists() else None,
+        help="show these figures beside; not given: those of the last release, if kept",
+    )  # fmt: skip
+    parser.add_argument(
+        "--page", type=Path, metavar="FILE", default=PAGE, help="not given: build/bench.html"
+    )
     parser.add_argument("--soak", type=float, default=0.0, metavar="MINUTES", help="watch memory")
     parser.add_argument("--stock", default="", metavar="PATH", help="zenoh-bridge-ros2dds")
     given = parser.parse_args()
@@ -132,14 +145,18 @@ def main() -> None:
     given = options()
     # The lab of a measure is found on this machine alone.
     os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
-    runner = Runner(Size(given.size, given.soak, given.stock), given.json, given.compare)
+    page = report.Page()
+    size = Size(given.size, given.soak, given.stock)
+    runner = Runner(size, given.json, given.compare, page)
     results = []
     for name in given.names or measures():
         print(f"== {name}", flush=True)
         begin = time.monotonic()
         result = runner.run(name)
         results.append({"measure": name, "s": round(time.monotonic() - begin), "result": result})
-    report.show("Measures", results)
+    page.show("Measures", results)
+    page.write(given.page)
+    print(f"all on one page: {given.page}")
     raise SystemExit(any("failed" in each["result"] for each in results))
 
 

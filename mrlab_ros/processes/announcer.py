@@ -31,16 +31,20 @@ class Announcer:
 
     def open(self) -> None:
         """Join the graph. It imports rclpy, which takes a while: start the processes first."""
+        from mrlab_ros.ros import environment
+
+        environment.prepare()
+        # The supervisor computes nothing.
+        environment.skip_generator()
+        environment.postpone_numpy()
         import rclpy
         from mrlab_msgs.msg import LabProcesses
         from rclpy.context import Context
         from rclpy.signals import SignalHandlerOptions
 
         from mrlab_ros.messages import qos
-        from mrlab_ros.ros import environment
         from mrlab_ros.ros.node import HiddenNode
 
-        environment.prepare()
         self._context = Context()
         no_signals = SignalHandlerOptions.NO
         rclpy.init(args=[], context=self._context, signal_handler_options=no_signals)

@@ -150,6 +150,16 @@ def test_the_standing_rate_counts_for_robots_that_stand(graph):
     wait_for(lambda: len(inbox) > before + 5, "poses of the standing robot")
 
 
+def test_who_subscribes_to_a_robot_that_stands_gets_its_pose_at_once(graph):
+    lab = small_lab.start(graph)
+    robot = small_lab.spawn(graph)
+    assert change(graph, lab.host, "standing_rate", 0.01).successful
+    node = wait_for(lambda: lab.host.nodes.get(robot), "the robot's playback")
+    node.playback.tick(node.playback.due_ns())
+    inbox = graph.listen(JointState, f"/{robot}/joint_states", qos.STREAM)
+    wait_for(lambda: inbox, "its pose, which is repeated after 100 s")
+
+
 def test_a_gentler_staging_takes_longer(graph):
     lab = small_lab.start(graph)
     robot = small_lab.spawn(graph)

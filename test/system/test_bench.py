@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import subprocess
 import sys
 from pathlib import Path
@@ -27,6 +28,25 @@ def ran(*arguments: str) -> subprocess.CompletedProcess[str]:
 def test_a_measure_runs(name: str) -> None:
     done = ran("run.py", "--touch", name)
     assert done.returncode == 0, done.stdout[-4000:]
+
+
+def test_what_got_worse_stands_at_the_top_of_the_page(tmp_path: Path) -> None:
+    figures, page = tmp_path / "figures.json", tmp_path / "page.html"
+    assert ran("run.py", "--touch", "--json", str(figures), "kinematics").returncode == 0
+    kept = json.loads(figures.read_text())
+    title, table = next(iter(kept.items()))
+    key = "load ms"
+    for better in (True, False):
+        for row in table["rows"]:
+            row[key] *= 1e-3 if better else 1e6
+        figures.write_text(json.dumps(kept))
+        done = ran(
+            "run.py", "--touch", "--compare", str(figures), "--page", str(page), "kinematics"
+        )
+        assert done.returncode == 0, done.stdout[-4000:]
+        top = page.read_text().partition("<code")[2][:500]
+        assert (f"{title}: " in top and "worse" in top) is better
+        assert "load average" in page.read_text()
 
 
 def test_a_mutant_is_killed_or_lives() -> None:

@@ -164,6 +164,10 @@ class Playback(Execution):
         """Repeat the joint state of a robot that does not move at `rate` Hz (0: never)."""
         self.stream.set_standing_rate(now_ns, rate)
 
+    def repeat(self, now_ns: int) -> None:
+        """Repeat the joint state of a robot that does not move now, for who has just come."""
+        self.stream.repeat(now_ns)
+
     def hold_at(self, until: float | None, by: str = "") -> None:
         """Wait in PAUSED at a later position than now, `until` (s); None: play to the end."""
         self.require_owner(by)

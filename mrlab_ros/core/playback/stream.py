@@ -286,9 +286,13 @@ class Stream:
     def set_standing_rate(self, now_ns: int, rate: float) -> None:
         """Repeat a standing pose at `rate` Hz (0: never); a pose that is due still leaves."""
         self._standing_ns = _period_ns(rate)
-        standing = self._motion is None and self.clock.rate == 0.0
-        if standing and (self.next_ns is None or self.next_ns > now_ns):
+        if self._stands and (self.next_ns is None or self.next_ns > now_ns):
             self.next_ns = self._repetition(now_ns)
+
+    def repeat(self, now_ns: int) -> None:
+        """Let a standing pose leave at once, unless it is never repeated."""
+        if self._stands and self._standing_ns is not None:
+            self.next_ns = now_ns
 
     # inside ---------------------------------------------------------------------------------
 
@@ -296,6 +300,10 @@ class Stream:
     def _loaded(self) -> Trajectory:
         assert self.trajectory is not None
         return self.trajectory
+
+    @property
+    def _stands(self) -> bool:
+        return self._motion is None and self.clock.rate == 0.0
 
     def _repetition(self, now_ns: int) -> int | None:
         return None if self._standing_ns is None else now_ns + self._standing_ns

@@ -552,6 +552,25 @@ def test_a_standing_robot_repeats_its_pose():
     assert not any(s.streamed for s in samples)
 
 
+def test_a_standing_robot_repeats_its_pose_at_once_for_who_comes():
+    playback = make(standing_rate=2.0)
+    playback.tick(0)
+    playback.repeat(SECOND // 4)
+    sample = playback.tick(SECOND // 4)
+    assert sample is not None
+    assert not sample.streamed
+    assert playback.due_ns() == 3 * SECOND // 4
+    silent = make(standing_rate=0.0)
+    silent.tick(0)
+    silent.repeat(SECOND)
+    assert silent.due_ns() is None
+    moving = on_start()
+    moving.play(START)
+    due = moving.due_ns()
+    moving.repeat(START)
+    assert moving.due_ns() == due, "a moving robot keeps its deadlines"
+
+
 def test_a_robot_that_may_not_repeat_itself_is_silent():
     playback = make(standing_rate=0.0)
     assert len(run(playback, 2 * SECOND)) == 1
