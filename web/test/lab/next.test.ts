@@ -28,6 +28,7 @@ function view(state: RobotView['state'], rate = 1, loop = false): RobotView {
     playback: { ...playback, trajectory_id: 'pick' },
     holding: '',
     touching: '',
+    overlaps: [],
     targets,
     down: false,
     player,

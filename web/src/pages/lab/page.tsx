@@ -1,4 +1,4 @@
-import { effect, useSignal } from '@preact/signals'
+import { useSignal } from '@preact/signals'
 import { useEffect, useMemo, useRef } from 'preact/hooks'
 import { trajectoryUrl } from '../../api/api'
 import type { Rights } from '../../api/types'
@@ -109,16 +109,6 @@ export function Lab({ link }: { link: Link }) {
     }
   }, [follower])
 
-  useEffect(
-    () =>
-      effect(() => {
-        const act = follower.undoing.act.value
-        if (act === null) return
-        const run = () => void follower.undoing.undo({ link, say })
-        showToast(spoken(act), may.scene ? { label: words.value.lab.undo, run } : undefined)
-      }),
-    [follower, link, may],
-  )
   const leave = (id: string, all: readonly Present[]) => {
     const gone = present.value.find((each) => each.id === id)
     if (gone !== undefined && all.every((each) => each.id !== id))
@@ -129,6 +119,7 @@ export function Lab({ link }: { link: Link }) {
     pointing.value = false
     view.current?.point(event.clientX, event.clientY)
   }
+  const undoable = follower.undoing.act.value
   const eyes = present.value.find(({ id }) => id === seen.value)
 
   const w = words.value.lab
@@ -222,6 +213,16 @@ export function Lab({ link }: { link: Link }) {
                 {!pointing.value && (
                   <Button look="quiet" onClick={() => view.current?.seeWith('')}>
                     {w.ownView}
+                  </Button>
+                )}
+              </p>
+            )}
+            {undoable && (
+              <p class="lab-eyes lab-undo" role="status">
+                {spoken(undoable)}
+                {may.scene && (
+                  <Button look="quiet" onClick={() => void follower.undoing.undo(lab)}>
+                    {w.undo}
                   </Button>
                 )}
               </p>
