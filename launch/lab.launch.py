@@ -5,6 +5,7 @@ the parameter file are those of `mrlab up`.
 """
 
 import os
+import sys
 import tempfile
 from pathlib import Path
 
@@ -24,12 +25,12 @@ from launch.events.process import ShutdownProcess
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 
-from mrlab_ros.adapters import share
-from mrlab_ros.adapters.bullet.support import missing
+from mrlab_ros.adapters import private_folder, share
 from mrlab_ros.adapters.parent_exit import LAUNCHER
 from mrlab_ros.adapters.sandbox import python_process
 from mrlab_ros.adapters.scenes.files import SceneFiles
-from mrlab_ros.commands.up.keys import free_endpoint
+from mrlab_ros.commands.up.command import checked_store
+from mrlab_ros.commands.up.keys import checked_router, free_endpoint
 from mrlab_ros.commands.up.surroundings import graph_range
 from mrlab_ros.commands.up.web import checked_web, prepare_keys
 from mrlab_ros.core.base.errors import BadInput
@@ -44,68 +45,21 @@ from mrlab_ros.processes.lab import (
     parameter_file,
     robot_models,
 )
+from mrlab_ros.processes.launch_arguments import LAB
 from mrlab_ros.processes.options import LabOptions, new_lab_id
 
 # A process that ends is started again after this time, s, and at most so many times; one that
 # refuses its configuration is not, see refused().
 RESPAWN = {"respawn": True, "respawn_delay": 1.0, "respawn_max_retries": 10}
-SHOWN = {"output": "screen", "emulate_tty": True}
-CHOICES = {"true": ["true", "false"], "false": ["true", "false"]}
-CHOICES["localhost"] = ["localhost", "subnet"]
+# A process that takes its output for a terminal colours it, for a file and a pipe as well.
+SHOWN = {"output": "screen", "emulate_tty": sys.stdout.isatty()}
 # The services that these arguments call when the lab is ready, unless another lab has them too.
 CALLED = {"scene": "/lab/load_scene", "record": "/recorder/start"}
-
-# By name: default and description; those whose default is in CHOICES take nothing else.
-ARGUMENTS = {
-    "config": ("", "ROS parameter file; empty: the shipped config/lab.yaml"),
-    "robots": ("", "robots to begin with, such as ur5e,kuka_kr3_r540"),
-    "scene": ("", "scene to load when the lab is ready, such as handover; it replaces the robots"),
-    "remap": ("", "names to remap in the lab's nodes, such as /clock:=/sim/clock, with commas"),
-    "physics": ("false" if missing() else "true", "simulate contacts and grasps"),
-    "frames": ("true", "publish /tf and markers for RViz, Foxglove and recordings"),
-    "rviz": ("false", "start RViz with config/mrlab.rviz"),
-    "record": ("", "bag to record into from when the lab is ready"),
-    "bridge": ("true", "carry the graph over zenoh"),
-    "listen": (
-        "",
-        "where zenoh clients connect; empty: tcp/127.0.0.1:7447, with keys tls/0.0.0.0:7447",
-    ),
-    "connect": ("", "with keys: a secured router that lets people in (mrlab keys router)"),
-    "keys": ("", "keys folder (mrlab keys init); empty: no keys, this machine only"),
-    "insecure": ("false", "listen beyond this machine without keys"),
-    "web": ("true", "serve the pages for browsers and headsets"),
-    "http": (
-        "",
-        "where the pages are served, HOST:PORT; empty: 127.0.0.1:8080, with keys 0.0.0.0:8080",
-    ),
-    "https_cert": ("", "certificate for HTTPS (PEM, whole chain), if not that of keys"),
-    "https_key": ("", "the private key of https_cert (PEM)"),
-    "public_url": ("", "address of a reverse proxy that offers the pages; people sign in"),
-    "oidc": ("", "YAML file of an OpenID Connect provider by which people sign in"),
-    "web_limits": ("", "YAML file of how many pages there may be and what each may send"),
-    "class": ("", "folder that mrlab class made, for instructors to step through"),
-    "lti": ("", "YAML file of the learning platform whose course the class is"),
-    "state_dir": ("", "folder for scene and trajectories; empty: a temporary one"),
-    "store": ("", "uploads and trajectories: a folder or URL; empty: in state_dir"),
-    "discovery": (
-        "localhost",
-        "who finds the ROS graph, which asks for no key; subnet: everybody on this network",
-    ),
-    "use_sim_time": ("false", "the topic /clock gives the time"),
-}
 
 
 def generate_launch_description():
     """Declare the arguments; the processes follow from their values."""
-    declared = [
-        DeclareLaunchArgument(
-            name,
-            default_value=default,
-            description=description,
-            **({"choices": CHOICES[default]} if default in CHOICES else {}),
-        )
-        for name, (default, description) in ARGUMENTS.items()
-    ]
+    declared = [DeclareLaunchArgument(each.name, **each.settings) for each in LAB]
     return LaunchDescription([*declared, OpaqueFunction(function=processes)])
 
 
@@ -125,7 +79,9 @@ def processes(context):
     shown = [rviz(graph_range(value("discovery")))] if given("rviz") else []
     keys = path("keys")
     listen = value("listen")
-    if listen and given("bridge"):
+    if value("connect") and given("bridge"):
+        checked_router(value("connect"), listen, keys, given("insecure"))
+    elif listen and given("bridge"):
         check_endpoints((listen,), given("insecure"), keys is not None)
         listen = free_endpoint(listen, "listen:=")
     web = None
@@ -148,9 +104,11 @@ def processes(context):
     options = LabOptions(
         lab_id=new_lab_id(),
         config=parameter_file(path("config")),
-        state_dir=path("state_dir") or Path(tempfile.mkdtemp(prefix="mrlab-")),
+        state_dir=private_folder.make(path("state_dir"))
+        if path("state_dir")
+        else Path(tempfile.mkdtemp(prefix="mrlab-")),
         robots=robot_models(value("robots")),
-        store=value("store"),
+        store=checked_store(value("store")),
         physics=physics,
         frames=given("frames"),
         bridge=given("bridge"),
@@ -166,7 +124,8 @@ def processes(context):
     found = lab_processes(options)
     reach = graph_range(value("discovery"))
     # The processes end with this one, which would leave them behind at a SIGTERM.
-    with_it = {"additional_env": {LAUNCHER: str(os.getpid()), **reach}}
+    unbuffered = {"PYTHONUNBUFFERED": "1"}
+    with_it = {"additional_env": {LAUNCHER: str(os.getpid()), **unbuffered, **reach}}
     nodes = [
         Node(
             package="mrlab_ros",
@@ -205,17 +164,18 @@ def processes(context):
         **SHOWN,
         additional_env=reach,
     )
+    ready_once = []
+
+    def begin(event, _context):
+        ready_once.append(event)
+        return [] if event.returncode else list(later.values())
+
     return [
         *unknown(context.launch_configurations),
         *nodes,
         *programs,
-        RegisterEventHandler(OnProcessExit(on_exit=refused)),
-        RegisterEventHandler(
-            OnProcessExit(
-                target_action=ready,
-                on_exit=lambda event, _: [] if event.returncode else list(later.values()),
-            )
-        ),
+        RegisterEventHandler(OnProcessExit(on_exit=lambda event, _: refused(event, ready_once))),
+        RegisterEventHandler(OnProcessExit(target_action=ready, on_exit=begin)),
         ready,
         *shown,
     ]
@@ -238,18 +198,24 @@ def check_scene(name, state_dir):
 
 def unknown(given):
     """Return a warning for each name that resembles an argument, such as robot:=ur5e."""
+    names = [each.name for each in LAB]
     words = [
         f"{name}:= is no argument of the lab (-s lists them); did you mean '{close}'?"
         for name in given
-        if name not in ARGUMENTS and (close := close_to(name, ARGUMENTS))
+        if name not in names and (close := close_to(name, names))
     ]
     return [LogInfo(msg=text) for text in words]
 
 
-def refused(event, _context):
-    """Return what keeps a process that refuses its configuration from being started again."""
+def refused(event, ready_once):
+    """Return what keeps a process that refuses its configuration from being started again.
+
+    While the lab starts, until `ready_once` holds something, it ends the launch by BadInput.
+    """
     if event.returncode != WRONG_CONFIGURATION:
         return []
+    if not ready_once:
+        raise BadInput(f"{event.process_name} refuses its configuration; its last line says why")
     return [EmitEvent(event=ShutdownProcess(process_matcher=matches_action(event.action)))]
 
 

@@ -9,35 +9,19 @@ from launch.substitutions import LaunchConfiguration
 
 from mrlab_ros.adapters.sandbox import python_process
 from mrlab_ros.commands.up.surroundings import graph_range
-
-# By name: default (None: has to be given) and description.
-ARGUMENTS = {
-    "model": (None, "a robot model, such as ur5e; mrlab robots lists them"),
-    "name": ("", "its name; empty: the model and a number"),
-    "x": ("", "where its base goes, m; empty, and y too: a free place"),
-    "y": ("", "where its base goes, m"),
-    "yaw": ("0", "turn about the vertical, degrees"),
-    "end_effector": ("", "an end effector, such as parallel_gripper; empty: none"),
-    "discovery": ("localhost", "who finds the ROS graph, as of lab.launch.py: localhost, subnet"),
-}
+from mrlab_ros.processes.launch_arguments import ROBOT
 
 
 def generate_launch_description():
     """Declare the arguments; the command follows from their values."""
-    declared = [
-        DeclareLaunchArgument(
-            name,
-            description=description,
-            **({} if default is None else {"default_value": default}),
-        )
-        for name, (default, description) in ARGUMENTS.items()
-    ]
+    declared = [DeclareLaunchArgument(each.name, **each.settings) for each in ROBOT]
     return LaunchDescription([*declared, OpaqueFunction(function=spawn)])
 
 
 def spawn(context):
     """Return the command that puts the robot into the lab."""
-    values = {name: LaunchConfiguration(name).perform(context).strip() for name in ARGUMENTS}
+    names = [each.name for each in ROBOT]
+    values = {name: LaunchConfiguration(name).perform(context).strip() for name in names}
     options = ["--yaw", values["yaw"]]
     if values["x"] or values["y"]:
         options += ["--at", f"{values['x'] or 0},{values['y'] or 0}"]

@@ -12,6 +12,7 @@ from mrlab_ros.core.physics.settings import Settings
 from mrlab_ros.core.trajectory.derived_signals import ProxyCoefficients
 from mrlab_ros.gateway.link.limits import LinkLimits
 from mrlab_ros.nodes.parameters import NODES
+from mrlab_ros.processes.launch_arguments import LAB, ROBOT, Argument
 from mrlab_ros.ros.parameters import to_ros
 
 HEAD = """# Parameters
@@ -71,7 +72,23 @@ def current() -> str:
             parts.append(f"## `{node}`\n\n{_table(kind, run_time=True)}\n")
     for title, kind, about in FILES:
         parts.append(f"## {title}\n\n{about}\n\n{_table(kind, run_time=False)}\n")
+    for file, arguments in (("lab", LAB), ("robot", ROBOT)):
+        parts.append(f"## `ros2 launch mrlab_ros {file}.launch.py`\n\n{_arguments(arguments)}\n")
     return "\n".join(parts)
+
+
+def _arguments(arguments: tuple[Argument, ...]) -> str:
+    rows = ["| argument | default | may be | meaning |", "|---|---|---|---|"]
+    for each in arguments:
+        # Whether pybullet is installed here says nothing of another machine.
+        default = (
+            "`true` where pybullet is installed"
+            if each.name == "physics"
+            else (_default(MISSING if each.default is None else each.default))
+        )
+        choices = " or ".join(f"`{choice}`" for choice in each.choices) or "a text"
+        rows.append(f"| `{each.name}:=` | {default} | {choices} | {each.about} |")
+    return "\n".join(rows)
 
 
 def _table(kind: type[Any], *, run_time: bool) -> str:

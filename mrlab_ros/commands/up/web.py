@@ -39,9 +39,12 @@ def checked_web(
     http: HOST:PORT; empty: 8080, on this machine alone unless there is HTTPS. Port 0: a free one.
     """
     from mrlab_ros.gateway.link.limits import read_limits
+    from mrlab_ros.gateway.people.oidc import read_provider
     from mrlab_ros.gateway.settings import Settings, parsed_address
 
     read_limits(limits)
+    if oidc is not None:
+        read_provider(oidc)
     https = keys is not None or certificate is not None
     host, port = parsed_address(http or (HTTP_WITH_KEYS if https else HTTP))
     Settings(

@@ -98,13 +98,18 @@ class Check(Protocol[T_co]):
     def read(self, value: object) -> T_co: ...
 
 
-def _number(value: object, limits: Range, *, whole: bool = False) -> float:
+def _number(value: object, limits: Range, *, whole: bool = False, mirrored: bool = False) -> float:
+    def allowed(number: float) -> bool:
+        return (abs(number) if mirrored else number) in limits
+
     if isinstance(value, str):
         try:
             number = float(value)
         except ValueError:
             raise ValueError from None
         if not math.isfinite(number) or (whole and not number.is_integer()):
+            raise ValueError
+        if not allowed(number):
             raise ValueError
         # YAML takes 1e3 for a text: its numbers need a point and a sign, as in 1.0e+3.
         raise ValueError(said.WITHOUT_QUOTES(number=int(number) if whole else number))
@@ -116,7 +121,7 @@ def _number(value: object, limits: Range, *, whole: bool = False) -> float:
         raise ValueError from None
     if not math.isfinite(number):
         raise ValueError(said.FINITE_NUMBERS())
-    if number not in limits:
+    if not allowed(number):
         raise ValueError
     return number
 
@@ -135,12 +140,7 @@ class Number:
         return said.A_NUMBER(limits=self.limits.words, unit=self.unit or None, sign=sign)
 
     def read(self, value: object) -> float:
-        if not self.mirrored:
-            return _number(value, self.limits)
-        number = _number(value, ANY)
-        if abs(number) not in self.limits:
-            raise ValueError
-        return number
+        return _number(value, self.limits, mirrored=self.mirrored)
 
 
 @dataclass(frozen=True)
@@ -187,9 +187,11 @@ class Text:
         return self.what
 
     def read(self, value: object) -> str:
+        text = str(value)
+        fits = self.pattern is None or self.pattern.fullmatch(text) is not None
         if not isinstance(value, str):
-            raise ValueError(*[said.IN_QUOTES(text=str(value))] * _is_number(value))
-        if self.pattern is not None and not self.pattern.fullmatch(value):
+            raise ValueError(*[said.IN_QUOTES(text=text)] * (fits and _is_number(value)))
+        if not fits:
             raise ValueError
         return value
 
@@ -295,6 +297,7 @@ class Texts:
     def read(self, value: object) -> tuple[str, ...]:
         if isinstance(value, str):
             if not self.single:
+                self.item.read(value)
                 raise ValueError(said.IN_BRACKETS(text=value))
             value = [value]
         if not isinstance(value, list | tuple):

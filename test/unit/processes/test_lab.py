@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import importlib.util
+import io
 import json
 import os
 import sys
@@ -360,13 +361,39 @@ def test_the_launch_file_starts_nothing_for_ever(launched: Launched) -> None:
 
 
 def test_a_process_that_refuses_its_configuration_is_not_started_again(launched: Launched) -> None:
-    (handler,) = (h for h in handlers(launched(web="false")) if "target_action" not in h.kwargs)
+    """While the lab starts it ends the launch, as it ends `mrlab up`."""
+    found = handlers(launched(web="false"))
+    (handler,) = (h for h in found if "target_action" not in h.kwargs)
+    (ready,) = (h for h in found if "target_action" in h.kwargs)
     then, process = handler.kwargs["on_exit"], object()
-    (end,) = then(types.SimpleNamespace(returncode=WRONG_CONFIGURATION, action=process), None)
+    refusal = types.SimpleNamespace(
+        returncode=WRONG_CONFIGURATION, action=process, process_name="web-7"
+    )
+    with pytest.raises(BadInput, match="web-7 refuses"):
+        then(refusal, None)
+    assert ready.kwargs["on_exit"](types.SimpleNamespace(returncode=0), None) == []
+    (end,) = then(refusal, None)
     shutdown = end.kwargs["event"]
     assert type(shutdown).__name__ == "ShutdownProcess"
     assert shutdown.kwargs["process_matcher"].args == (process,)
     assert then(types.SimpleNamespace(returncode=1, action=process), None) == []
+
+
+def test_the_launch_file_refuses_at_once_what_a_process_would_refuse(
+    launched: Launched, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "file").write_text("")
+    for wrong in (
+        {"oidc": str(tmp_path / "none.yaml"), "http": f"127.0.0.1:{free_port(0)}"},
+        {"connect": "foo"},
+        {"store": "nope://x"},
+        {"state_dir": str(tmp_path / "file")},
+    ):
+        given = {"web": "true" if "oidc" in wrong else "false"} | wrong
+        with pytest.raises(BadInput):
+            launched(**given)
+    monkeypatch.setattr("sys.stdout", io.StringIO())
+    assert {p.kwargs.get("emulate_tty") for p in hosts(launched(web="false"))} == {False}
 
 
 def test_the_launch_file_warns_of_a_name_that_is_nearly_an_argument(launched: Launched) -> None:

@@ -144,6 +144,11 @@ def test_a_value_has_the_type_of_its_check(check, value, result):
         (Number(), 10**400, codes.A_NUMBER, None),
         (Number(), "1e3", codes.A_NUMBER, codes.WITHOUT_QUOTES),
         (Number(), "nan", codes.A_NUMBER, None),
+        # What a hint would lead to is refused, too.
+        (Number(between(0, 100)), "5000", codes.A_NUMBER, None),
+        (Number(above(0, 4), mirrored=True), "-5", codes.A_NUMBER, None),
+        (Integer(between(1, 7)), "8", codes.AN_INTEGER, None),
+        (NAME, 7, codes.A_NAME, None),
         (Integer(), "1024", codes.AN_INTEGER, codes.WITHOUT_QUOTES),
         (Integer(between(1, 7)), 2.5, codes.AN_INTEGER, None),
         (FLAG, "yes", codes.TRUE_OR_FALSE, None),
