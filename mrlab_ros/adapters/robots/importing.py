@@ -97,6 +97,7 @@ def import_robot(
     if not root.get("name"):
         # Bullet loads no robot without one.
         root.set("name", robot_id)
+    _drop_nothing(root)
     tree = checks.check_tree(root, source.name)
     if checks.errors(tree):
         return Imported(tree)
@@ -135,6 +136,19 @@ def import_robot(
             yaml.safe_dump(facts, sort_keys=False, allow_unicode=True), encoding="utf-8"
         )
     return Imported(found, parts, closing)
+
+
+def _drop_nothing(root: ET.Element) -> None:
+    """Drop shapes of no size at all, which exporters write for links without a shape."""
+    for link in root.iterfind("link"):
+        for shape in (*link.findall("visual"), *link.findall("collision")):
+            sizes = " ".join(
+                solid.get(name, "")
+                for solid in shape.iterfind("geometry/*")
+                for name in checks.SIZES
+            ).split()
+            if sizes and all(size.strip("0.") == "" for size in sizes):
+                link.remove(shape)
 
 
 @contextmanager

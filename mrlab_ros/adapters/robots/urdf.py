@@ -5,6 +5,7 @@ The nodes need no more of a robot, and no meshes; `assembly` reads whole robots 
 
 from __future__ import annotations
 
+import re
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass
 from pathlib import Path
@@ -41,6 +42,9 @@ MOVING = ("revolute", "continuous", "prismatic")
 LONGEST_NAME = 200
 # Of a line that is shown in an error, characters.
 LONGEST_LINE = 80
+# Prefixes of elements and attributes, and those that are declared.
+PREFIX = re.compile(r"(?:</?|\s)([A-Za-z_][\w.-]*):[A-Za-z_][\w.-]*(?=[\s=/>])")
+DECLARED = re.compile(r"xmlns:([A-Za-z_][\w.-]*)\s*=")
 XACRO = "{http://www.ros.org/wiki/xacro}"
 
 
@@ -55,7 +59,7 @@ def parse(text: str, origin: str) -> ET.Element:
     if not text.strip():
         raise bad_value(origin, None, A_URDF())
     try:
-        root = ET.fromstring(text)
+        root = ET.fromstring(_bound(text))
     except ET.ParseError as error:
         raise not_xml(origin, error, text) from None
     if root.tag != "robot":
@@ -65,6 +69,14 @@ def parse(text: str, origin: str) -> ET.Element:
         tag, name = xacro.removeprefix(XACRO), Path(origin).name
         raise BadInput(STILL_XACRO(file=origin, tag=tag, name=name))
     return root
+
+
+def _bound(text: str) -> str:
+    """Return a URDF whose prefixes all have a namespace: simulators' own elements often lack it,
+    and the parsers of ROS do not mind."""
+    used = set(PREFIX.findall(text)) - {"xacro", "xml", "xmlns", *DECLARED.findall(text)}
+    names = "".join(f' xmlns:{prefix}="{prefix}"' for prefix in sorted(used))
+    return text.replace("<robot", f"<robot{names}", 1) if names else text
 
 
 def not_xml(origin: str, error: ET.ParseError, text: str) -> BadInput:

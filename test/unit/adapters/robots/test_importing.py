@@ -94,6 +94,18 @@ def test_imported_robot_is_a_robot_of_the_lab(arm: Path, library: RobotLibrary) 
     assert library.mesh_path("package://mrlab_ros/robots/mine/meshes/00_box.stl").is_file()
 
 
+def test_what_other_programs_leave_in_a_description_is_passed_over(
+    arm: Path, library: RobotLibrary
+) -> None:
+    nothing = '<visual><geometry><box size="0 0 0"/></geometry></visual>'
+    sensor = '<gazebo><sensor:camera name="rgb"/><plugin xlink:href="x"/></gazebo>'
+    text = ARM.replace('<link name="upper"/>', f'<link name="upper">{nothing}</link>')
+    arm.write_text(text.replace("</robot>", f"{sensor}</robot>"))
+    found = import_robot(arm, "mine", library, {"arm": arm.parent / "package"}).findings
+    assert checks.errors(found) == ()
+    assert "box" not in library.description("mine").replace("00_box.stl", "")
+
+
 def test_missing_mesh_is_named(arm: Path, library: RobotLibrary) -> None:
     found = import_robot(arm, "mine", library, {}).findings
     (missing,) = checks.errors(found)
