@@ -1,4 +1,4 @@
-import { signal } from '@preact/signals'
+import { effect, signal } from '@preact/signals'
 import { Matrix4, Quaternion, Vector3 } from 'three'
 import type { LabFollower } from '../lab/follower'
 import { LookHere } from '../lab/people/look_here'
@@ -231,6 +231,7 @@ export class Room {
     this.guide = new Guide(ports, this, targets)
     this.board.tabs = tabsOf(ports, parts, this)
     this.undo = [
+      effect(() => this.anchor.goTo(this.follower.place.value?.id ?? '')),
       pauseNews(link, (who, names) =>
         ports.say(words.room.pausedBy(named(who), names.join(', '))),
       ),

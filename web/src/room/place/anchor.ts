@@ -8,6 +8,8 @@ export type Hold = 'kept' | 'session' | 'none'
 const KEY = 'mrlab.room.anchor'
 /** ms for which the scene waits for the place of an earlier session; the search goes on after it. */
 const FOUND_MS = 4000
+/** ms of it in which only an anchor of the lab's place counts; then any of this room does. */
+const OWN_MS = 2000
 /** ms between two attempts to restore a place that the headset refused. */
 const RETRY_MS = 2000
 /** A headset has few places for all pages and apps. */
@@ -35,14 +37,35 @@ export function anchorNews({ words: { room }, say }: Speech): AnchorNews {
   }
 }
 
-/** Return the handles of the places that this headset keeps, the newest first. */
-function keptHandles(): string[] {
-  return localStorage.getItem(KEY)?.split('\n') ?? []
+/** An anchor that this headset keeps, and the id of the lab's place that it holds; one anchor may
+ * hold several, an empty id any. */
+interface Kept {
+  readonly handle: string
+  readonly place: string
 }
 
-function storeHandles(handles: readonly string[]): void {
-  if (handles.length === 0) localStorage.removeItem(KEY)
-  else localStorage.setItem(KEY, handles.join('\n'))
+/** Return the anchors that this headset keeps, the newest first. */
+function keptAnchors(): Kept[] {
+  const lines = localStorage.getItem(KEY)?.split('\n') ?? []
+  return lines.map((line) => {
+    const [handle = '', place = ''] = line.split('\t')
+    return { handle, place }
+  })
+}
+
+function store(kept: readonly Kept[]): void {
+  const lines = kept.map(({ handle, place }) => (place === '' ? handle : `${handle}\t${place}`))
+  if (lines.length === 0) localStorage.removeItem(KEY)
+  else localStorage.setItem(KEY, lines.join('\n'))
+}
+
+function keptHandles(): string[] {
+  return [...new Set(keptAnchors().map(({ handle }) => handle))]
+}
+
+/** Return whether an anchor is known to hold a place of the lab. */
+function holds(handle: string, place: string): boolean {
+  return keptAnchors().some((kept) => kept.handle === handle && kept.place === place)
 }
 
 /** Holds the group that contains the whole lab. World poses are stored nowhere: after a recentre
@@ -64,6 +87,8 @@ export class SceneAnchor {
   /** The handle of an earlier place that was found after the scene was placed; empty: none. */
   private earlier = ''
   private retryAt = Number.POSITIVE_INFINITY
+  /** Id of the lab's place; empty: the lab has not said. */
+  private labPlace = ''
 
   constructor(
     private readonly group: Object3D,
@@ -83,6 +108,26 @@ export class SceneAnchor {
   /** True if an earlier place of this room is known, and the scene stands elsewhere. */
   get canPutBack(): boolean {
     return this.earlier !== ''
+  }
+
+  /** Return whether the group is at an anchor that holds a place of the lab. */
+  at(place: string): boolean {
+    return this.held && holds(this.handle, place)
+  }
+
+  /** The lab stands in another place now: the scene goes to the anchor that holds it, if this
+   * headset has found one here; else it stays, and its anchor holds that place too. */
+  goTo(place: string): void {
+    if (place === this.labPlace) return
+    this.labPlace = place
+    if (this.handle === '' || this.at(place)) return
+    for (const [handle, anchor] of this.restored) {
+      if (!holds(handle, place)) continue
+      if (this.anchor !== null) this.restored.set(this.handle, this.anchor)
+      this.adopt(handle, anchor)
+      return
+    }
+    store([{ handle: this.handle, place }, ...keptAnchors()])
   }
 
   /** Restore the anchors of earlier sessions, if there are any. */
@@ -193,10 +238,16 @@ export class SceneAnchor {
   private find(frame: XRFrame, space: XRReferenceSpace): void {
     if (this.session !== null && performance.now() >= this.retryAt) this.seek(this.session)
     if (this.earlier !== '') return
+    const any = performance.now() > this.waitsUntil - FOUND_MS + OWN_MS
     for (const [handle, anchor] of this.restored) {
       if (frame.getPose(anchor.anchorSpace, space) === undefined) continue
-      if (this.waits) this.adopt(handle, anchor)
-      else {
+      const own = this.labPlace === '' || holds(handle, this.labPlace)
+      if (this.waits) {
+        if (!own && !any) continue
+        this.adopt(handle, anchor)
+      } else {
+        // That of another place of this room is where it is to be.
+        if (!own && this.at(this.labPlace)) continue
         this.earlier = handle
         this.news.returned()
       }
@@ -227,7 +278,7 @@ export class SceneAnchor {
     if (handle === '') return
     this.restored.delete(handle)
     if (this.earlier === handle) this.earlier = ''
-    storeHandles(keptHandles().filter((each) => each !== handle))
+    store(keptAnchors().filter((kept) => kept.handle !== handle))
     await this.session?.deletePersistentAnchor?.(handle).catch(() => undefined)
   }
 
@@ -261,7 +312,7 @@ export class SceneAnchor {
         await this.session?.deletePersistentAnchor?.(handle)
         return
       }
-      storeHandles([handle, ...keptHandles()])
+      store([{ handle, place: this.labPlace }, ...keptAnchors()])
       this.handle = handle
       this.hold = 'kept'
     } catch {

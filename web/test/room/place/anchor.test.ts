@@ -204,4 +204,26 @@ describe('the anchor of the scene', () => {
     await settled()
     expect([...headset.places]).toEqual([kept.get(KEY)])
   })
+
+  it('of the place in which the lab stands goes before others of the same room', async () => {
+    const headset = new Headset(8)
+    anchor.goTo('a')
+    await anchor.restore(headset.session)
+    await placeAt(headset, 1)
+    // The same anchor holds the new place as well, until the scene is moved.
+    anchor.goTo('b')
+    expect(kept.get(KEY)).toBe('place 0\tb\nplace 0\ta')
+    kept.set(KEY, 'place 1\ta\nplace 2\tb')
+    for (const place of ['place 1', 'place 2']) headset.places.add(place)
+    anchor.end()
+    await anchor.restore(headset.session)
+    anchor.update(headset.frame, floor)
+    expect(anchor.at('b')).toBe(true)
+    // The lab goes elsewhere, as with a scene that is loaded, and back.
+    anchor.goTo('a')
+    anchor.update(headset.frame, floor)
+    expect([anchor.at('a'), anchor.hold, returns]).toEqual([true, 'kept', 0])
+    anchor.goTo('b')
+    expect(anchor.at('b')).toBe(true)
+  })
 })
