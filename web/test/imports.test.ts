@@ -54,7 +54,7 @@ const PARTS: Readonly<Record<string, Layers>> = {
     systems: 'input layout panels ports',
     grab: 'place',
     layout: 'panels ports',
-    panels: 'input',
+    panels: 'input ports',
     input: 'scene',
     place: 'people ports scene',
     people: 'ports scene',

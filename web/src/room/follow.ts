@@ -1,13 +1,14 @@
 import { effect, type ReadonlySignal } from '@preact/signals'
 import { THEMES } from '../design/tokens'
 import { commandsOf } from '../lab/commands'
-import type { CourseOf } from '../lab/followed_robot'
+import type { CourseOf, RobotView } from '../lab/followed_robot'
 import { type FollowedScene, LabFollower } from '../lab/follower'
 import { outageWords } from '../lab/outages'
 import type { LabScene } from '../scene/lab/lab_scene'
 import type { ShownSurface } from '../scene/lab/surfaces'
 import { themeNow } from '../scene/stage/theme'
 import { sentence, spoken } from '../words/diagnostic'
+import type { Words } from '../words/en'
 import type { Board } from './board/board'
 import type { ObjectHandles } from './handles/object_handles'
 import type { Catalogue, Entry, Lab, Speech } from './ports'
@@ -63,6 +64,16 @@ export function followedScene(parts: FollowedParts): FollowedScene {
     frame: () => undefined,
     robot: (name) => scene.robot(name),
   }
+}
+
+/** Return which robots are halted, and by what. */
+export function haltWords(robots: readonly RobotView[], words: Words): string {
+  const halted = robots.filter(({ state }) => state === 'COLLISION_HALT')
+  return halted
+    .map(({ robot, touching }) =>
+      [robot.name, words.states.COLLISION_HALT, touching].filter(Boolean).join(' · '),
+    )
+    .join('; ')
 }
 
 /** s between two checks of the link: a silent lab sends no message. */

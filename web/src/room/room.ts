@@ -10,7 +10,7 @@ import { MeshLibrary } from '../scene/robot/meshes'
 import { named } from '../words/words'
 import { Board } from './board/board'
 import { BoardPlace } from './board/board_place'
-import { followedScene, listen, roomFollower } from './follow'
+import { followedScene, haltWords, listen, roomFollower } from './follow'
 import { ObjectHandles } from './handles/object_handles'
 import { Placing } from './handles/placing'
 import { Pointing } from './handles/pointing'
@@ -20,6 +20,7 @@ import { Targets } from './input/targets'
 import { Stats } from './latency'
 import { Arrangement } from './layout/arrangement'
 import { Opened } from './layout/opened'
+import { Caption } from './panels/caption'
 import { soundFeedback } from './panels/feedback'
 import { OwnPresence } from './people/own_presence'
 import { pauseNews } from './people/pausing'
@@ -65,6 +66,7 @@ export class Room {
   readonly look = new Quaternion()
   readonly follower: LabFollower
   readonly board: Board
+  readonly caption: Caption
   readonly panels: RobotPanels
   readonly systems: SystemPanels
   readonly opened = new Opened()
@@ -136,7 +138,11 @@ export class Room {
     const stick = (pointer: Pointer, axis: 'x' | 'y') =>
       this.visit.inputs?.stick(pointer, axis) ?? 0
     this.placing = new Placing(ports, targets, stick, repaint)
-    this.stage.panels.add(this.board.panel.group)
+    this.caption = new Caption(
+      ports,
+      () => this.settings.captions.value && this.visit.inside.value,
+    )
+    this.stage.panels.add(this.board.panel.group, this.caption.panel.group)
     targets.add(this.board.panel)
     const arrangement = new Arrangement(ports, {
       robots: () => this.robots.links(),
@@ -247,7 +253,10 @@ export class Room {
         panels: this.panels,
         systems: this.systems,
         troubles: this.troubles,
-        halt: () => this.sound.halt(),
+        halt: () => {
+          this.sound.halt()
+          this.caption.say(haltWords(this.follower.robots.value, words))
+        },
       }),
     ]
     this.stage.renderer.setAnimationLoop((time, frame) => this.draw(time, frame))
@@ -300,6 +309,7 @@ export class Room {
     this.stats.dispose()
     this.systems.dispose()
     this.board.panel.dispose()
+    this.caption.panel.dispose()
     this.scene.dispose()
     this.sound.dispose()
     this.stage.dispose()
@@ -383,6 +393,7 @@ export class Room {
     this.overlays.update(this.settings.still.value ? 0 : now)
     if (this.boardPlace.update(this, now, step)) this.stage.invalidate()
     this.board.update(now)
+    this.caption.update(this, now, step)
     this.guide.update(this.visit.inputs)
     if (this.people.update(now, step)) this.stage.invalidate()
     if (this.lookHere.update(now)) this.stage.invalidate()

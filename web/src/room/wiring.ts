@@ -18,6 +18,7 @@ import { objectToPlace, robotToPlace } from './handles/placeables'
 import type { Placing } from './handles/placing'
 import type { Pointing } from './handles/pointing'
 import type { Stats } from './latency'
+import type { Caption } from './panels/caption'
 import type { Feedback, Surroundings } from './panels/panel'
 import type { Spawning } from './place/spawning'
 import type { Ground, Obstacle, Support, Wall } from './place/supports'
@@ -65,6 +66,7 @@ export type Ports = TabPorts &
 interface Wired extends Viewer {
   readonly stage: RoomStage
   readonly board: Board
+  readonly caption: Pick<Caption, 'say'>
   readonly robots: RoomRobots
   readonly settings: Settings
   readonly visit: Pick<Visit, 'inside'>
@@ -126,7 +128,10 @@ export function portsOf(
       return room.visit.inside.value ? null : room.stage.camera
     },
     repaintBoard: () => room.board.panel.repaint(),
-    say: (text, warns) => room.board.say(text, warns),
+    say: (text, warns) => {
+      room.board.say(text, warns)
+      room.caption.say(text)
+    },
   }
 }
 

@@ -849,8 +849,8 @@ export const words: Words = {
     axes: (count: number) => `${count} Achsen`,
     placed: (name: string) => `${name} steht dort. Halte seinen Sockel, um ihn zu tragen.`,
     placing:
-      'Zeige auf den Boden oder einen Tisch; der Stick dreht. Der Abzug stellt auf; in die Luft gezogen legt er weg.',
-    placingShort: 'Abzug: hier aufstellen · Stick: drehen',
+      'Zeige auf den Boden oder einen Tisch; der Stick dreht, oder drück und geh zur Seite. Loslassen stellt auf, in der Luft legt es weg.',
+    placingShort: 'Drücken: hier aufstellen · Stick, oder drücken und zur Seite: drehen',
     hindered: {
       edge: 'Es stünde über der Kante. Zeige weiter nach innen.',
       thing: 'Es stünde in einem anderen Ding. Zeige daneben.',
@@ -948,6 +948,8 @@ export const words: Words = {
     alignUndone: 'Die Szene steht, wo sie vorher stand.',
     settings: 'Optionen',
     leftHandedAbout: 'Tafeln stehen auf der anderen Seite, für die linke Hand.',
+    captions: 'Untertitel',
+    captionsAbout: 'Was geschieht, steht unten im Bild, auch was sonst nur zu hören ist.',
     seated: 'Im Sitzen',
     seatedAbout:
       'Tafeln kommen tiefer, in virtueller Realität auch der Boden. Roboter trägt der Strahl.',

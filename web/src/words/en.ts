@@ -799,8 +799,8 @@ export const en = {
     axes: (count: number) => `${count} axes`,
     placed: (name: string) => `${name} stands there. Hold its base to carry it.`,
     placing:
-      'Point at the floor or a table; the stick turns it. The trigger places it; pulled into the air, it puts it away.',
-    placingShort: 'Trigger: place here · stick: turn',
+      'Point at the floor or a table; the stick turns it, or press and go sideways. Let go places it; in the air, it puts it away.',
+    placingShort: 'Press: place here · stick, or press and go sideways: turn',
     hindered: {
       edge: 'It would stand over the edge. Point further in.',
       thing: 'It would stand in another thing. Point beside it.',
@@ -896,6 +896,8 @@ export const en = {
     alignUndone: 'The scene stands where it stood before.',
     settings: 'Settings',
     leftHandedAbout: 'Panels stand on the other side, for the left hand to press.',
+    captions: 'Captions',
+    captionsAbout: 'What happens is written low in the view, also what is only heard.',
     seated: 'Seated',
     seatedAbout:
       'Panels come lower; in virtual reality the floor does too. Carry robots by the ray.',

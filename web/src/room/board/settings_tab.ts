@@ -7,8 +7,8 @@ import { BOARD_WIDTH, BOTTOM, EDGE, type Tab, TOP } from './board'
 
 const SWITCH = 270
 /** Height of a row, and the gap between two. */
-const ROW = 47
-const BETWEEN = 6
+const ROW = 42
+const BETWEEN = 5
 const ABOUT = EDGE + SWITCH + 20
 
 /** The tab of a person's own settings. */
@@ -20,6 +20,7 @@ export function settingsTab(ports: Speech, settings: Settings, tour: () => void)
     ['large_text', settings.largeText, w.largeText, w.largeTextAbout],
     ['contrast', settings.contrast, w.contrast, w.contrastAbout],
     ['still', settings.still, w.still, w.stillAbout],
+    ['captions', settings.captions, w.captions, w.captionsAbout],
     ['occlusion', settings.occlusion, w.occlusion, w.occlusionAbout],
   ]
   return {

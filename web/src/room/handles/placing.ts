@@ -27,6 +27,9 @@ const ABOVE = 0.004
 /** Height of the sentence over what is placed, as a part of the distance to it; and m above its foot. */
 const PROMPT = 0.032
 const OVER = 0.8
+/** rad that a thing turns for each that the pressed ray goes sideways, beyond what trembles. */
+const GAIN = 4
+const STEADY = 0.04
 /** m along a ray that meets no surface: there what is placed is put away. */
 const AIR = 4
 /** rad: at a smaller bearing from the vertical the viewer is above, and says no direction. */
@@ -34,6 +37,11 @@ const BELOW = 0.05
 
 const inverse = new Matrix4()
 const local = new Ray()
+
+/** Return the direction of a ray about the vertical, rad. */
+function bearing({ direction: { x, z } }: Ray): number {
+  return Math.atan2(x, z)
+}
 
 /** The look of a thing before it is placed: translucent, at real size, its origin on the ground. */
 export interface Ghost {
@@ -64,6 +72,9 @@ export class Placing implements Target {
     new MeshBasicMaterial({ color: CLEAR, transparent: true, opacity: 0.8, depthWrite: false }),
   )
   private pointer: Pointer | null = null
+  /** The pointer that is pressed: what is placed stands, and turns as the ray goes sideways. from,
+   * turned: of the ray and of the thing at the press, rad. */
+  private held: { pointer: Pointer; from: number; turned: number } | null = null
   private readonly land: Place = { x: 0, y: 0, z: 0, support: '' }
   private landed = false
   /** rad, added to the heading towards the viewer. */
@@ -122,7 +133,7 @@ export class Placing implements Target {
     this.ghost?.dispose()
     this.ghost?.root.removeFromParent()
     this.ghost = null
-    this.pointer = null
+    this.pointer = this.held = null
     this.landed = this.ring.visible = false
     this.say(false)
     this.targets.remove(this)
@@ -132,7 +143,7 @@ export class Placing implements Target {
   }
 
   cast(ray: Ray, hit: Hit): boolean {
-    if (this.lands(ray)) {
+    if (this.held === null ? this.lands(ray) : this.landed) {
       const { x, y, z } = this.land
       this.ports.world.localToWorld(hit.point.set(x, y, z))
     } else ray.at(AIR, hit.point)
@@ -142,19 +153,27 @@ export class Placing implements Target {
 
   on(signal: Signal): void {
     const { pointer } = signal
+    const { held } = this
+    if (held !== null && held.pointer !== pointer) return
     if (signal.kind !== 'leave') this.pointer = pointer
     else if (this.pointer === pointer) this.pointer = null
-    if (signal.kind !== 'down') return
-    this.ports.feedback('press', signal)
-    if (signal.button === 'grip') this.end()
-    else this.put()
+    if (signal.kind === 'down') {
+      this.ports.feedback('press', signal)
+      if (signal.button === 'grip') this.end()
+      else this.held = { pointer, from: bearing(pointer.ray), turned: this.turned }
+    } else if (signal.kind === 'cancel') this.held = null
+    else if (held !== null && signal.kind === 'move') {
+      const way = Math.asin(Math.sin(bearing(pointer.ray) - held.from))
+      this.turned = held.turned + GAIN * Math.sign(way) * Math.max(Math.abs(way) - STEADY, 0)
+    } else if (held !== null && signal.kind === 'up') this.put()
   }
 
   /** Before each picture. step: s. */
   update(step: number): void {
     const { chosen, ghost, pointer } = this
     if (chosen === null || ghost === null) return
-    if (pointer !== null) this.turned -= this.stick(pointer, 'x') * TURN_SPEED * step
+    if (pointer !== null && this.held === null)
+      this.turned -= this.stick(pointer, 'x') * TURN_SPEED * step
     this.aim()
     ghost.root.visible = this.landed
     this.ring.visible = this.landed && chosen.reach > 0
@@ -205,7 +224,9 @@ export class Placing implements Target {
   /** Find the place under the ray: it faces the viewer, turned by the stick. */
   private aim(): void {
     const { chosen, pointer, ports, land } = this
-    this.landed = chosen !== null && pointer !== null && this.lands(pointer.ray)
+    if (this.held === null) {
+      this.landed = chosen !== null && pointer !== null && this.lands(pointer.ray)
+    }
     if (chosen === null || !this.landed) return
     const viewer: Vector3 = ports.world.worldToLocal(local.origin.copy(ports.head))
     const [dx, dy] = [viewer.x - land.x, viewer.y - land.y]
@@ -222,6 +243,7 @@ export class Placing implements Target {
       this.end()
       return
     }
+    this.held = null
     const { pose, hindrance, land } = this
     if (pose === null) {
       ports.say(ports.words.room.hindered[hindrance ?? 'thing'])

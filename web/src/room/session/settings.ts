@@ -65,6 +65,8 @@ export class Settings {
   readonly largeText = new Switch('large_text')
   readonly contrast = new Switch('contrast', matchMedia('(prefers-contrast: more)').matches)
   readonly still = new Switch('still', matchMedia('(prefers-reduced-motion: reduce)').matches)
+  /** True if what happens is written low in the view. */
+  readonly captions = new Switch('captions')
   /** True if real things hide robots and objects behind them. */
   readonly occlusion = new Switch('occlusion', true)
   /** The light of the real room, few of whose headsets estimate it. */

@@ -88,6 +88,9 @@ describe('a robot that is placed', () => {
       aim(x, y, z)
       const shown = placing.pose
       pointer.press('select')
+      // A hand that trembles at the press changes nothing.
+      aim(x + 0.01, y + 0.01, z)
+      pointer.release('select')
       const { pose, support } = put.at(-1) ?? {}
       expect(pose).toEqual(shown)
       const { position } = pose as Pose
@@ -115,6 +118,18 @@ describe('a robot that is placed', () => {
     expect(headingOf(placing.pose)).toBeCloseTo(before - 0.8)
   })
 
+  test('turns where it stands as a pressed ray goes sideways, for hands that have no stick', () => {
+    aim(1.0, 1.4, 0)
+    const before = placing.pose
+    pointer.press('select')
+    aim(1.3, 1.4, 0)
+    const held = placing.pose
+    expect(held?.position).toEqual(before?.position)
+    expect(Math.abs(headingOf(held) - headingOf(before))).toBeGreaterThan(0.2)
+    pointer.release('select')
+    expect(put.at(-1)?.pose).toEqual(held)
+  })
+
   test('is refused with the reason where it would stand in a person', () => {
     ground = {
       ...ground,
@@ -122,9 +137,9 @@ describe('a robot that is placed', () => {
     }
     aim(1.0, 1.4, 0)
     pointer.press('select')
+    pointer.release('select')
     expect(put).toEqual([])
     expect(said.at(-1)).toBe(en.room.hindered.person)
-    pointer.release('select')
     pointer.press('grip')
     expect(placing.active).toBe(false)
   })
