@@ -406,6 +406,7 @@ export const words: Words = {
       `Es sind Bewegungen von ${robot} und ${other}, deren Gelenke nicht vergleichbar sind.`,
     deviation: (joint, amount, time, row) =>
       `Am weitesten auseinander in ${joint}: ${amount} bei ${time} s, Zeile ${row}.`,
+    delayed: (delay, left) => `Die zweite ist ${delay} s später; ohne das: ${left}`,
   },
   signIn: {
     title: 'Anmelden',

@@ -355,6 +355,8 @@ export const en = {
       `They are motions of ${robot} and ${other}, whose joints cannot be compared.`,
     deviation: (joint: string, amount: string, time: string, row: number) =>
       `Farthest apart in ${joint}: ${amount} at ${time} s, row ${row}.`,
+    delayed: (delay: string, left: string) =>
+      `The second is ${delay} s later; without that: ${left}`,
   },
   signIn: {
     title: 'Sign in',

@@ -5,9 +5,11 @@ import { courseOf } from '../../playback/course'
 import { type MotionDocument, sameJoints } from '../../playback/motion'
 import { jointName, number, words } from '../../words/words'
 import { shortName } from './catalogue'
-import { largestDeviation } from './deviation'
+import { type Deviation, delayOf, largestDeviation } from './deviation'
 
 const DEGREES = 180 / Math.PI
+/** Share of their deviation that is left of motions that are alike but for a delay. */
+const ALIKE = 0.5
 
 interface ComparisonProps {
   id: string
@@ -22,19 +24,22 @@ function inWords(motion: MotionDocument, otherMotion: MotionDocument): string {
   const { joints } = motion.robot
   if (!sameJoints(motion, otherMotion))
     return w.otherJoints(motion.robot.model, otherMotion.robot.model)
-  const largest = largestDeviation(courseOf(motion), courseOf(otherMotion))
+  const [course, other] = [courseOf(motion), courseOf(otherMotion)]
+  const inText = ({ joint: place, amount, time, row }: Deviation) => {
+    const joint = joints[place]
+    const far =
+      joint?.kind === 'prismatic'
+        ? `${number(amount * 1000, 2)} mm`
+        : `${number(amount * DEGREES, 2)}°`
+    return w.deviation(jointName(joint?.name ?? '', place), far, number(time, 2), row)
+  }
+  const largest = largestDeviation(course, other)
   if (largest === null) return w.same
-  const joint = joints[largest.joint]
-  const amount =
-    joint?.kind === 'prismatic'
-      ? `${number(largest.amount * 1000, 2)} mm`
-      : `${number(largest.amount * DEGREES, 2)}°`
-  return w.deviation(
-    jointName(joint?.name ?? '', largest.joint),
-    amount,
-    number(largest.time, 2),
-    largest.row,
-  )
+  const delay = delayOf(course, other)
+  const left = largestDeviation(course, other, delay)
+  // A measured motion begins when somebody began to capture it.
+  if (left === null || left.amount > largest.amount * ALIKE) return inText(largest)
+  return `${inText(largest)} ${w.delayed(number(delay, 3), inText(left))}`
 }
 
 /** Return the deviation of two motions, in words. */
