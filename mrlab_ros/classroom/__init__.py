@@ -24,6 +24,7 @@ POLICY = {
     ("DELETE", "/api/class/run"): "instructor",
     ("POST", "/api/class/proposed"): "instructor",
     ("DELETE", "/api/class/proposed"): "instructor",
+    ("POST", "/api/class/before"): "instructor",
     ("POST", "/api/class/acts"): "instructor",
     ("POST", "/api/class/release"): "instructor",
     ("GET", "/api/class/feedback.zip"): "instructor",

@@ -51,7 +51,7 @@ def grade(
     fresh: Annotated[bool, typer.Option("--fresh", help="Check everything again.")] = False,
     csv_template: Annotated[
         Path | None,
-        typer.Option(help="Moodle's grading worksheet, to be filled by its identifiers."),
+        typer.Option(help="Table of Moodle, Canvas or ILIAS (CSV), to be filled."),
     ] = None,
     form: Annotated[
         str,

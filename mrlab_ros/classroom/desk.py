@@ -31,12 +31,13 @@ from mrlab_ros.classroom.diagnostics import (
     SOURCE_TOO_LARGE,
     SOURCES_MISSING,
 )
-from mrlab_ros.classroom.folder import CLASS, FEEDBACK, HELD, PROPOSED, SOURCES
+from mrlab_ros.classroom.folder import BEFORE, CLASS, FEEDBACK, HELD, PROPOSED, SOURCES
 from mrlab_ros.classroom.journal_file import JournalFile
 from mrlab_ros.classroom.mark import read_rubric
 from mrlab_ros.classroom.marks import changes, gradebook
+from mrlab_ros.classroom.marks.diagnostics import NOTHING_TO_UNDO
 from mrlab_ros.classroom.marks.exports import CANVAS_FORM, MOODLE_FORM
-from mrlab_ros.classroom.marks.journal import ADOPT, RELEASE, Entry, State, refusal
+from mrlab_ros.classroom.marks.journal import ADOPT, RELEASE, TAKE_BACK, Entry, State, refusal
 from mrlab_ros.classroom.shown import ClassFolder
 from mrlab_ros.core.base.diagnostic import Diagnostic, from_plain
 from mrlab_ros.core.base.errors import BadInput, LabError
@@ -88,6 +89,11 @@ class Desk:
         """Return the place of the export that the next run marks."""
         return self.folder / SOURCES / job.EXPORT
 
+    @property
+    def has_before(self) -> bool:
+        """Return whether the marks of the run before can hold again."""
+        return (self.folder / BEFORE).exists()
+
     def missing(self) -> list[str]:
         """Return the files that the rubric names and that are not there. Raises BadInput."""
         path = self.folder / SOURCES / job.RUBRIC
@@ -97,10 +103,10 @@ class Desk:
         reference = Path(rubric.reference)
         return [reference.name] if rubric.reference and not reference.exists() else []
 
-    def form(self) -> str:
+    def form(self, place: str = SOURCES) -> str:
         """Return the form of the export that was said, empty: it is recognised."""
         with contextlib.suppress(OSError):
-            return (self.folder / SOURCES / FORM).read_text()
+            return (self.folder / place / FORM).read_text()
         return ""
 
     async def take(self, name: str, body: AsyncIterator[bytes]) -> None:
@@ -123,10 +129,12 @@ class Desk:
             raise BadInput(CLASS_RUNS(folder=self.folder.name))
         there = {name for name, _ in self.sources()}
         for name, what in ((job.EXPORT, "export"), (job.RUBRIC, "rubric")):
-            if name not in there and how != job.FINAL:
+            if name not in there and how not in (job.FINAL, job.BACK):
                 raise BadInput(SOURCES_MISSING(what=what))
         if how == job.HOLD and not (self.folder / PROPOSED / CLASS).exists():
             raise BadInput(NOTHING_PROPOSED())
+        if how == job.BACK and not self.has_before:
+            raise BadInput(NOTHING_TO_UNDO())
         if how == job.PROPOSE and not (self.folder / CLASS).exists():
             how = job.HOLD
         if form is not None:
@@ -156,8 +164,9 @@ class Desk:
 
     async def _follow(self, run: Run) -> None:
         command = python_process.command(
-            job.__name__, str(self.folder.absolute()), run.how, self.form()
-        )
+            job.__name__, str(self.folder.absolute()), run.how,
+            self.form(BEFORE if run.how == job.BACK else SOURCES),
+        )  # fmt: skip
         environment = {**os.environ, "PYTHONPATH": python_process.search_path()}
         ended = False
         try:
@@ -177,7 +186,7 @@ class Desk:
             if not ended and run.problem is None and not run.stopped:
                 run.problem = CLASS_RUN_ENDED(why=death(status or 1))
             if ended and run.how != job.PROPOSE:
-                did = RELEASE if run.how == job.FINAL else ADOPT
+                did = {job.FINAL: RELEASE, job.BACK: TAKE_BACK}.get(run.how, ADOPT)
                 await asyncio.to_thread(self.act, Entry(time.time(), run.who, did))
         except LabError as error:
             run.problem = error.diagnostic
@@ -190,7 +199,9 @@ class Desk:
         """Write an act into the journal; raise BadInput where it cannot be done."""
 
         def made(state: State) -> list[Entry]:
-            if entry.did != ADOPT and (why := refusal(state, entry, self.points(state))):
+            if entry.did not in (ADOPT, TAKE_BACK) and (
+                why := refusal(state, entry, self.points(state))
+            ):
                 raise BadInput(why)
             return [entry]
 

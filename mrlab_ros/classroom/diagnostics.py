@@ -150,8 +150,7 @@ NOT_RELEASED = Code(
 )
 NO_WORKSHEET_GIVEN = Code(
     "no_worksheet_given",
-    "Moodle's grading worksheet was not handed in; hand it in, undo the release, and release "
-    "again.",
+    "The platform's table was not handed in; hand it in, undo the release, and release again.",
 )
 NOT_WRITABLE = Code("not_writable", "{file} cannot be written: {why:problem}.")
 # processes that check

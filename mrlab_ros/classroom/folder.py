@@ -29,11 +29,12 @@ KEPT, PAGES, FEEDBACK, RESULTS, TRAJECTORIES, EVIDENCE = FOLDERS = (
 )  # fmt: skip
 # What the next run reads, what the last one read, and the marks that a run proposes.
 SOURCES, HELD, PROPOSED = "sources", "held", "proposed"
+BEFORE = "before"  # what the run before the last one read, so that it can hold again
 COURSE, HANDED_IN = "course.json", "handed_in"  # of the course that is connected
 RUNNING = ".running"  # locked while a run writes
 OWN = (
-    CLASS, INDEX, TABLE, CHANGES, JOURNAL, WORKSHEET, *FOLDERS, SOURCES, HELD, PROPOSED, COURSE,
-    HANDED_IN, RUNNING,
+    CLASS, INDEX, TABLE, CHANGES, JOURNAL, WORKSHEET, *FOLDERS, SOURCES, HELD, PROPOSED, BEFORE,
+    COURSE, HANDED_IN, RUNNING,
 )  # fmt: skip
 
 

@@ -1,7 +1,7 @@
 """A run of a class for the desk of the gateway, in a process of its own.
 
-It takes the folder of the class and one of PROPOSE, HOLD and FINAL, and prints JSON lines: how
-many submissions are done of how many, and at the end that it is done, or the problem.
+It takes the folder of the class and one of PROPOSE, HOLD, FINAL and BACK, and prints JSON lines:
+how many submissions are done of how many, and at the end that it is done, or the problem.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from typing import Any
 
 from mrlab_ros.adapters import share
 from mrlab_ros.app.check.file import scene_of
-from mrlab_ros.classroom.folder import HELD, PROPOSED, SOURCES, WORKSHEET
+from mrlab_ros.classroom.folder import BEFORE, HELD, PROPOSED, SOURCES, WORKSHEET
 from mrlab_ros.classroom.mark import read_rubric
 from mrlab_ros.classroom.run import Request, form_of, marked, of_rubric
 from mrlab_ros.classroom.setup import Bounds, Setup
@@ -23,16 +23,17 @@ from mrlab_ros.core.base.diagnostic import Diagnostic, Severity, plain
 from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.conversion.options import Options
 
-PROPOSE, HOLD, FINAL = "propose", "hold", "final"
+PROPOSE, HOLD, FINAL, BACK = "propose", "hold", "final", "back"
 EXPORT, RUBRIC, SHEET = "export.zip", "rubric.yaml", "worksheet.csv"
 
 
 def work(folder: Path, how: str, form: str) -> list[Diagnostic]:
     """Mark the class from its sources; return what its teacher has to know. Raises LabError.
 
-    PROPOSE writes no page and changes no mark that holds; HOLD and FINAL let the marks hold.
+    PROPOSE writes no page and changes no mark that holds; HOLD and FINAL let the marks hold, BACK
+    those of the run before.
     """
-    sources = folder / (HELD if how == FINAL else SOURCES)
+    sources = folder / {FINAL: HELD, BACK: BEFORE}.get(how, SOURCES)
     proposes = how == PROPOSE
     setup = setup_of(sources, pages=not proposes)
     sheet = folder / SOURCES / SHEET
@@ -50,7 +51,14 @@ def work(folder: Path, how: str, form: str) -> list[Diagnostic]:
         )
     )
     if how == HOLD:
+        if (folder / HELD).exists():
+            hold(folder / HELD, folder / BEFORE)
         hold(folder / SOURCES, folder / HELD)
+    if how == BACK:
+        for place in (SOURCES, HELD):
+            hold(folder / BEFORE, folder / place)
+        shutil.rmtree(folder / BEFORE)
+    if how in (HOLD, BACK):
         shutil.rmtree(folder / PROPOSED, ignore_errors=True)
     return [each for each in problems if each.severity is not Severity.INFO]
 

@@ -92,7 +92,7 @@ class Source(BaseModel):
 
 
 class Running(BaseModel):
-    """A run of the class. how: propose, hold or final. problem: why it failed;
+    """A run of the class. how: propose, hold, back or final. problem: why it failed;
     notes: what its teacher has to know."""
 
     how: str
@@ -143,7 +143,8 @@ class LeftOut(BaseModel):
 class DeskState(BaseModel):
     """What stands on the desk. missing: files that the rubric names. form: that was said.
     proposed: differences, null: no marks are proposed. journal: the latest acts, newest first.
-    locked, released: by whom; empty: not. differing: marks of second markers that do not hold."""
+    locked, released: by whom; empty: not. differing: marks of second markers that do not hold.
+    before: the marks of an earlier run can hold again."""
 
     sources: list[Source]
     missing: list[str]
@@ -156,6 +157,7 @@ class DeskState(BaseModel):
     undo: bool
     differing: int
     worksheet: bool
+    before: bool
     left_out: list[LeftOut]
 
 
@@ -249,6 +251,7 @@ def _overview(desk: Desk) -> Class:
                 "undo": bool(state.done),
                 "differing": differing(state, desk.points(state)) if state.seconds else 0,
                 "worksheet": (desk.folder / WORKSHEET).exists(),
+                "before": desk.has_before,
                 "left_out": [
                     {"file": each["path"], "why": each["why"]}
                     for each in found["left_out"][:MOST_LEFT_OUT]
@@ -287,6 +290,12 @@ async def adopt(desk: TheDesk, person: CurrentPerson) -> None:
 async def discard(desk: TheDesk) -> None:
     """Take the proposed marks back, and the files that they come from."""
     await desk.discard()
+
+
+@router.post("/before", status_code=202)
+async def take_back(desk: TheDesk, person: CurrentPerson) -> None:
+    """Let the marks of the run before the last one hold again; what was given by hand stays."""
+    await desk.start(job.BACK, person.name)
 
 
 @router.post("/acts", status_code=204)

@@ -450,7 +450,9 @@ def _fill(request: Request, students: Sequence[Student], template: Path) -> list
     out = request.worksheet or request.out.with_name(f"{request.out.name}-{template.name}")
     try:
         content = template.read_bytes().decode("utf-8")
-        text, problems = gradebook.filled(content, students, template.name)
+        text, problems = gradebook.filled(
+            content, students, template.name, request.setup.rubric.name
+        )
         out.write_text(text, encoding="utf-8", newline="")
     except (OSError, UnicodeDecodeError) as error:
         raise BadInput(

@@ -66,6 +66,7 @@ export const NO_CLASS: GradedClass = {
     undo: false,
     differing: 0,
     worksheet: false,
+    before: false,
     left_out: [],
   },
 }

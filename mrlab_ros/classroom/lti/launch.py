@@ -31,6 +31,7 @@ from mrlab_ros.classroom.lti.diagnostics import (
 )
 from mrlab_ros.classroom.lti.platform import Platform
 from mrlab_ros.core.base.errors import Unavailable
+from mrlab_ros.core.base.foreign_text import visible
 from mrlab_ros.gateway.errors import NotAllowed
 from mrlab_ros.gateway.people.diagnostics import NOT_CONFIRMED, SIGN_IN_NOT_BEGUN
 from mrlab_ros.gateway.people.oidc import (
@@ -51,6 +52,7 @@ TEACHER = ("http://purl.imsglobal.org/vocab/lis/v2/membership#Instructor", "Inst
 OPENS, LINKS = "LtiResourceLinkRequest", "LtiDeepLinkingRequest"
 # Between two looks at the platform's keys for one that is not known, s.
 KEYS_PERIOD_S = 10.0
+DIGITS = 12  # of an instant, s since 1970
 USED = "launch"  # the kind of link that a launch is
 
 
@@ -97,7 +99,7 @@ class Launches:
         own = self.platform
         client = asked.get("client_id") or own.client_id
         if asked.get("iss") != own.issuer or client != own.client_id:
-            raise NotConfirmed(LTI_OTHER_PLATFORM(issuer=asked.get("iss", "")[:200]))
+            raise NotConfirmed(LTI_OTHER_PLATFORM(issuer=visible(asked.get("iss", "")[:200])))
         state = f"{round(now)}.{secrets.token_urlsafe(24)}"
         sent = {
             "scope": "openid", "response_type": "id_token", "response_mode": "form_post",
@@ -121,12 +123,12 @@ class Launches:
         if (
             not state
             or not hmac.compare_digest(state.encode(), cookie.encode())
-            or not (began.isascii() and began.isdigit())
+            or not (began.isascii() and began.isdigit() and len(began) <= DIGITS)
             or not 0 <= now - int(began) + 1 <= PENDING_LIFETIME_S
         ):
             raise NotBegun(SIGN_IN_NOT_BEGUN())
         if form.get("error"):
-            raise NotConfirmed(NOT_CONFIRMED(why=form["error"][:200]))
+            raise NotConfirmed(NOT_CONFIRMED(why=visible(form["error"][:200])))
         claims = await self._claims(form.get("id_token", ""), self._nonce(state), now)
         launch = self._launch(claims)
         self._use(state, now)

@@ -42,7 +42,10 @@ class Platform:
     def owns(self, address: str) -> bool:
         """Return whether an address is of one of the hosts that the file names."""
         own = (self.issuer, self.sign_in, self.tokens, self.keys)
-        return _origin(address) in {_origin(each) for each in own}
+        try:
+            return _origin(address) in {_origin(each) for each in own}
+        except ValueError:
+            return False
 
 
 def read_platform(path: Path) -> Platform:

@@ -25,6 +25,7 @@ from mrlab_ros.core.base.errors import BadInput, Unavailable
 
 TIMEOUT_S = 20.0
 MOST_PAGES = 1000
+GARBAGE = (ValueError, KeyError, TypeError)  # of an answer that is not as it should be
 NRPS = "https://purl.imsglobal.org/spec/lti-nrps/scope/contextmembership.readonly"
 AGS = "https://purl.imsglobal.org/spec/lti-ags/scope/"
 MEMBERS_TYPE = "application/vnd.ims.lti-nrps.v2.membershipcontainer+json"
@@ -89,7 +90,12 @@ class Services:
             if not column:
                 if f"{AGS}lineitem" not in allowed:
                     raise BadInput(COURSE_OFFERS_NOT(what="scores"))
-                column = await self._column(client, columns, label, task, marks)
+                try:
+                    column = await self._column(client, columns, label, task, marks)
+                except GARBAGE as error:
+                    why = f"{type(error).__name__}: {error}"[:300]
+                    said = COURSE_SILENT(issuer=self.platform.issuer, why=why)
+                    raise Unavailable(said) from None
             place, _, query = column.partition("?")
             address = f"{place.rstrip('/')}/scores{f'?{query}' if query else ''}"
             for each in marks:
@@ -138,7 +144,7 @@ class Services:
         try:
             answer = await client.request(method, address, **options)
             return answer.raise_for_status()
-        except (httpx.HTTPError, ValueError, KeyError) as error:
+        except (httpx.HTTPError, httpx.InvalidURL, *GARBAGE) as error:
             why = f"{type(error).__name__}: {error}"[:300]
             raise Unavailable(COURSE_SILENT(issuer=self.platform.issuer, why=why)) from None
 

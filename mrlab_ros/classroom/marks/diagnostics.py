@@ -99,13 +99,14 @@ GRADE_TO_REPEAT = Code(
 )
 NO_WORKSHEET = Code(
     "no_worksheet",
-    "{file} has {count:count column|columns}[: {columns:list}]; expected Identifier "
-    "and Grade, as Moodle's grading worksheet has them.",
+    "{file} has {count:count column|columns}[: {columns:list}]; expected those of "
+    "Moodle's grading worksheet (Identifier, Grade), of ILIAS' status.csv (login, mark), or of "
+    "Canvas' gradebook (ID, and one task, or one that is named as the rubric).",
 )
 MAXIMUM_DIFFERS = Code(
     "maximum_differs",
-    "Moodle's maximum is {found}, the rubric has {points:number} points; the points are written "
-    "as they are.",
+    "The platform's maximum is {found}, the rubric has {points:number} points; the points are "
+    "written as they are.",
     severity=WARNING,
 )
 NOT_IN_WORKSHEET = Code("not_in_worksheet", "{student} is not in the worksheet.", severity=WARNING)

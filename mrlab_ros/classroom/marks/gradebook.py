@@ -1,4 +1,4 @@
-"""Marks as other programs read them: Excel, Moodle's worksheet, Gradescope."""
+"""Marks as other programs read them: Excel, Gradescope, tables of Moodle, Canvas and ILIAS."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from mrlab_ros.classroom.marks.diagnostics import (
     NO_WORKSHEET,
     NOT_IN_WORKSHEET,
 )
+from mrlab_ros.classroom.marks.exports import CANVAS_FORM, ILIAS_FORM, MOODLE_FORM
 from mrlab_ros.classroom.marks.graded import Student
 from mrlab_ros.classroom.marks.result import TO_REPEAT, Result
 from mrlab_ros.classroom.rubrics.rubric import Rubric
@@ -21,13 +22,18 @@ from mrlab_ros.core.base.diagnostic import Diagnostic, from_plain
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.foreign_text import for_table
 
+PLATFORMS = (MOODLE_FORM, CANVAS_FORM, ILIAS_FORM)
 BOM = "\ufeff"  # by which Excel takes a table for UTF-8
 NUMBER = re.compile(r"\d+")
-# Columns of Moodle's worksheet, in English and German.
-IDENTIFIERS = ("identifier", "id", "kennung")
-GRADES = ("grade", "bewertung")
+# Columns of Moodle's worksheet in English and German, of Canvas' gradebook, and of ILIAS' file of
+# marks (status.csv), where a row counts once it is marked as changed.
+IDENTIFIERS = ("identifier", "kennung", "login", "id")
+GRADES = ("grade", "bewertung", "mark")
 MOST = ("maximum grade", "bestwertung")
-COMMENTS = ("feedback comments", "feedback als kommentar")
+COMMENTS = ("feedback comments", "feedback als kommentar", "comment")
+CHANGED = ("update",)
+ASSIGNMENT = re.compile(r"(?P<name>.+) \(\d+\)")  # a column of Canvas
+POSSIBLE = "points possible"  # the row of Canvas with what can be had
 
 
 def cell(value: Any) -> Any:
@@ -69,11 +75,15 @@ def number(value: float) -> str:
     return f"{value:.6g}"
 
 
-def filled(template: str, students: Sequence[Student], name: str) -> tuple[str, list[Diagnostic]]:
-    """Return Moodle's grading worksheet with the grades in it, and what did not fit.
+def filled(
+    template: str, students: Sequence[Student], name: str, title: str = ""
+) -> tuple[str, list[Diagnostic]]:
+    """Return a platform's table with the grades in it, and what did not fit.
 
-    The number of the column Identifier is the one in the folder names of the export. Cells that
-    are not grades or comments stay as they are. Raises BadInput where it is no worksheet.
+    It is Moodle's grading worksheet, Canvas' gradebook or ILIAS' file of marks; students are known
+    by the number or login that the export's names have. title: of the rubric, by which a column of
+    Canvas is chosen where there are several. Cells that are not grades or comments stay as they
+    are. Raises BadInput where it is no such table.
     """
     content = template.removeprefix(BOM)
     first = content.partition("\n")[0]
@@ -81,15 +91,23 @@ def filled(template: str, students: Sequence[Student], name: str) -> tuple[str, 
     rows = list(csv.reader(io.StringIO(content), delimiter=delimiter))
     heads = [head.strip().lower() for head in rows[0]] if rows else []
     identifier, grade = _column(heads, IDENTIFIERS), _column(heads, GRADES)
+    grade = _assignment(heads, title) if grade is None else grade
     if identifier is None or grade is None:
         raise BadInput(NO_WORKSHEET(file=name, count=len(heads), columns=heads))
     most, comments = _column(heads, MOST), _column(heads, COMMENTS)
+    changed = _column(heads, CHANGED)
     by_number = {s.submission.identifier: s for s in students if s.submission.identifier}
     met, maxima, repeated = set(), set(), []
     for row in rows[1:]:
-        found = NUMBER.search(row[identifier]) if len(row) > identifier else None
-        student = by_number.get(found[0]) if found else None
-        if student is None:
+        if row and row[0].strip().lower() == POSSIBLE:
+            of = students[0].result.of if students else 0.0
+            if len(row) > grade and _differs(row[grade], of):
+                maxima.add((row[grade], of))
+            continue
+        said = row[identifier].strip() if len(row) > identifier else ""
+        number_in = NUMBER.search(said)
+        student = by_number.get(said) or (number_in and by_number.get(number_in[0]))
+        if not student:
             continue
         met.add(student.key)
         if student.result.outcome == TO_REPEAT:
@@ -100,14 +118,16 @@ def filled(template: str, students: Sequence[Student], name: str) -> tuple[str, 
         row[grade] = points.replace(".", ",") if delimiter == ";" else points
         if most is not None and _differs(row[most], student.result.of):
             maxima.add((row[most], student.result.of))
+        if changed is not None:
+            row[changed] = "1"
         if comments is not None:
             row[comments] = str(cell(comment(student.result)))
-    problems = [MAXIMUM_DIFFERS(found=said, points=of) for said, of in sorted(maxima)]
+    problems = [MAXIMUM_DIFFERS(found=found, points=of) for found, of in sorted(maxima)]
     problems += repeated
     problems += [
         NOT_IN_WORKSHEET(student=s.submission.name)
         for s in students
-        if s.key not in met and s.submission.form == "Moodle"
+        if s.key not in met and s.submission.form in PLATFORMS
     ]
     written = io.StringIO()
     csv.writer(written, delimiter=delimiter, lineterminator="\r\n").writerows(rows)
@@ -175,6 +195,18 @@ def _output(mark: Any) -> str:
 
 def _column(heads: Sequence[str], names: Sequence[str]) -> int | None:
     return next((heads.index(name) for name in names if name in heads), None)
+
+
+def _assignment(heads: Sequence[str], title: str) -> int | None:
+    """Return the column of a task in Canvas' gradebook; None where it is not clear which."""
+    found = {
+        number: match["name"].strip()
+        for number, head in enumerate(heads)
+        if (match := ASSIGNMENT.fullmatch(head))
+    }
+    named = [number for number, name in found.items() if name == title.strip().lower()]
+    chosen = named if len(found) > 1 else list(found)
+    return chosen[0] if len(chosen) == 1 else None
 
 
 def _differs(text: str, points: float) -> bool:

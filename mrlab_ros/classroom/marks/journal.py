@@ -14,8 +14,8 @@ from mrlab_ros.classroom.marks.diagnostics import (
 )
 from mrlab_ros.core.base.diagnostic import Diagnostic
 
-MARK, SECOND, COMMENT, LOCK, RELEASE, UNDO, ADOPT = ACTS = (
-    "mark", "second", "comment", "lock", "release", "undo", "adopt",
+MARK, SECOND, COMMENT, LOCK, RELEASE, UNDO, ADOPT, TAKE_BACK = ACTS = (
+    "mark", "second", "comment", "lock", "release", "undo", "adopt", "take_back",
 )  # fmt: skip
 
 
@@ -61,7 +61,7 @@ def state_of(entries: Iterable[Entry]) -> State:
     for entry in entries:
         if entry.did == UNDO:
             del state.done[-1:]
-        elif entry.did != ADOPT:
+        elif entry.did not in (ADOPT, TAKE_BACK):
             state.done.append(entry)
     for entry in state.done:
         if entry.did in (MARK, SECOND):

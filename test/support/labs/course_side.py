@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import Any
 
 import yaml
 from gateway_side import Browser, Gateway
-from learning_platform import LearningPlatform
+from learning_platform import LearningPlatform, some_key
 
 SITE = "https://lab.example.org"
 
@@ -21,6 +22,9 @@ class Course:
         self.platform = LearningPlatform(keys, lambda: self.gateway.clock())
         file = folder / "lti.yaml"
         file.write_text(yaml.safe_dump(self.platform.settings()))
+        (folder / "state").mkdir()
+        own = some_key().as_dict(private=True)
+        (folder / "state" / "lti_key.json").write_text(json.dumps(own))
         self.gateway = Gateway(folder, public_url=SITE, lti=file, classroom=folder / "class")
 
     def begin(self, browser: Browser, who: str, kind: str = "open") -> str:

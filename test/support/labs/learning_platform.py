@@ -3,6 +3,7 @@ Assignment and Grade Services, strict about what a tool sends."""
 
 from __future__ import annotations
 
+import functools
 import html
 import json
 import secrets
@@ -20,6 +21,15 @@ DL = "https://purl.imsglobal.org/spec/lti-dl/claim/"
 AGS = "https://purl.imsglobal.org/spec/lti-ags/"
 NRPS = "https://purl.imsglobal.org/spec/lti-nrps/"
 MEMBERSHIP = "http://purl.imsglobal.org/vocab/lis/v2/membership#"
+
+
+def new_key() -> jwk.RSAKey:
+    kid = {"kid": secrets.token_hex(4), "use": "sig", "alg": "RS256"}
+    return jwk.RSAKey.generate_key(2048, kid)
+
+
+# One for all tests: a key takes seconds on a busy machine.
+some_key = functools.cache(new_key)
 
 
 @dataclass
@@ -53,8 +63,7 @@ class LearningPlatform:
             "b": Someone("b", "Ben Bauer"),
             "c": Someone("c", "Cleo Klein"),
         }
-        self.rotate()
-        self.signs_with = self.key
+        self.key = self.signs_with = some_key()
         self.columns: list[dict[str, Any]] = []
         self.scores: dict[str, dict[str, Any]] = {}
         self.linked: list[dict[str, Any]] = []
@@ -93,8 +102,7 @@ class LearningPlatform:
 
     def rotate(self) -> None:
         """Sign with a new key; the one before is gone."""
-        kid = {"kid": secrets.token_hex(4), "use": "sig", "alg": "RS256"}
-        self.key = self.signs_with = jwk.RSAKey.generate_key(2048, kid)
+        self.key = self.signs_with = new_key()
 
     def settings(self) -> dict[str, Any]:
         """Return what the file of `--lti` says."""

@@ -135,6 +135,21 @@ def test_a_class_is_marked_changed_marked_again_released_and_downloaded(gateway,
     folder = tmp_path / "class" / "evidence"
     assert {p.name: p.read_bytes() for p in folder.iterdir()} == evidence
 
+    # the marks of the run before hold again, with those that were given by hand; and once more
+    assert teacher.send("POST", "/api/class/before").status_code == 202
+    shown = ran(teacher)
+    assert [s["points"] for s in shown["submissions"]] == [3, 1.5]
+    assert (shown["desk"]["before"], shown["desk"]["journal"][0]["did"]) == (False, "take_back")
+    again = teacher.send("POST", "/api/class/before")
+    assert again.json()["error"]["code"] == "nothing_to_undo"
+    hand_in(teacher, "rubric.yaml", RUBRIC.replace("POINTS", "4").encode())
+    teacher.send("POST", "/api/class/run", json={})
+    ran(teacher)
+    teacher.send("POST", "/api/class/proposed")
+    shown = ran(teacher)
+    assert [s["points"] for s in shown["submissions"]] == [6, 1.5]
+    assert {p.name: p.read_bytes() for p in folder.iterdir()} == evidence
+
     # released: one total everywhere, and no change any more
     assert teacher.get("/api/class/feedback.zip").json()["error"]["code"] == "not_released"
     assert teacher.send("POST", "/api/class/release").status_code == 202

@@ -103,6 +103,7 @@ export type ClassPart =
   | 'proposed'
   | 'acts'
   | 'release'
+  | 'before'
   | 'course'
   | 'course/members'
   | 'course/export'

@@ -345,6 +345,8 @@ export interface ClassDesk {
   readonly differing: number
   /** Moodle's worksheet is filled. */
   readonly worksheet: boolean
+  /** The marks of the run before can hold again. */
+  readonly before: boolean
   readonly left_out: readonly { readonly file: string; readonly why: Diagnostic }[]
 }
 
@@ -402,7 +404,7 @@ export interface HandInState {
 }
 
 export interface ClassRun {
-  readonly how: 'propose' | 'hold' | 'final'
+  readonly how: 'propose' | 'hold' | 'back' | 'final'
   readonly running: boolean
   readonly done: number
   readonly all: number
@@ -427,7 +429,7 @@ export interface ClassAct {
   /** s since 1970 */
   readonly at: number
   readonly who: string
-  readonly did: 'mark' | 'second' | 'comment' | 'lock' | 'release' | 'undo' | 'adopt'
+  readonly did: 'mark' | 'second' | 'comment' | 'lock' | 'release' | 'undo' | 'adopt' | 'take_back'
   /** Of the student; empty: of all. */
   readonly name: string
   readonly test: string

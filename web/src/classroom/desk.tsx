@@ -145,6 +145,11 @@ export function Desk({ steps }: DeskProps) {
               >
                 {w.undo}
               </Button>
+              {desk.before && !fixed && (
+                <Button icon="undo" disabled={running} onClick={() => act('POST', 'before')}>
+                  {w.goBack}
+                </Button>
+              )}
             </div>
           )}
           {desk.released && (

@@ -717,7 +717,7 @@ export const words: Words = {
       export: 'Export der Abgaben (ZIP aus Moodle, Canvas, ILIAS, Gradescope)',
       rubric: 'Rubrik (YAML)',
       solution: 'Musterlösung, wie die Rubrik sie nennt',
-      worksheet: 'Bewertungstabelle von Moodle (CSV), zum Ausfüllen',
+      worksheet: 'Tabelle der Plattform (CSV aus Moodle, Canvas, ILIAS), zum Ausfüllen',
       choose: 'Datei wählen',
       another: 'Andere wählen',
       there: (name, size) => `${name}, ${size}`,
@@ -730,7 +730,13 @@ export const words: Words = {
       again: 'Neu bewerten und Unterschiede zeigen',
       running: (done, all) => `${done} von ${all} sind bewertet`,
       starting: 'Der Lauf beginnt',
-      runs: { propose: 'Neue Punkte', hold: 'Punkte', final: 'Was Studierende bekommen' },
+      runs: {
+        propose: 'Neue Punkte',
+        hold: 'Punkte',
+        back: 'Punkte des Laufs davor',
+        final: 'Was Studierende bekommen',
+      },
+      goBack: 'Zurück zu den Punkten des Laufs davor',
       stop: 'Anhalten',
       proposed: (count) =>
         count === 0
@@ -764,6 +770,7 @@ export const words: Words = {
         release: (who) => `${who} hat die Punkte freigegeben`,
         undo: (who) => `${who} hat den letzten Schritt zurückgenommen`,
         adopt: (who) => `${who} ließ die Punkte eines Laufs gelten`,
+        take_back: (who) => `${who} ging zu den Punkten des Laufs davor zurück`,
       },
       change: 'Ändern',
       points: 'Punkte',
@@ -2225,7 +2232,7 @@ export const diagnostics: Templates = {
     'Zeile {line:integer} rechnet ({found}); gelesen werden nur Zahlen, Texte und Matrizen aus Zahlen. Führe die Datei in MATLAB aus und sichere den Workspace',
   ],
   maximum_differs: [
-    'Das Maximum in Moodle ist {found}, das Bewertungsschema hat {points:number} Punkte; die Punkte werden eingetragen, wie sie sind.',
+    'Das Maximum der Plattform ist {found}, das Bewertungsschema hat {points:number} Punkte; die Punkte werden eingetragen, wie sie sind.',
   ],
   may_be_old: [
     'Der Prozess {process} stand {frozen:integer} s lang still, und dies wurde vielleicht davor gesendet; es wurde nicht ausgeführt.',
@@ -2953,7 +2960,7 @@ export const diagnostics: Templates = {
     'Ändere einen Weg oder einen Platz.',
   ],
   no_worksheet: [
-    '{file} hat {count:count Spalte|Spalten}[: {columns:list}]; erwartet werden Identifier und Grade, wie in Moodles Bewertungstabelle.',
+    '{file} hat {count:count Spalte|Spalten}[: {columns:list}]; erwartet werden die von Moodles Bewertungstabelle (Identifier, Grade), von status.csv aus ILIAS (login, mark) oder von Canvas (ID und eine Aufgabe, oder eine, die wie die Rubrik heißt).',
   ],
   no_xacro: [
     '{file} ist keine xacro-Datei und nimmt keine Argumente.',

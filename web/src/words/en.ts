@@ -664,7 +664,7 @@ export const en = {
       export: 'Export of the submissions (ZIP of Moodle, Canvas, ILIAS, Gradescope)',
       rubric: 'Rubric (YAML)',
       solution: 'Solution, as the rubric names it',
-      worksheet: 'Grading worksheet of Moodle (CSV), to be filled',
+      worksheet: 'Table of the platform (CSV of Moodle, Canvas, ILIAS), to be filled',
       choose: 'Choose a file',
       another: 'Choose another',
       there: (name: string, size: string) => `${name}, ${size}`,
@@ -677,7 +677,13 @@ export const en = {
       again: 'Mark again and show the differences',
       running: (done: number, all: number) => `${done} of ${all} are marked`,
       starting: 'The run starts',
-      runs: { propose: 'New marks', hold: 'Marks', final: 'What students get' },
+      runs: {
+        propose: 'New marks',
+        hold: 'Marks',
+        back: 'Marks of the run before',
+        final: 'What students get',
+      },
+      goBack: 'Go back to the marks of the run before',
       stop: 'Stop',
       proposed: (count: number) =>
         count === 0
@@ -714,6 +720,7 @@ export const en = {
         release: (who: string) => `${who} released the marks`,
         undo: (who: string) => `${who} took the last act back`,
         adopt: (who: string) => `${who} let the marks of a run hold`,
+        take_back: (who: string) => `${who} went back to the marks of the run before`,
       },
       change: 'Change',
       points: 'Points',

@@ -171,6 +171,10 @@ def test_no_other_host_gets_the_access(course) -> None:
     course.launch(teacher, "t")
     answer = teacher.send("POST", "/api/class/course/members")
     assert code_of(answer) == (503, "course_leads_away")
+    course.platform.claims = {claim: {"context_memberships_url": "http://[evil"}}
+    course.launch(teacher, "t")
+    answer = teacher.send("POST", "/api/class/course/members")
+    assert code_of(answer) == (503, "course_leads_away")
     course.platform.claims = {claim: None}
     course.launch(teacher, "t")
     answer = teacher.send("POST", "/api/class/course/members")

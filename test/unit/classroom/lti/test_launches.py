@@ -175,6 +175,15 @@ def test_other_posts_of_other_sites_are_refused_as_ever(course) -> None:
     for path in ("/api/hand_in/a.mat", "/api/lti/launch/", "/api/session", "/api/lti/keys"):
         answer = browser.http.request("PUT", path, headers=elsewhere)
         assert kind_of(answer) == (403, "origin"), path
+    course.gateway.anyone.get("/api/session")
+    for state in ("9" * 6000, "1790000000.x", "\u0660.x", ".x", ""):
+        browser.http.cookies.set(
+            f"mrlab-lti-{course.gateway.people.database.lab_id}",
+            state if state.isascii() else "",
+            domain="lab.example.org", path="/api/lti",
+        )  # fmt: skip
+        problem = problem_of(course.finish(browser, {"state": state, "id_token": "x.y.z"}))
+        assert problem in ("not_begun", "not_confirmed"), state
     large = {"state": "x" * 300_000}
     assert problem_of(course.finish(browser, large)) == "too_large"
 

@@ -148,3 +148,44 @@ def test_pseudonyms_are_stable_and_say_nothing():
         )
     fewer = recognise([Entry(PATHS[1])], (".mat",))
     assert pseudonymous(fewer, b"secret")[0].submissions[0] in changed.submissions
+
+
+@pytest.mark.parametrize(
+    ("form", "paths", "sheet", "grades", "others"),
+    [
+        (
+            "Canvas",
+            ["doejane_11_700_a.mat", "roemax_12_701_a.mat"],
+            "Student,ID,SIS Login ID,Section,Task <1> (55),Other (56)\n"
+            "    Points Possible,,,,10,3\n"
+            '"Doe, Jane",11,jdoe,A,,1\n"Roe, Max",12,mroe,A,7,2\n',
+            ["10", "6", "0"],
+            ["3", "1", "2"],
+        ),
+        (
+            "ILIAS",
+            ["Abgaben/Doe_Jane_jdoe_70/a.mat", "Abgaben/Roe_Max_m5roe_71/a.mat"],
+            "update;usr_id;login;lastname;firstname;status;mark;notice;comment\n"
+            "0;300;jdoe;Doe;Jane;notgraded;;;\n0;301;m5roe;Roe;Max;notgraded;;;\n",
+            ["6", "0"],
+            ["1", "1"],
+        ),
+    ],
+)
+def test_tables_of_other_platforms_are_filled(form, paths, sheet, grades, others):
+    roster = recognise([Entry(path) for path in paths], (".mat",))
+    assert roster.form == form
+    results = [student.result for student in graded().students]
+    students = [Student(s, r) for s, r in zip(roster.submissions, results, strict=True)]
+    text, problems = gradebook.filled(sheet, students, "s.csv", "Task <1>")
+    assert problems == []
+    rows = list(csv.reader(io.StringIO(text), delimiter=";" if form == "ILIAS" else ","))
+    grade, other = (4, 5) if form == "Canvas" else (6, 0)
+    assert [row[grade] for row in rows[1:]] == grades
+    assert [row[other] for row in rows[1:]] == others
+    if form == "ILIAS":
+        assert "no collision: 6 of 6" in rows[1][8]
+    with refused(NO_WORKSHEET):
+        gradebook.filled(
+            sheet.replace("mark", "m").replace("Task <1>", "T"), students, "s.csv", "X"
+        )
