@@ -147,6 +147,10 @@ def test_a_refused_file_stands_at_its_fault_with_the_link_painted(shown: Open) -
     expect(slider).to_have_attribute("aria-valuetext", "2.00 s, row 201")
     assert page.locator(".plot .mark").count() == 1
     assert watched.errors == []
+    # all of it is one sheet of paper, whose picture is of the same row
+    expect(watched.page.get_by_alt_text("at row 201")).to_have_count(1)
+    sheets = re.findall(rb"/Type\s*/Page\b", watched.page.pdf(prefer_css_page_size=True))
+    assert len(sheets) == 1
 
 
 def red(picture: np.ndarray) -> int:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -32,9 +34,9 @@ def motion_page(
     shown = document.of_result(result, robot)
     if shown is None:
         raise BadInput(NOTHING_TO_SHOW(why=result.said))
-    first = np.nan_to_num(unpacked(shown["positions"])[0].astype(float))
+    row, positions = _pictured(shown)
     names = [joint.name for joint in robot.joints]
-    url = poster(library, robot, dict(zip(names, first.tolist(), strict=True)))
+    url = poster(library, robot, dict(zip(names, positions, strict=True)))
     meshes = ingredients.meshes_of([robot.urdf], library.mesh_path)
     return page(
         f"{shown['title']} on {robot_model}",
@@ -42,5 +44,18 @@ def motion_page(
         shown,
         meshes,
         ingredients.code(share),
-        [Picture(url, f"The robot {robot_model} at the first row")],
+        [Picture(url, f"The robot {robot_model} at row {row}")],
     )
+
+
+def _pictured(shown: Mapping[str, Any]) -> tuple[int, list[float]]:
+    """Return the row, from 1, that the picture is of, and its positions, rad or m.
+
+    It is that of the first error, else the first one.
+    """
+    wrong = (f["first_row"] for f in shown["findings"] if f["severity"] == "error")
+    row = next((row for row in wrong if row > 0), 1)
+    positions = unpacked(shown["positions"])
+    rows = np.arange(1, len(positions) + 1) if shown["rows"] is None else unpacked(shown["rows"])
+    frame = int(np.abs(rows.astype(np.int64) - row).argmin())
+    return int(rows[frame]), np.nan_to_num(positions[frame].astype(float)).tolist()

@@ -241,6 +241,7 @@ export function CheckReport({
   return (
     <PlayheadContext.Provider value={playhead}>
       <Page
+        sheet
         chip={
           <>
             <OutcomeChip outcome={check.verdict === 'ready' ? 'accepted' : 'rejected'} />
@@ -286,30 +287,32 @@ export function CheckReport({
           />
         </div>
         {marks && <Marks marks={marks} />}
-        {robots.map(({ name, hardware }) => (
-          <Hardware
-            key={name}
-            title={several ? `${w.hardware}: ${name}` : w.hardware}
-            rows={hardware}
-          />
-        ))}
-        {groups.map(
-          ([title, strips], i) =>
-            strips.length > 0 && (
-              <Fold key={title} title={title} open={i < 2}>
-                <div class="report-strips">
-                  {strips.map((each) => (
-                    <StripPlot
-                      key={each.strip.label}
-                      {...each}
-                      begin={0}
-                      duration={session.duration}
-                    />
-                  ))}
-                </div>
-              </Fold>
-            ),
-        )}
+        <div class="report-folds">
+          {robots.map(({ name, hardware }) => (
+            <Hardware
+              key={name}
+              title={several ? `${w.hardware}: ${name}` : w.hardware}
+              rows={hardware}
+            />
+          ))}
+          {groups.map(
+            ([title, strips], i) =>
+              strips.length > 0 && (
+                <Fold key={title} title={title} open={i < 2}>
+                  <div class="report-strips">
+                    {strips.map((each) => (
+                      <StripPlot
+                        key={each.strip.label}
+                        {...each}
+                        begin={0}
+                        duration={session.duration}
+                      />
+                    ))}
+                  </div>
+                </Fold>
+              ),
+          )}
+        </div>
       </Page>
     </PlayheadContext.Provider>
   )

@@ -80,6 +80,7 @@ export function MotionReport({ motion, meshes, pictures }: MotionReportProps) {
   return (
     <PlayheadContext.Provider value={playhead}>
       <Page
+        sheet
         chip={<OutcomeChip outcome={OUTCOMES[motion.verdict]} />}
         title={titleOf(motion)}
         facts={[
@@ -109,31 +110,33 @@ export function MotionReport({ motion, meshes, pictures }: MotionReportProps) {
             onShow={show}
           />
         </div>
-        {channelsOf(motion).map((channel, i) => (
-          <Fold
-            key={channel}
-            title={w.plots.channels[channel]}
-            facts={channel === 'proxies' && w.plots.proxyNote}
-            open={i === 0}
-          >
-            <div class="report-strips">
-              {stripsOf(motion, channel).map((strip, joint) => (
-                <StripPlot
-                  key={strip.label}
-                  strip={strip}
-                  times={times}
-                  marks={
-                    channel === 'angles'
-                      ? marks.filter((mark) => mark.strip === null || mark.strip === joint)
-                      : []
-                  }
-                  begin={0}
-                  duration={course.duration}
-                />
-              ))}
-            </div>
-          </Fold>
-        ))}
+        <div class="report-folds">
+          {channelsOf(motion).map((channel, i) => (
+            <Fold
+              key={channel}
+              title={w.plots.channels[channel]}
+              facts={channel === 'proxies' && w.plots.proxyNote}
+              open={i === 0}
+            >
+              <div class="report-strips">
+                {stripsOf(motion, channel).map((strip, joint) => (
+                  <StripPlot
+                    key={strip.label}
+                    strip={strip}
+                    times={times}
+                    marks={
+                      channel === 'angles'
+                        ? marks.filter((mark) => mark.strip === null || mark.strip === joint)
+                        : []
+                    }
+                    begin={0}
+                    duration={course.duration}
+                  />
+                ))}
+              </div>
+            </Fold>
+          ))}
+        </div>
       </Page>
     </PlayheadContext.Provider>
   )

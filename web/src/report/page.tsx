@@ -13,6 +13,8 @@ interface PageProps {
   readonly notes?: ComponentChildren
   /** Parts of the last line. */
   readonly foot: readonly ComponentChildren[]
+  /** It is printed on one sheet. */
+  readonly sheet?: boolean
   readonly children: ComponentChildren
 }
 
@@ -22,7 +24,7 @@ export function dotted(parts: readonly ComponentChildren[]): ComponentChildren[]
 }
 
 /** A report: its head, its content, its foot. */
-export function Page({ chip, title, facts, notes, foot, children }: PageProps) {
+export function Page({ chip, title, facts, notes, foot, sheet, children }: PageProps) {
   document.title = title
   return (
     <>
@@ -33,7 +35,7 @@ export function Page({ chip, title, facts, notes, foot, children }: PageProps) {
         <p class="facts">{dotted(facts)}</p>
         {notes}
       </header>
-      <main class="report-main">{children}</main>
+      <main class={`report-main${sheet ? ' report-sheet' : ''}`}>{children}</main>
       <footer class="report-foot">{dotted([...foot, words.value.report.madeBy])}</footer>
     </>
   )

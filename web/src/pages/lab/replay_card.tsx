@@ -74,7 +74,7 @@ export function ReplayCard({ follower }: { follower: LabFollower }) {
                   <li key={each}>
                     <button type="button" class="lab-load-item" onClick={() => replay(each)}>
                       <Icon name="play" />
-                      <strong class="grow">{each}</strong>
+                      <strong class="grow small">{each}</strong>
                       <span class="lab-load-word small">{w.replay}</span>
                     </button>
                   </li>

@@ -144,7 +144,7 @@ export function RobotCard({ view, catalogue, system, idle }: RobotCardProps) {
           {playback?.system && ` · ${w.inSystem(playback.system)}`}
         </p>
         {playback?.message && (
-          <p class={halted ? 'lab-halt small' : 'small'}>{spoken(playback)}</p>
+          <p class={`lab-why small${halted ? ' lab-halt' : ''}`}>{spoken(playback)}</p>
         )}
         {view.down && <p class="lab-halt small">{w.outages.robot}</p>}
         {view.overlaps.length > 0 && (
