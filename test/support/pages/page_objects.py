@@ -117,14 +117,23 @@ class LabPage:
         return self.page.get_by_role("article", name=name)
 
     def load(self, robot: str, trajectory: str) -> None:
-        """Load a trajectory; where there is none for the robot, the example."""
+        """Load a trajectory; where there is none for the robot, the example.
+
+        Whatever others published in this lab, and whatever the robot has or does.
+        """
         card = self.robot(robot)
+        if card.get_by_role("button", name="Pause", exact=True).is_visible():
+            card.get_by_role("button", name="Pause", exact=True).click()
         listed = card.get_by_role("button", name=trajectory)
         example = card.get_by_role("button", name="Load the example")
         another = card.get_by_role("button", name="Load another")
         expect(listed.or_(example).or_(another).first).to_be_visible()
         if another.is_visible():
             another.click()
+        search = card.get_by_role("searchbox")
+        expect(listed.or_(example).or_(search).first).to_be_visible()
+        if search.is_visible():
+            search.fill(trajectory)
         expect(listed.or_(example).first).to_be_visible()
         (example if example.is_visible() else listed.first).click()
         expect(card.get_by_role("button", name="Play")).to_be_enabled()

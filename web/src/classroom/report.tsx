@@ -10,8 +10,8 @@ import { number, words } from '../words/words'
 import type { ClassDocument, ClassMark, ClassResult, ClassStudent } from './class_document'
 import { type Column, FILTERS, type Filter, isShown, sorted } from './class_rows'
 
-// Rows that are drawn at once; a button shows more.
-const ROWS = 300
+// Rows that are drawn at once; as many again come where the last of them is scrolled to.
+const ROWS = 24
 const MOST_GROUPS = 60
 const MOST_MEMBERS = 12
 const HISTOGRAM = { width: 480, height: 150, base: 128 }
@@ -183,6 +183,7 @@ function Students({ graded }: { graded: ClassDocument }) {
   const [order, setOrder] = useState<{ column: Column; descending: boolean } | null>(null)
   const [count, setCount] = useState(ROWS)
   const search = useRef<HTMLInputElement>(null)
+  const more = useRef<HTMLParagraphElement>(null)
   const alike = useMemo(() => new Set(similar.groups.flatMap(({ keys }) => keys)), [similar])
   useEffect(() => {
     const key = (event: KeyboardEvent) => {
@@ -196,6 +197,14 @@ function Students({ graded }: { graded: ClassDocument }) {
   const found = students.filter((row) => isShown(row, text, filter, alike))
   const rows = order === null ? found : sorted(found, order.column, order.descending)
   const drawn = printing.value ? rows : rows.slice(0, count)
+  useEffect(() => {
+    if (more.current === null) return
+    const near = new IntersectionObserver(([entry]) => {
+      if (entry?.isIntersecting) setCount(count + ROWS)
+    })
+    near.observe(more.current)
+    return () => near.disconnect()
+  }, [count, drawn.length < rows.length])
   // names from A, points from the most; once more turns it round
   const sortBy = (column: Column) => {
     const descending = order?.column === column ? !order.descending : column !== 'name'
@@ -275,14 +284,14 @@ function Students({ graded }: { graded: ClassDocument }) {
             </tfoot>
           )}
         </table>
+        {drawn.length < rows.length && (
+          <p ref={more}>
+            <button type="button" class="button" onClick={() => setCount(count + ROWS)}>
+              {w.class.more(rows.length - drawn.length)}
+            </button>
+          </p>
+        )}
       </div>
-      {drawn.length < rows.length && (
-        <p>
-          <button type="button" class="button" onClick={() => setCount(count + ROWS)}>
-            {w.class.more(rows.length - drawn.length)}
-          </button>
-        </p>
-      )}
     </section>
   )
 }
