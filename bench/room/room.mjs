@@ -38,7 +38,7 @@ try {
   await client.send('Emulation.setCPUThrottlingRate', { rate: 1 })
   note('JavaScript a frame at 4x throttle, p50', slow.p50, 'ms')
   note('JavaScript a frame at 4x throttle, p95', slow.p95, 'ms', 4)
-  note('draw calls, both eyes and shadow', plain.calls, '', 200)
+  note('draw calls, both eyes and shadow', plain.calls, '', 110)
   note('triangles, both eyes and shadow', plain.triangles, '', 600_000)
   note('WebGL calls a frame', plain.glCalls, '')
   const telemetry = await measureTelemetry(page)

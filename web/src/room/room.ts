@@ -346,6 +346,10 @@ export class Room {
     this.stage.invalidate()
   }
 
+  touch(point: Vector3): boolean {
+    return this.scan.touch(point) || this.touching.touch(point)
+  }
+
   left(): void {
     this.presence.leave()
     this.common.end()

@@ -902,6 +902,8 @@ export const words: Words = {
     scenes: 'Szenen',
     saveScene: 'Diese Szene sichern',
     savedScene: (name: string) => `Gesichert als ${name}.`,
+    touchSurface: 'Fläche antippen',
+    touchTable: 'Berühre die Mitte eines Tisches mit dem Controller oder dem Finger und drück.',
     looksHere: (name: string) => `${name}: seht hierher`,
     lookHere: 'Hierher sehen',
     pointing: 'Ziel auf einen Punkt und drück: alle bekommen ihn gezeigt.',

@@ -853,6 +853,8 @@ export const en = {
     scenes: 'Scenes',
     saveScene: 'Save this scene',
     savedScene: (name: string) => `Saved as ${name}.`,
+    touchSurface: 'Touch a surface',
+    touchTable: 'Touch the middle of a table with the controller or a finger, and press.',
     looksHere: (name: string) => `${name}: look here`,
     lookHere: 'Look here',
     pointing: 'Aim at a point and press: everybody is shown it.',

@@ -64,6 +64,13 @@ export function roomSwitches(
         session.initiateRoomCapture?.().catch((error: unknown) => ports.say(sentence(error)))
       }
     },
+    get measuring() {
+      return scan.awaited
+    },
+    measure: () => {
+      scan.awaited = !scan.awaited
+      if (scan.awaited) ports.say(ports.words.room.touchTable, false)
+    },
     bringHere: () => alignment.align(ports),
     forgetSurfaces: () =>
       asking.press('forget', ports.words.room.asksForget, () => {

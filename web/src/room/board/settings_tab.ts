@@ -7,7 +7,7 @@ import { BOARD_WIDTH, BOTTOM, EDGE, type Tab, TOP } from './board'
 
 const SWITCH = 270
 /** Height of a row, and the gap between two. */
-const ROW = 42
+const ROW = 45
 const BETWEEN = 5
 const ABOUT = EDGE + SWITCH + 20
 
@@ -27,7 +27,7 @@ export function settingsTab(ports: Speech, settings: Settings, tour: () => void)
     id: 'settings',
     words: w.settings,
     draw: (pen) => {
-      let y = TOP - 10
+      let y = TOP - 22
       const about = (words: string) =>
         pen.lines(ABOUT, y + 12, words, TEXT.small, BOARD_WIDTH - ABOUT - EDGE, 'second', 2)
       for (const [id, each, words, why] of rows) {
@@ -98,6 +98,9 @@ export interface RoomSwitches {
   keepHere(): void
   /** null: the device has no room scan of its own. */
   readonly scan: (() => void) | null
+  /** True while the next touch makes a surface. */
+  readonly measuring: boolean
+  measure(): void
   /** Bring the scene's origin to the floor before the person. */
   bringHere(): void
   /** Have the lab forget the surfaces of all headsets, also of those that left. */
@@ -137,7 +140,13 @@ export function roomTab(ports: Speech, room: RoomSwitches): Tab {
       pen.button('leave', EDGE, fourth, width, w.leave, () => room.leave(), {
         enabled: room.canAlign,
       })
-      if (!room.canPutBack) return
+      if (!room.canPutBack) {
+        pen.button('measure', right, fourth, width, w.touchSurface, () => room.measure(), {
+          chosen: room.measuring,
+          enabled: room.canAlign,
+        })
+        return
+      }
       const half = (width - GAP) / 2
       const small = { small: true }
       pen.button('put_back', right, fourth, half, w.putBack, () => room.putBack(), small)

@@ -3,7 +3,7 @@ import { order } from '../../lab/commands'
 import type { Pose } from '../../protocol/geometry_msgs'
 import { type Surface, setSurfacesType } from '../../protocol/mrlab_msgs'
 import type { Lab } from '../ports'
-import { poseInWorld, vectorToRos } from '../scene/frames'
+import { poseInWorld, upright, vectorToRos } from '../scene/frames'
 
 /** s between two looks, and for which the room must be still before it is published. */
 const PERIOD = 0.5
@@ -25,6 +25,9 @@ interface Known {
   surface: Surface
 }
 
+/** m: half the width of a surface that is made by a touch. */
+const HALF = 0.4
+
 const matrix = new Matrix4()
 const position = new Vector3()
 const quaternion = new Quaternion()
@@ -38,6 +41,10 @@ export class RoomScan {
   floor = Number.NaN
   private readonly known = new Map<XRPlane | XRMesh, Known>()
   private readonly numbers = new Map<string, number>()
+  /** Surfaces that a person touched: what the headset's scan lacks. */
+  private readonly touched: Surface[] = []
+  /** True while the next touch makes a surface. */
+  awaited = false
   private lookedAt = Number.NEGATIVE_INFINITY
   private changedAt = Number.NaN
 
@@ -49,12 +56,32 @@ export class RoomScan {
 
   /** Number of surfaces that the headset knows, without the floor. */
   get count(): number {
-    return this.known.size
+    return this.known.size + this.touched.length
+  }
+
+  /** Make a level surface about a touched point of the floor space; returns whether it was awaited. */
+  touch(point: Vector3): boolean {
+    if (!this.awaited) return false
+    this.awaited = false
+    const { x, y, z } = this.world.worldToLocal(position.copy(point))
+    const corners = [-HALF, HALF, HALF, -HALF].map((across, i) => {
+      return { x: across, y: i < 2 ? -HALF : HALF, z: 0 }
+    })
+    this.touched.push({
+      name: `touched_${this.touched.length + 1}`,
+      label: 'table',
+      source: '',
+      pose: upright(x, y, z, 0),
+      vertices: corners,
+      triangles: new Uint32Array(),
+    })
+    this.tell(this.surfaces())
+    return true
   }
 
   /** Report all surfaces again: the lab has forgotten them. */
   tellAgain(): void {
-    if (this.known.size > 0) this.changedAt = this.lookedAt
+    if (this.count > 0) this.changedAt = this.lookedAt
   }
 
   /** Look at a frame; now: s. */
@@ -94,7 +121,7 @@ export class RoomScan {
       vertices: [],
       triangles: new Uint32Array(),
     }
-    return [floor, ...[...this.known.values()].map(({ surface }) => surface)]
+    return [floor, ...[...this.known.values()].map(({ surface }) => surface), ...this.touched]
   }
 
   private look(

@@ -4,7 +4,6 @@ import type { Pointer } from '../input/pointer'
 import { XrInputs } from '../input/sources'
 import type { Targets } from '../input/targets'
 import type { SceneAnchor } from '../place/anchor'
-import type { TouchAlignment } from '../place/touch_alignment'
 import type { RoomStage } from '../scene/stage'
 import type { Feature, Mode } from './features'
 import { enter, type RoomSession } from './session'
@@ -17,7 +16,8 @@ interface Visited {
   /** A session has ended. */
   left(): void
   readonly anchor: Pick<SceneAnchor, 'recentre'>
-  readonly touching: Pick<TouchAlignment, 'touch'>
+  /** A point of the floor space is pressed where no target is; returns whether that is used up. */
+  touch(point: Vector3): boolean
 }
 
 /** A person's stay in the room with a headset: the session and its pointers. */
@@ -60,7 +60,7 @@ export class Visit {
   async enter(mode: Mode, now: number, seated: boolean): Promise<XRSession> {
     this.current = await enter(this.stage.renderer, mode, this.depth, () => this.end())
     const { session } = this.current
-    const marked = (point: Vector3) => this.visited.touching.touch(point)
+    const marked = (point: Vector3) => this.visited.touch(point)
     this.inputs = new XrInputs(session, this.stage.scene, this.targets.all, marked)
     this.stage.controls.enabled = false
     this.stage.setPassthrough(this.passthrough)

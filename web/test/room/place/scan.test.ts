@@ -58,6 +58,22 @@ describe('the room', () => {
     }
   }
 
+  it('takes a surface that is touched where the headset knows none', () => {
+    wait(2)
+    expect(scan.touch(new Vector3(1, 0.72, -2))).toBe(false)
+    scan.awaited = true
+    expect(scan.touch(new Vector3(1, 0.72, -2))).toBe(true)
+    expect([scan.awaited, scan.count]).toEqual([false, 1])
+    const { name, label, pose, vertices } = (told.at(-1) ?? []).at(-1) as Surface
+    expect([name, label, vertices.length]).toEqual(['touched_1', 'table', 4])
+    expect(pose.position.x).toBeCloseTo(2)
+    expect([pose.position.y, pose.position.z]).toEqual([-1, 0.72])
+    // It stays as the headset finds its own, and is told again with them.
+    planes.add(plane('table', 0, 0.7, 0))
+    wait(3)
+    expect(told.at(-1)?.map((each) => each.label)).toEqual(['floor', 'table', 'table'])
+  })
+
   it('is told once it stands still, although the device marks it as changed for ever', () => {
     planes.add(plane('floor', 0, 0.02, 0, 3))
     planes.add(plane('table', 0.2, 0.72, -1.1))
