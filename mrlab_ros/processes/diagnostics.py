@@ -27,12 +27,14 @@ NO_NODE = Code(
     "{node}: there is no such node in the lab; expected one of {nodes:list}, or /** for all.",
     "[Did you mean '{close}'?]",
     meaning="A section of a parameter file names no node.",
+    page=False,
 )
 NO_PARAMETER_FILE = Code(
     "no_parameter_file",
     "There is no parameter file {path}.",
     "Name an existing one as config, or leave it out.",
     meaning="The parameter file that was chosen is not there.",
+    page=False,
 )
 NOBODY_WAITS = Code(
     "nobody_waits",

@@ -61,6 +61,7 @@ BAD_DOMAIN = Code(
     "bad_domain",
     "ROS_DOMAIN_ID is '{found}'; expected a number from 0 to 232.",
     meaning="The environment names no ROS domain.",
+    page=False,
 )
 BAD_ROS_ARGUMENTS = Code(
     "bad_ros_arguments",
@@ -73,6 +74,7 @@ NO_LOG_FOLDER = Code(
     "ROS cannot write its log to {folder}: {why:problem}.",
     "Make the folder writable for this user, or set ROS_LOG_DIR to one that is.",
     meaning="Every program of ROS writes a log: below ROS_LOG_DIR, ROS_HOME or ~/.ros.",
+    page=False,
 )
 NO_ARRIVALS = Code(
     "no_arrivals",
@@ -86,6 +88,7 @@ PARAMETERS_REFUSED = Code(
     "The parameters of {node} are set in the parameter file, or with -p {node}:NAME:=VALUE, "
     "before it starts; docs/parameters.md lists them.",
     meaning="A node does not start with these parameters.",
+    page=False,
 )
 PARAMETER_FIXED = Code(
     "parameter_fixed",
@@ -93,9 +96,11 @@ PARAMETER_FIXED = Code(
     "Set it in the parameter file, or with -p {node}:NAME:=VALUE, and start the node again; "
     "docs/parameters.md lists all.",
     meaning="A parameter that takes effect at the start of its node alone.",
+    page=False,
 )
 SEVERAL_NODES_REFUSE = Code(
     "several_nodes_refuse",
     "{count:integer} nodes do not start:{mistakes:problems}",
     meaning="The nodes of a process refuse their parameters.",
+    page=False,
 )

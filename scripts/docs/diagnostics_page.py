@@ -65,6 +65,8 @@ def samples(root: Path) -> str:
         if module.startswith(TERMINAL):
             continue
         for code in codes.values():
+            if not code.page:
+                continue
             values = sample(code)
             found = code(**values)
             entry = {

@@ -168,7 +168,8 @@ class Code:
     text, remedy: templates (`phrase.py`) of one or more sentences. meaning: one sentence for the
     generated page of codes. fixes: each (option, value, MATLAB); templates of `str.format`, in
     which `{name:matlab}` is a variable as MATLAB takes it. commands: fixes that are command lines
-    of a shell; templates, too. data: names of further values.
+    of a shell; templates, too. data: names of further values. page: whether a page can show it;
+    clients of ROS and terminals get a text alone, which is English.
     """
 
     code: str
@@ -179,6 +180,7 @@ class Code:
     fixes: tuple[tuple[str, str, str], ...] = ()
     commands: tuple[str, ...] = ()
     data: tuple[str, ...] = ()
+    page: bool = True
 
     @property
     def phrases(self) -> tuple[Phrase, Phrase]:

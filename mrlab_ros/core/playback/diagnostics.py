@@ -239,30 +239,37 @@ COMMAND_JUMPS = Code(
     meaning="A set-point is too far from the one before it.",
 )
 NO_POINTS = Code(
-    "no_points", "The goal has no points; expected one or more.", meaning="A goal without points."
+    "no_points",
+    "The goal has no points; expected one or more.",
+    meaning="A goal without points.",
+    page=False,
 )
 HAS_EFFORTS = Code(
     "has_efforts",
     "The points have efforts, which a position controller cannot follow.",
     "Leave them out.",
     meaning="A goal asks for efforts.",
+    page=False,
 )
 NO_POSITIONS = Code(
     "no_positions",
     "The points have no positions; expected one for each joint.",
     meaning="A goal without positions.",
+    page=False,
 )
 ENDS_MOVING = Code(
     "ends_moving",
     "{joint} has the velocity {value:turn_rate} at the last point; expected 0, as the arm stands "
     "there.",
     meaning="A goal ends in motion.",
+    page=False,
 )
 GOAL_OVER = Code(
     "goal_over",
     "The goal ended {ago:time} ago.",
     "Set header.stamp to a later time, or to 0 to start at once.",
     meaning="All points of a goal lie in the past.",
+    page=False,
 )
 STARTS_ELSEWHERE = Code(
     "starts_elsewhere",
@@ -270,62 +277,76 @@ STARTS_ELSEWHERE = Code(
     "{limit:angle} at most.",
     "Begin at the arm's joint positions, or give the first point a later time.",
     meaning="A goal's first point has the time 0 and is not where the arm is.",
+    page=False,
 )
 GOAL_TOO_LONG = Code(
     "goal_too_long",
     "The goal ends in {duration:time}; expected {longest:time} at most.",
     meaning="A goal lasts too long.",
+    page=False,
 )
 BAD_FIRST_TIME = Code(
     "bad_first_time",
     "The first point is at {time:time}; expected 0 or later.",
     meaning="A goal begins before its start, or a time of it is not finite.",
+    page=False,
 )
 TIMES_NOT_RISING = Code(
     "times_not_rising",
     "Point {point:integer} is at {before:time} and the next one at {after:time}; expected times "
     "that increase.",
     meaning="The points of a goal are not in order of time; points count from 1.",
+    page=False,
 )
 GOAL_TOO_FAST = Code(
     "goal_too_fast",
     "{joint} moves at {value:turn_rate} at {time:time}; expected {limit:turn_rate} at most.",
     "Give that way more time. The motion begins where the arm is, with the velocity that it has.",
     meaning="A goal asks for more than a joint's velocity limit.",
+    page=False,
 )
 HAS_MULTI_DOF = Code(
     "has_multi_dof",
     "The goal has a {field}; expected none: each joint of the robot has one degree of freedom.",
     meaning="A goal, or a tolerance, for joints with several degrees of freedom.",
+    page=False,
 )
 TOLERANCE_OF_NO_JOINT = Code(
     "tolerance_of_no_joint",
     "A tolerance is for {found}; expected one of {expected:list}.",
     meaning="A tolerance of a goal names no joint of the robot.",
+    page=False,
 )
 TOLERANCE_NO_NUMBER = Code(
     "tolerance_no_number",
     "The tolerance for {joint} is {tolerance:number}; expected a number above 0, or 0 or -1 for "
     "no limit.",
     meaning="A tolerance of a goal is NaN, infinite, or below 0 and not -1.",
+    page=False,
 )
 
 FOLLOWS_NOTHING = Code(
     "follows_nothing",
     "The robot is {state:state}; expected one that follows a motion.",
     meaning="The course of a robot was asked for, which has none now.",
+    page=False,
 )
 OUTSIDE_COURSE = Code(
     "outside_course",
     "The instant is {away:time} {side:choice before=before the newest change of what the robot "
     "plays|after=after its end}.",
     meaning="The course of a robot was asked for at an instant for which it is not known.",
+    page=False,
 )
 
 # how a goal ended
 
 GOAL_REACHED = Code(
-    "goal_reached", "Goal successfully reached!", severity=INFO, meaning="A goal was reached."
+    "goal_reached",
+    "Goal successfully reached!",
+    severity=INFO,
+    meaning="A goal was reached.",
+    page=False,
 )
 GOAL_FIGURES = Code(
     "goal_figures",
@@ -333,44 +354,55 @@ GOAL_FIGURES = Code(
     "{left:fine_angle}; {worst} was the furthest off the path, by {most:fine_angle} at most.",
     severity=INFO,
     meaning="How far a goal came; it follows the reason in the answer of the action.",
+    page=False,
 )
 GOAL_CANCELLED = Code(
     "goal_cancelled",
     "cancelled: the arm holds where it is",
     severity=INFO,
     meaning="The client of a goal cancelled it.",
+    page=False,
 )
 GOAL_REPLACED = Code(
     "goal_replaced",
     "A new goal came; this one was given up.",
     meaning="Another goal was accepted before this one was reached.",
+    page=False,
 )
 OTHER_TRAJECTORY = Code(
     "other_trajectory",
     "Another trajectory was loaded meanwhile.",
     meaning="A goal was given up, as somebody loaded a trajectory.",
+    page=False,
 )
 GOAL_HALTED = Code(
-    "goal_halted", "The arm halted[: {why:problem}].", meaning="A goal ended in a collision halt."
+    "goal_halted",
+    "The arm halted[: {why:problem}].",
+    meaning="A goal ended in a collision halt.",
+    page=False,
 )
 GOAL_STOPPED = Code(
     "goal_stopped",
     "The robot was stopped.",
     meaning="A goal was given up, as somebody stopped it.",
+    page=False,
 )
 OFF_GOAL = Code(
     "off_goal",
     "{joint} is {value:measure} off the goal; expected {limit:measure} at most.",
     meaning="A goal ended outside its goal tolerance.",
+    page=False,
 )
 OFF_PATH = Code(
     "off_path",
     "{joint} is {value:measure} off the path; expected {limit:measure} at most[; the robot is in "
     "{state:state}].",
     meaning="A goal left its path tolerance.",
+    page=False,
 )
 GOAL_LATE = Code(
     "goal_late",
     "The goal was not reached {late:time} after its time[; the robot is in {state:state}].",
     meaning="A goal passed its time tolerance.",
+    page=False,
 )

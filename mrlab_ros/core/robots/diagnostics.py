@@ -21,15 +21,18 @@ NO_CONTROLLER = Code(
     "no_controller",
     "There is no controller '{found}'[; there are {expected:list}].",
     meaning="A controller manager was asked for a robot that is not in the scene.",
+    page=False,
 )
 CONTROLLER_IN_SYSTEM = Code(
     "controller_in_system",
     "{robot} is driven by the system {system}.",
     "Dissolve the system first.",
     meaning="A controller cannot be activated: a robot system drives its robot.",
+    page=False,
 )
 CONTROLLER_STAYS = Code(
     "controller_stays",
     "The controller of {robot} stays active while the robot is in the scene.",
     meaning="A controller manager was asked to deactivate a robot.",
+    page=False,
 )

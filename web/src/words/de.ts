@@ -1187,7 +1187,6 @@ export const diagnostics: Templates = {
     "Die Anzeige hat die Kennung '{id}'.",
     'Erwartet werden 1 bis {most:integer} druckbare Zeichen.',
   ],
-  bad_domain: ["ROS_DOMAIN_ID ist '{found}'; erwartet wird eine Zahl von 0 bis 232."],
   bad_due: ['Den Zeitpunkt {text} gibt es nicht.'],
   bad_dwell: ['Die Haltezeit ist {dwell:time}; erwartet wird 0 bis {longest:time}.'],
   bad_endpoint: [
@@ -1196,7 +1195,6 @@ export const diagnostics: Templates = {
   bad_fingers: [
     'Die Finger von {robot} erhielten die Geschwindigkeiten {found:list}; erwartet: {count:integer} endliche Zahlen.',
   ],
-  bad_first_time: ['Der erste Punkt liegt bei {time:time}; erwartet wird 0 oder später.'],
   bad_frame_number: ['{field} ist {found}; erwartet wird eine Zahl von 0 bis 2^32 - 1.'],
   bad_key_name: [
     "'{name}' ist kein Name für einen Schlüssel.",
@@ -1576,13 +1574,6 @@ export const diagnostics: Templates = {
     'Gesetzt: {objects:count Gegenstand|Gegenstände} und {surfaces:count Fläche|Flächen}.',
   ],
   continuous: ['stetig'],
-  controller_in_system: [
-    '{robot} wird vom System {system} geführt.',
-    'Löse zuerst das System auf.',
-  ],
-  controller_stays: [
-    'Der Controller von {robot} bleibt aktiv, solange der Roboter in der Szene ist.',
-  ],
   converted_unit: [
     "Die Datei nennt für '{variable}' die Einheit {stated:choice rad=Radiant|deg=Grad|mrad=Milliradiant|urad=Mikroradiant|gon=Gon|turn=Umdrehungen|halfturn=halbe Umdrehungen|ddeg=Zehntelgrad|cdeg=Hundertstel Grad|mdeg=Tausendstel Grad|arcmin=Bogenminuten|arcsec=Bogensekunden|counts=Zählschritte|%=Prozent|normalized=Anteile eines Bereichs|mm=mm}[ ('{source}')]; die Werte wurden in Radiant umgerechnet.",
   ],
@@ -1735,9 +1726,6 @@ export const diagnostics: Templates = {
   ends_at_rest: ['endet in Ruhe'],
   ends_early: ['sie endet mitten in der Kennung eines Elements'],
   ends_first: ['{robot} muss vorher enden'],
-  ends_moving: [
-    '{joint} hat am letzten Punkt die Geschwindigkeit {value:turn_rate}; erwartet wird 0, denn dort steht der Arm.',
-  ],
   entry: [
     '{place:problem}, {one:choice part=Teil|hold=Halt|member=Mitglied|robot=Roboter|object=Gegenstand|surface=Fläche|system=System} {number:integer}',
   ],
@@ -1798,9 +1786,6 @@ export const diagnostics: Templates = {
     '{path} ist nicht verwendbar: {problem}; erwartet wird ein Ordner oder ein Pfad, an dem einer angelegt werden kann.',
   ],
   follows_commands: ['folgt Gelenkbefehlen'],
-  follows_nothing: [
-    'Der Roboter ist im Zustand „{state:state}“; erwartet wird einer, der einer Bewegung folgt.',
-  ],
   for_another_model: [
     "'{trajectory}' ist für {found}, und {robot} ist {model}; lade sie in einen Roboter {found}.",
   ],
@@ -1847,30 +1832,10 @@ export const diagnostics: Templates = {
     '{place:problem}: Eine <geometry> enthält <{tag}>; erwartet: {known:either}.',
   ],
   go_to_place: ['an den Ort {place} gehen'],
-  goal_cancelled: ['abgebrochen: Der Arm bleibt, wo er ist'],
-  goal_figures: [
-    'Nach {elapsed:time} von {duration:time}: Am weitesten vom Ziel ist {joint} mit {left:fine_angle}; am weitesten von der Bahn war {worst} mit höchstens {most:fine_angle}.',
-  ],
-  goal_halted: ['Der Arm hielt an[: {why:problem}].'],
-  goal_late: [
-    'Das Ziel war {late:time} nach seiner Zeit noch nicht erreicht[; der Roboter ist im Zustand „{state:state}“].',
-  ],
   goal_lost: [
     '{robot} steht, wo er war: Das Ziel oder der Strom von Gelenkbefehlen, dem er folgte, endete mit seinem Prozess.',
     'Sende es noch einmal.',
   ],
-  goal_over: [
-    'Das Ziel endete vor {ago:time}.',
-    'Setze header.stamp auf eine spätere Zeit, oder auf 0 für einen Beginn sofort.',
-  ],
-  goal_reached: ['Das Ziel ist erreicht.'],
-  goal_replaced: ['Ein neues Ziel kam; dieses wurde aufgegeben.'],
-  goal_stopped: ['Der Roboter wurde gestoppt.'],
-  goal_too_fast: [
-    '{joint} bewegt sich bei {time:time} mit {value:turn_rate}; erwartet: höchstens {limit:turn_rate}.',
-    'Gib diesem Weg mehr Zeit. Die Bewegung beginnt, wo der Arm ist, und mit der Geschwindigkeit, die er hat.',
-  ],
-  goal_too_long: ['Das Ziel endet in {duration:time}; erwartet: höchstens {longest:time}.'],
   grade_to_repeat: [
     '{student} hat keine Note: Die Prüfung ist zu wiederholen.',
     'Starte denselben Befehl noch einmal.',
@@ -1937,16 +1902,9 @@ export const diagnostics: Templates = {
     'Lass den Endeffektor leer, oder importiere den Roboter noch einmal ohne seine Hand.',
   ],
   has_derivative: ["'{other}' ist ihre Ableitung"],
-  has_efforts: [
-    'Die Punkte enthalten efforts; eine Lageregelung kann ihnen nicht folgen.',
-    'Lass sie weg.',
-  ],
   has_key: [
     `{name} hat schon einen Schlüssel, mit der Rolle {role:choice ${ROLE}}.`,
     'Nimm diesen zuerst zurück.',
-  ],
-  has_multi_dof: [
-    'Das Ziel enthält {field}; erwartet wird keine: Jedes Gelenk des Roboters hat einen Freiheitsgrad.',
   ],
   has_no_key: ['{name} hat in {folder} keinen Schlüssel[; einen haben: {known:list}].'],
   headings_again: [
@@ -2483,10 +2441,6 @@ export const diagnostics: Templates = {
     'Sandbox für fremde Dateien: Der Kernel hat kein Landlock; ein Leser von Bags, Meshes oder Abgaben kann jede Datei dieses Benutzers öffnen, und ein Xacro wird abgelehnt',
     'Nimm Linux ab 5.13 mit Landlock, oder einen Container, der dessen Systemaufrufe zulässt; lies bis dahin nur Dateien von Leuten, denen du vertraust.',
   ],
-  no_log_folder: [
-    'ROS kann sein Protokoll nicht nach {folder} schreiben: {why:problem}.',
-    'Mach den Ordner für diesen Benutzer beschreibbar, oder setze ROS_LOG_DIR auf einen, der es ist.',
-  ],
   no_arrivals: [
     'Die Middleware meldet nicht, wenn auf {topic} Nachrichten ankommen (Fehler {error:integer}).',
     'Setze RMW_IMPLEMENTATION auf eine, die das tut, etwa rmw_fastrtps_cpp.',
@@ -2524,7 +2478,6 @@ export const diagnostics: Templates = {
     'Erzeuge die Netze des Roboters noch einmal.',
   ],
   no_column: ['sie ist {size}, wo eine einzelne Spalte erwartet wird'],
-  no_controller: ["Es gibt keinen Controller '{found}'[; es gibt {expected:list}]."],
   no_coordinator_runs: ['Es läuft kein Koordinator; die Systeme der Szene brauchen ihn.'],
   no_description: [
     "'{source}' ist weder eine Datei noch ein installiertes ROS-Paket.",
@@ -2626,10 +2579,6 @@ export const diagnostics: Templates = {
   ],
   no_name: ['eine Variable oder ein Objekt hat keinen Namen'],
   no_name_left: ["Der Name '{name}' ist vergeben.", 'Bitte deine Lehrkraft um einen anderen.'],
-  no_node: [
-    '{node}: Einen solchen Knoten gibt es im Labor nicht; erwartet wird einer von {nodes:list}, oder /** für alle.',
-    "[Meinst du '{close}'?]",
-  ],
   cell_for_one_robot: [
     '{file} ist eine Zelle mehrerer Roboter, und die Rubrik ist für einen {robot}; lass robot: in einer Rubrik für Zellen weg.',
   ],
@@ -2739,10 +2688,6 @@ export const diagnostics: Templates = {
     'Prüfe, ob zwei Aufnahmen in der Datei sind oder eine Uhr zurückgestellt wurde, und trenne sie dort.',
   ],
   stands_still: ['{robot} bewegt sich nicht.'],
-  starts_elsewhere: [
-    '{joint} ist {value:angle} vom ersten Punkt entfernt, der sofort gilt; erwartet ist höchstens {limit:angle}.',
-    'Beginne bei den Gelenkstellungen des Arms, oder gib dem ersten Punkt eine spätere Zeit.',
-  ],
   stopped_class: [
     'Abgebrochen: {done:integer} von {all:integer} sind geprüft und bleiben erhalten.',
     'Starte denselben Befehl noch einmal, um fortzufahren.',
@@ -2783,10 +2728,6 @@ export const diagnostics: Templates = {
     "[Meinst du '{close}'?]",
   ],
   no_ordinary_file: ['Das ist keine gewöhnliche Datei; sie wird nicht gelesen.'],
-  no_parameter_file: [
-    'Die Parameterdatei {path} gibt es nicht.',
-    'Nenne als config eine, die es gibt, oder lass config weg.',
-  ],
   no_partial: ["partial ist '{rule}'; '{sentence}' kennt keine Teilpunkte; lass partial weg."],
   no_person: ["Niemand heißt '{name}'."],
   no_physics: ['Es gibt keine Physik: {why:problem}.'],
@@ -2804,9 +2745,7 @@ export const diagnostics: Templates = {
     'Entferne dort einen Roboter oder einen Gegenstand, oder gib eine Pose an.',
   ],
   no_playback_runs: ['Es läuft keine Wiedergabe; die Trajektorien der Szene brauchen sie.'],
-  no_points: ['Das Ziel hat keine Punkte; erwartet wird mindestens einer.'],
   no_poses: ['Es nennt keine Posen; ergänze poses: [[[[0.4, 0.2, 0.3]]]], in m in world.'],
-  no_positions: ['Die Punkte haben keine Positionen; erwartet wird eine für jedes Gelenk.'],
   no_private_folder: [
     'Kein Ordner gehört diesem Benutzer allein: {reasons:reasons}.',
     'Setze XDG_RUNTIME_DIR auf einen solchen Ordner.',
@@ -3171,12 +3110,6 @@ export const diagnostics: Templates = {
     'Wandle die Datei noch einmal um.',
   ],
   of_robot: ['{robot}: {why:problem}'],
-  off_goal: [
-    '{joint} weicht um {value:measure} vom Ziel ab; erwartet: höchstens {limit:measure}.',
-  ],
-  off_path: [
-    '{joint} weicht um {value:measure} von der Bahn ab; erwartet: höchstens {limit:measure}[; der Roboter ist im Zustand „{state:state}“].',
-  ],
   one_local_user: [
     'Dieses Labor hat eine einzige Person am Rechner selbst; es gibt kein Anmelden und keine gekoppelten Geräte.',
     'Für mehr Personen starte es mit Schlüsseln.',
@@ -3240,7 +3173,6 @@ export const diagnostics: Templates = {
     '{file} nennt als Speicherart {storage}[ mit der Kompression {compression}]; erwartet wird mcap ohne Kompression.',
     'Importiere das Bag; das macht ein gewöhnliches daraus.',
   ],
-  other_trajectory: ['Inzwischen wurde eine andere Trajektorie geladen.'],
   other_unit: ["'{text}' hat die Einheit '{given}'; erwartet: {expected:problem}."],
   others_exchange: ['andere können austauschen, was in {path} liegt'],
   others_go_on: ['Kollision von {robot}; die anderen machen weiter'],
@@ -3255,9 +3187,6 @@ export const diagnostics: Templates = {
   ],
   out_of_reach: [
     '{place:position} ist außer Reichweite: Das Werkzeug kommt bis auf {value:length} heran, nicht bis auf {limit:length}.',
-  ],
-  outside_course: [
-    'Der Zeitpunkt liegt {away:time} {side:choice before=vor der letzten Änderung dessen, was der Roboter spielt|after=nach dessen Ende}.',
   ],
   outside_range: [
     '{joint} ist {value:measure} außerhalb seines Bereichs von {lower:measure} bis {upper:measure}.',
@@ -3301,15 +3230,7 @@ export const diagnostics: Templates = {
     `Wähle höchstens die Rolle {role:choice ${ROLE}}.`,
   ],
   pairing_ended: ['Dieses Koppeln ist beendet.', 'Beginne ein neues.'],
-  parameter_fixed: [
-    '{parameter} wird gelesen, wenn {node} startet, und lässt sich danach nicht ändern.',
-    'Setze den Parameter in der Parameterdatei oder mit -p {node}:NAME:=VALUE, und starte den Knoten neu; docs/parameters.md nennt alle.',
-  ],
   parameters_not_attached: ['die Parameter von {node} sind nicht im Bag: {why:problem}'],
-  parameters_refused: [
-    '{mistakes:problem}.',
-    'Die Parameter von {node} setzt man vor dem Start in der Parameterdatei oder mit -p {node}:NAME:=VALUE; sie stehen in docs/parameters.md.',
-  ],
   partial_gives_nothing: [
     "'partial: until' mit {until:measure} ergibt keine Teilpunkte: Der Wert muss {side:choice below=unter|above=über} der Grenze von {limit:measure} liegen.",
   ],
@@ -3873,7 +3794,6 @@ export const diagnostics: Templates = {
     'Hole jede über ihren eigenen Schlüssel, wie in {robots} und {objects}.',
   ],
   several_models: ['Die Gelenke auf {topic} sind die von {models:list}.', 'Nenne den Roboter.'],
-  several_nodes_refuse: ['{count:integer} Knoten starten nicht:{mistakes:problems}'],
   several_types: ['{topic} hat mehrere Typen ({types:list}).'],
   shape_and_parts: ['Er hat eine Form und Teile.', 'Lass eines von beiden weg.'],
   shape_lacks: ['{place:problem}: In <{tag}> fehlt: {missing:list}.', 'Ergänze es.'],
@@ -4081,9 +4001,6 @@ export const diagnostics: Templates = {
     "'{variable}' steigt von Zeile zu Zeile um {step:number}; das wurde als {taken:choice s=Sekunden|ms=Millisekunden|us=Mikrosekunden|ns=Nanosekunden|days=Tage, wie datenum sie zählt,|min=Minuten|h=Stunden} gelesen und ergibt {rate:number} Zeilen pro Sekunde.",
     'Sichere die Zeit in Sekunden, oder setze die Rate.',
   ],
-  times_not_rising: [
-    'Punkt {point:integer} ist bei {before:time} und der nächste bei {after:time}; erwartet werden steigende Zeiten.',
-  ],
   times_of_class: ['ihre Klasse ist {found:problem}'],
   times_swapped: [
     '{first:time} liegt nicht vor {last:time}; erwartet wird die frühere Zeit zuerst.',
@@ -4098,12 +4015,6 @@ export const diagnostics: Templates = {
   tls_needs_keys: [
     'Die Bridge soll an {endpoint} erreichbar sein; für {protocol} braucht sie Schlüssel.',
     'Mach welche, und nenne ihren Ordner (Parameter keys).',
-  ],
-  tolerance_no_number: [
-    'Die Toleranz für {joint} ist {tolerance:number}; erwartet: eine Zahl über 0, oder 0 oder -1 für keine Grenze.',
-  ],
-  tolerance_of_no_joint: [
-    'Eine Toleranz ist für {found}; erwartet wird eines von {expected:list}.',
   ],
   too_close: [
     '{link}[ (hält {held})] kommt auf {value:length} an {kind:choice self=das eigene Glied|robot=den Roboter|object=den Gegenstand|surface=die Fläche} {other}[ ({other_link})] heran.',
