@@ -274,7 +274,7 @@ XACRO_NO_WALL = Code(
 )
 XACRO_REFUSED = Code(
     "xacro_refused",
-    "{file}: xacro says: {why:problem}.",
+    "{file}: xacro says: {why:problem}.[ The arguments of the file are {arguments}.]",
     "{hint:choice package=Give the folder of the package that it names.|folder=A xacro reads what "
     "lies beside it and in its packages; give the folder of the package that it "
     "needs.|argument=Give what it asks for, as NAME:=VALUE.|file=Correct the file.}",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import xml.etree.ElementTree as ET
 from collections.abc import Iterator
 
 from mrlab_ros.adapters.robots.diagnostics import XACRO_REFUSED
@@ -28,8 +29,18 @@ def expand(path: str, arguments: dict[str, str]) -> str:
                  if isinstance(one, kind))  # fmt: skip
         file = path.rpartition("/")[2]
         why = str(error) or type(error).__name__
-        raise BadInput(XACRO_REFUSED(file=file, why=why, hint=next(known, "file"))) from None
+        hint = next(known, "file")
+        names = _arguments(path) if hint == "argument" else []
+        raise BadInput(
+            XACRO_REFUSED(file=file, why=why, hint=hint, arguments=names or None)
+        ) from None
     return expanded
+
+
+def _arguments(path: str) -> list[str]:
+    """Return the arguments that a file declares, as NAME:=DEFAULT."""
+    found = ET.parse(path).iter("{http://www.ros.org/wiki/xacro}arg")
+    return [f"{arg.get('name')}:={arg.get('default')}" for arg in found]
 
 
 def _wrapped(error: BaseException | None) -> Iterator[BaseException]:

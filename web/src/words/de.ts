@@ -4334,7 +4334,7 @@ export const diagnostics: Templates = {
     'Vertraust du ihr, wandle sie selbst um, und importiere das Ergebnis: xacro {file} > {plain}',
   ],
   xacro_refused: [
-    '{file}: xacro meldet: {why:problem}.',
+    '{file}: xacro meldet: {why:problem}.[ Die Argumente der Datei sind {arguments}.]',
     '{hint:choice package=Gib den Ordner des Pakets an, das sie nennt.|folder=Eine xacro-Datei liest, was neben ihr und in ihren Paketen liegt; gib den Ordner des Pakets an, das sie braucht.|argument=Gib an, wonach sie fragt, als NAME:=WERT.|file=Berichtige die Datei.}',
   ],
   yaml_alias: [

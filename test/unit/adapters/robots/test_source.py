@@ -94,6 +94,13 @@ def test_a_xacro_reads_nothing_of_a_source_tree_that_is_no_module(
         expanded(folder, f"<link name=\"${{load_yaml('{tree}/keys/secret.yaml')['word']}}\"/>")
 
 
+def test_a_xacro_that_lacks_an_argument_names_those_it_has_with_their_defaults(
+    folder: Path,
+) -> None:
+    with refused(XACRO_REFUSED, BadInput, hint="argument", arguments=["hand:=true"]):
+        expanded(folder, '<xacro:arg name="hand" default="true"/><link name="$(arg arm_id)"/>')
+
+
 @pytest.mark.parametrize(
     "name", ["{outside}/secret.yaml", "../secret.yaml", "link.yaml", ".keys/secret.yaml"]
 )
