@@ -7,10 +7,11 @@ A trajectory of the lab's catalogue.
 
 from __future__ import annotations
 
+import asyncio
 import math
 import time
 import traceback
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Generator, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -312,6 +313,10 @@ class Run:
         self._since = since
         self._course = Course(follower.robot, objects)
         self._deadline = time.monotonic() + STATE_TIMEOUT_S
+
+    def __await__(self) -> Generator[Any, None, bool]:
+        """Wait as `wait` does, in a thread, so that a notebook's loop goes on."""
+        return asyncio.to_thread(self.wait).__await__()
 
     def advance(self) -> Sequence[Any]:
         """Take what the robot has reported since, up to COMPLETE; return the new states.

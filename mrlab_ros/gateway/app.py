@@ -48,6 +48,7 @@ ROUTERS: tuple[APIRouter, ...] = (
     upload_routes.router,
     live.router,
     robots.router,
+    robots.schema_router,
     trajectory_routes.router,
     check_routes.router,
     *(named(router) for each in extensions() for router in each.ROUTERS),

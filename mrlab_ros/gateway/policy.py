@@ -98,6 +98,7 @@ ROUTES: Mapping[tuple[str, str], Everybody | Role | Need] = {
     ("GET", "/api/live"): READS,
     ("GET", "/api/live/{draft}/file"): CONVERTS_OWN,
     ("GET", "/api/robots"): READS,
+    ("GET", "/api/schema"): Need(Verb.RECEIVE, "assets"),
     ("POST", "/api/robots/{robot}/play"): DRIVES,
     ("POST", "/api/robots/{robot}/stop"): Need(Verb.CALL, "robot/stop"),
     ("GET", "/api/trajectories"): Need(Verb.CALL, "converter/list"),

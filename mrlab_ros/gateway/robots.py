@@ -7,12 +7,13 @@ import time
 from collections.abc import Mapping
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Path
+from fastapi import APIRouter, Path, Response
 from fastapi.concurrency import run_in_threadpool
 from pydantic import BaseModel, Field, model_validator
 
 from mrlab_ros.core.base.diagnostics import NO_ROBOT_IN_SCENE
 from mrlab_ros.core.base.errors import Misuse, Unavailable
+from mrlab_ros.core.bridge.assets import SCHEMA
 from mrlab_ros.core.playback.diagnostics import DRIVEN_BY_SYSTEM
 from mrlab_ros.core.playback.states import MOVING, TABLE, Event, State
 from mrlab_ros.gateway.checks.routes import TheChecking
@@ -34,6 +35,7 @@ CLEAR_S = 3.0
 LOOK_S = 0.05
 
 router = APIRouter(prefix="/api/robots", tags=["robots"])
+schema_router = APIRouter(tags=["robots"])
 RobotName = Annotated[str, Path(pattern="^[A-Za-z][A-Za-z0-9_]*$", description="such as ur5e_1")]
 
 
@@ -110,6 +112,15 @@ async def _do(lab: LabConnection, service: str, kind: str, request: Mapping[str,
     if not answer.success:
         raise Misuse(said(answer))
     return str(answer.message)
+
+
+@schema_router.get("/api/schema", response_class=Response)
+async def schema(there: ThePorts) -> Response:
+    """Return the definitions of the lab's messages and services: type name to text."""
+    sample = await _connected(there).get(SCHEMA)
+    if sample is None:
+        raise Unavailable(GATEWAY_WITHOUT_LAB())
+    return Response(sample.payload, media_type="application/json")
 
 
 @router.get("")
