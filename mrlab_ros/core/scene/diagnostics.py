@@ -172,6 +172,7 @@ UNDONE = Code(
     "Undone: {act:problem}",
     severity=INFO,
     meaning="What an act removed is there again.",
+    page=False,
 )
 OBJECTS_TAKEN_OUT = Code(
     "objects_taken_out",
@@ -187,10 +188,12 @@ PLACE_SET = Code(
     "The robots stand in {place}.",
     severity=INFO,
     meaning="The place of the lab was named, or the lab went to another one.",
+    page=False,
 )
 BAD_PLACE_NAME = Code(
     "bad_place_name",
     "The name or id {name} of a place has {count:integer} characters; expected 1 to "
     "{most:integer} that can be printed.",
     meaning="A place cannot be called so.",
+    page=False,
 )

@@ -590,17 +590,14 @@ export const words: Words = {
     holds: (object) => `Hält ${object}`,
     standsIn: (what) =>
       `Steht in ${what}: was er dort berührt, wird nicht geprüft, bis er heraus ist.`,
-    undo: 'Rückgängig',
     inRoom: 'Im Raum',
     placeName: 'Name dieses Ortes',
     namePlace: 'Benennen',
     newPlace: 'Ein neuer Ort',
-    nobodyInside: 'Niemand ist mit einem Headset im Raum.',
     seeWith: (name) => `Sehen, was ${name} sieht`,
     seesWith: (name) => `Mit den Augen von ${name}`,
     ownView: 'Zurück zur eigenen Ansicht',
     hasLeft: (name) => `${name} hat den Raum verlassen.`,
-    lookHere: 'Hierher sehen',
     lookHereHow: 'Klick auf den Punkt, den alle ansehen sollen.',
     inSystem: (system) => `in ${system}`,
     clearHalt: 'Halt aufheben',
@@ -1229,9 +1226,6 @@ export const diagnostics: Templates = {
   bad_person_name: [
     "'{name}' ist kein Name für eine Person.",
     "Erwartet werden höchstens 41 Buchstaben, Ziffern, '_', '-' und '.', beginnend mit einem Buchstaben oder einer Ziffer, und nicht {reserved:either}.",
-  ],
-  bad_place_name: [
-    'Der Name oder die Kennung {name} eines Ortes hat {count:integer} Zeichen; erwartet sind 1 bis {most:integer}, die gedruckt werden können.',
   ],
   bad_policy: [
     'Die Regel {policy:integer} ist unbekannt; erwartet wird 0 (alle halten an) oder 1 (nur das Mitglied hält an).',
@@ -2630,7 +2624,6 @@ export const diagnostics: Templates = {
     "'{file}' hat die Gelenke {joints:list}; erwartet werden die von {model}.",
     'Wandle die ursprüngliche Datei noch einmal um.',
   ],
-  place_set: ['Die Roboter stehen in {place}.'],
   processes_killed: [
     'Prozesse, die prüfen, wurden {count:integer}-mal beendet; vielleicht reicht der Speicher nicht.',
     'Fertiges bleibt erhalten: Starte denselben Befehl noch einmal mit weniger Prozessen.',
@@ -2699,7 +2692,6 @@ export const diagnostics: Templates = {
   torn_off: [
     '{other} hat {object} aus den geschlossenen Fingern von {robot} gerissen: Es glitt {way:length} gegen {force:number} N, und {other} hält es mit einer Reserve von {margin:share}.',
   ],
-  undone: ['Zurückgenommen: {act:problem}'],
   unknown_form: ["Die Form des Exports ist '{form}'; erwartet wird {known:either}."],
   unpacking_ended: [
     'Der Prozess, der entpackt, endete an {file} ({why:problem}); der Grund ist diese Datei, und sie wird nicht gelesen.',

@@ -175,7 +175,7 @@ export function Lab({ link }: { link: Link }) {
               <Button
                 look="quiet"
                 icon="target"
-                label={w.lookHere}
+                label={words.value.room.lookHere}
                 aria-pressed={pointing.value}
                 onClick={toggle(pointing)}
               />
@@ -222,7 +222,7 @@ export function Lab({ link }: { link: Link }) {
                 {spoken(undoable)}
                 {may.scene && (
                   <Button look="quiet" onClick={() => void follower.undoing.undo(lab)}>
-                    {w.undo}
+                    {words.value.room.undo}
                   </Button>
                 )}
               </p>

@@ -59,7 +59,7 @@ export function PeopleCard({ place, present, seen, onSee }: PeopleCardProps) {
           </div>
         </form>
       )}
-      {present.length === 0 && <p class="second small">{w.nobodyInside}</p>}
+      {present.length === 0 && <p class="second small">{words.value.room.alone}</p>}
       <ul class="lab-people-list">
         {present.map(({ id, name: who, part, aligned }) => (
           <li key={id}>

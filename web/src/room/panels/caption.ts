@@ -9,7 +9,7 @@ const HEIGHT = 104
 const EDGE = 24
 /** m before the eyes, and below them. */
 const AHEAD = 1.1
-const BELOW = 0.36
+const BELOW = 0.48
 /** s for which a sentence stays, and more for each letter. */
 const SHOWN_S = 3
 const LETTER_S = 0.05
