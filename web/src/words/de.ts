@@ -588,8 +588,7 @@ export const words: Words = {
     address: 'Adresse, unter der andere dieses Labor erreichen',
     takeAddress: 'Für Links nehmen',
     holds: (object) => `Hält ${object}`,
-    standsIn: (what) =>
-      `Steht in ${what}: was er dort berührt, wird nicht geprüft, bis er heraus ist.`,
+    standsIn: (what) => `Steht in ${what}: dort wird nicht geprüft, bis er heraus ist.`,
     inRoom: 'Im Raum',
     placeName: 'Name dieses Ortes',
     namePlace: 'Benennen',
@@ -598,7 +597,7 @@ export const words: Words = {
     seesWith: (name) => `Mit den Augen von ${name}`,
     ownView: 'Zurück zur eigenen Ansicht',
     hasLeft: (name) => `${name} hat den Raum verlassen.`,
-    lookHereHow: 'Klick auf den Punkt, den alle ansehen sollen.',
+    lookHereHow: 'Klick: alle sehen den Punkt.',
     inSystem: (system) => `in ${system}`,
     clearHalt: 'Halt aufheben',
     next: {
@@ -900,10 +899,10 @@ export const words: Words = {
     saveScene: 'Diese Szene sichern',
     savedScene: (name: string) => `Gesichert als ${name}.`,
     touchSurface: 'Fläche antippen',
-    touchTable: 'Berühre die Mitte eines Tisches mit dem Controller oder dem Finger und drück.',
+    touchTable: 'Berühre die Mitte eines Tisches und drück.',
     looksHere: (name: string) => `${name}: seht hierher`,
     lookHere: 'Hierher sehen',
-    pointing: 'Ziel auf einen Punkt und drück: alle bekommen ihn gezeigt.',
+    pointing: 'Ziel und drück: alle sehen den Punkt.',
     undo: 'Rückgängig',
     asksForget: 'Das Labor vergisst alle Flächen. Noch einmal drücken.',
     loadScene: (name: string) => `${name} laden`,
@@ -2419,9 +2418,7 @@ export const diagnostics: Templates = {
   newest_taken: [
     'Von {count:count Datei|Dateien}[ mit Namen wie {pattern}] zählt die neueste, die eine Bewegung enthält[: {files:list}].',
   ],
-  no_act_to_undo: [
-    'Es gibt nichts zurückzunehmen: Laden, Entfernen und Auflösen lassen sich {limit:time} lang zurücknehmen.',
-  ],
+  no_act_to_undo: ['Nichts zurückzunehmen: das geht {limit:time} lang.'],
   no_answer_in_time: [
     '{service} hat nicht innerhalb von {timeout:time} geantwortet.',
     'Versuche es noch einmal.',
