@@ -12,16 +12,19 @@ from mrlab_ros.app.show import ingredients, still_text
 from mrlab_ros.app.show.page import page
 from mrlab_ros.classroom.marks.exports import REFERENCE
 from mrlab_ros.classroom.marks.graded import SCHEMA, GradedClass, Student
-from mrlab_ros.classroom.marks.result import MARKED, Result
+from mrlab_ros.classroom.marks.result import MARKED, MOST_PATH, Result
 from mrlab_ros.core.base.diagnostic import plain
 
 MOST_FINDINGS, MOST_TESTS = 6, 8
 MOST_LEFT_OUT = 200
+# Points of the ways of all tools: those of a large class have fewer each.
+MOST_POINTS, LEAST_EACH = 60_000, 12
 
 
 def class_document(graded: GradedClass) -> dict[str, Any]:
     """Return the class: a row a student, what is common, and who is alike."""
     rubric, figures, common = graded.rubric, graded.statistics(), graded.similar()
+    each = max(MOST_POINTS // max(len(graded.students), 1), LEAST_EACH)
     return {
         "schema": SCHEMA,
         "title": rubric.name,
@@ -44,7 +47,7 @@ def class_document(graded: GradedClass) -> dict[str, Any]:
                 for one in figures.findings[:MOST_FINDINGS]
             ],
         },
-        "students": [_row(student) for student in graded.students],
+        "students": [_row(student, each) for student in graded.students],
         "reference": None if graded.reference is None else _result(REFERENCE, graded.reference),
         "similar": {
             "threshold": common.threshold,
@@ -62,10 +65,10 @@ def class_document(graded: GradedClass) -> dict[str, Any]:
     }
 
 
-def _row(student: Student) -> dict[str, Any]:
+def _row(student: Student, points: int) -> dict[str, Any]:
     one, result = student.submission, student.result
     return {
-        **_result(student.key, result),
+        **_result(student.key, result, points),
         "name": one.name,
         "identifier": one.identifier,
         "late": one.late,
@@ -73,8 +76,12 @@ def _row(student: Student) -> dict[str, Any]:
     }
 
 
-def _result(key: str, result: Result) -> dict[str, Any]:
-    """Return what became of a submission; path: mm, page: relative to the class' own."""
+def _result(key: str, result: Result, points: int = MOST_PATH) -> dict[str, Any]:
+    """Return what became of a submission; path: mm, of so many points, page: relative to the
+    class' own."""
+    path = np.array(result.path) * 1e3
+    if len(path) > points:
+        path = path[np.linspace(0, len(path) - 1, points).round().astype(int)]
     return {
         "key": key,
         "marked": result.outcome == MARKED,
@@ -85,7 +92,7 @@ def _result(key: str, result: Result) -> dict[str, Any]:
         "duration": result.duration,
         "marks": [_mark(mark) for mark in result.marks["tests"]],
         "page": f"pages/{key}.html" if result.has_page else None,
-        "path": (np.array(result.path) * 1e3).round().astype(int).tolist(),
+        "path": path.round().astype(int).tolist(),
     }
 
 

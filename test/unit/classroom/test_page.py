@@ -66,3 +66,12 @@ def test_the_text_has_a_row_a_student_and_no_name_runs():
     shown = page(document["title"], text, document, {}, Code(b"", ""))
     assert "<h1>Task &lt;1&gt;</h1>" in shown
     assert "&lt;script&gt;\\u202e · 0" in shown
+
+
+def test_the_ways_of_a_large_class_have_fewer_points_each():
+    one = graded().students[0]
+    way = tuple((i / 1e3, 0.0, 0.0) for i in range(64))
+    many = (replace(one, result=replace(one.result, path=way)),) * 5000
+    for students, points in ((many[:30], 64), (many, 12)):
+        path = class_document(replace(graded(), students=students))["students"][-1]["path"]
+        assert (len(path), path[0], path[-1]) == (points, [0, 0, 0], [63, 0, 0])
