@@ -178,6 +178,15 @@ MESHES_INSTALLED = Code(
     "{robot} has the meshes of {file}; undo it with: mrlab robots remove {robot}",
     severity=INFO,
 )
+NO_MESHES_INSTALLED = Code(
+    "no_meshes_installed",
+    "No meshes were installed: {count:count robot keeps its body|robots keep their bodies}.",
+)
+NO_OWN_DESCRIPTION = Code(
+    "no_own_description",
+    "No public description of '{robot}' itself is known, so it keeps the lab's body.",
+    severity=INFO,
+)
 OWN_MESHES_AGAIN = Code("own_meshes_again", "{robot} has its own meshes again.", severity=INFO)
 MODEL_REMOVED = Code("model_removed", "{robot} was removed.", severity=INFO)
 BAD_PACKAGE_OPTION = Code("bad_package_option", "--package is '{text}'; expected NAME=FOLDER.")

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, plain
+from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, Severity, plain
 from mrlab_ros.core.base.foreign_text import visible, visible_lines
 
 if TYPE_CHECKING:
@@ -32,6 +32,7 @@ class Settings:
     debug = False
 
 
+WORDS = {Severity.INFO: "note", Severity.WARNING: "warning", Severity.ERROR: "error"}
 REPORT_WIDTH = 120  # of reports, where nothing says how wide the output is
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
 
@@ -67,6 +68,12 @@ def say_problem(found: Diagnostic) -> None:
 def with_fixes(found: Diagnostic) -> str:
     """Return what is said, and the commands that mend it in lines of their own."""
     return "\n".join((str(found), *_tries(found)))
+
+
+def print_findings(found: Iterable[Diagnostic]) -> None:
+    """Print a line for each finding, and the commands that mend it."""
+    for one in found:
+        print(f"  {WORDS[one.severity]}: {with_fixes(one)}")
 
 
 def _tries(found: Diagnostic) -> list[str]:

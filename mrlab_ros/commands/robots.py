@@ -25,8 +25,8 @@ from mrlab_ros.commands.diagnostics import (
     ROBOT_NOT_IMPORTED,
     ROBOTS_HAVE_ERRORS,
 )
-from mrlab_ros.commands.output import AsJson, say
-from mrlab_ros.core.base.diagnostic import Diagnostic, Fix, Severity, plain
+from mrlab_ros.commands.output import AsJson, print_findings, say
+from mrlab_ros.core.base.diagnostic import Fix, Severity, plain
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.foreign_text import for_shell
 
@@ -37,8 +37,6 @@ if TYPE_CHECKING:
 app = typer.Typer(
     help="The robots of the library: list, show, sheet, check, import, export, meshes, remove."
 )
-
-WORDS = {Severity.INFO: "note", Severity.WARNING: "warning", Severity.ERROR: "error"}
 
 
 def _library() -> RobotLibrary:
@@ -240,7 +238,7 @@ def check(
         findings[robot] = plain(shown)
         if not as_json:
             print(f"{robot}: {'ok' if not shown else ''}".rstrip())
-            _print(shown)
+            print_findings(shown)
     if as_json:
         print(json.dumps({"findings": findings}))
     if worst:
@@ -331,7 +329,7 @@ def import_robot(
         fix = Fix(command=f"mrlab robots import {again}")
         raise BadInput(replace(found, fixes=(fix,))) from None
     if not as_json:
-        _print(imported.findings)
+        print_findings(imported.findings)
     wrong = checks.errors(imported.findings)
     if wrong:
         if as_json:
@@ -415,23 +413,45 @@ def export(
 
 @app.command()
 def meshes(
-    robot: Annotated[str, typer.Argument(help="Id of one of the lab's own robots.")],
-    source: Source,
+    robot: Annotated[
+        str, typer.Argument(help="Id of one of the lab's own robots; none: all, with --from.")
+    ] = "",
+    source: Annotated[
+        list[str] | None, typer.Argument(metavar="[SOURCE [NAME:=VALUE]...]", help=SOURCE_HELP)
+    ] = None,
+    place: Annotated[
+        str,
+        typer.Option(
+            "--from",
+            metavar="DIR|GIT",
+            help="Clones of the repositories that the robots were taken from, or the address of "
+            "one; the commits that robot.yaml states are read, and licences are kept.",
+        ),
+    ] = "",
     package: Annotated[
         list[str] | None,
         typer.Option("--package", help="NAME=FOLDER for package:// and $(find); repeatable."),
     ] = None,
     collision: Annotated[
-        bool, typer.Option("--collision", help="Use its collision meshes too.")
+        bool, typer.Option("--collision", help="With SOURCE: use its collision meshes too.")
     ] = False,
     as_json: AsJson = False,
 ) -> None:
-    """Show one of the lab's robots with the meshes of a vendor's description."""
+    """Show the lab's robots with the meshes of a vendor's description.
+
+    With SOURCE one robot, as the files are. Otherwise those in the clones at --from, thinned, lit
+    and packed for pages and headsets.
+    """
     from mrlab_ros.adapters.robots import checks, vendor_meshes
     from mrlab_ros.adapters.robots.source import find_description
 
-    path = find_description(source[0])
     library = _library()
+    if not source:
+        from mrlab_ros.commands import vendor_meshes as dressing
+
+        dressing.dress(library, robot, place, as_json=as_json)
+        return
+    path = find_description(source[0])
     found = vendor_meshes.use_meshes(
         path,
         robot,
@@ -441,7 +461,7 @@ def meshes(
         collision=collision,
     )
     if not as_json:
-        _print(found)
+        print_findings(found)
     wrong = checks.errors(found)
     if wrong:
         raise BadInput(MESHES_NOT_INSTALLED(file=path.name, count=len(wrong)))
@@ -476,8 +496,3 @@ def _folders(pairs: list[str] | None) -> dict[str, Path]:
 
 def _say_path(path: Path, *, as_json: bool) -> None:
     print(json.dumps({"path": str(path)}) if as_json else path)
-
-
-def _print(found: list[Diagnostic] | tuple[Diagnostic, ...]) -> None:
-    for one in found:
-        print(f"  {WORDS[one.severity]}: {one}")

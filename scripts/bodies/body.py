@@ -12,16 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from solids import Array, Solid, block, disc, lathe
 
-
-@dataclass(frozen=True)
-class Material:
-    """A name and the glTF metallic-roughness values; colour is sRGB, 0 to 1."""
-
-    name: str
-    colour: tuple[float, float, float]
-    metalness: float
-    roughness: float
-
+from mrlab_ros.adapters.robots.packing.surfaces import Material
 
 # KUKA's colours by their RAL numbers: 2003, 9005, 9010. 9005 is drawn as bright as it looks in a
 # lit room: what the paint alone reflects diffusely shows no form on a screen.

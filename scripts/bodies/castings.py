@@ -10,12 +10,11 @@ from typing import Any
 import kuka
 import measured
 import numpy as np
-from body import Material
-from mesher import Mesh, creased, decimated
 from scipy.spatial import cKDTree
 from solids import Array
 
-APART = 5.0  # m, between links that are thinned together
+from mrlab_ros.adapters.robots.packing.surfaces import Material, Mesh, creased, together
+
 NEIGHBOURS = 10  # vertices of the casting that tell a normal
 SPREAD = 0.003  # m, at which a neighbour counts half
 ALIKE = 0.8  # cosine between normals of one wall
@@ -31,7 +30,7 @@ class Castings:
         self, figures: dict[str, Any], pieces: dict[str, list[tuple[Material, Mesh]]]
     ) -> None:
         self._links = kuka.ROBOTS[figures["id"]]
-        found = measured.surfaces(figures, self._links)
+        found = measured.surfaces(figures, self._links, dense=True)
         self._surfaces = {link: mesh for link, (_, mesh) in found.items()}
         self._walls = {link: creased(mesh) for link, mesh in self._surfaces.items()}
         self._parts = {
@@ -51,24 +50,6 @@ class Castings:
             ]
             result[link] = [*painted, *self._parts[link]]
         return result
-
-
-def together(meshes: list[Mesh], triangles: int) -> list[Mesh]:
-    """Return the meshes of so many triangles in all: the smallest error goes first in any."""
-    shift = [np.array([APART * number, 0.0, 0.0]) for number in range(len(meshes))]
-    starts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
-    whole = Mesh(
-        np.concatenate([mesh.vertices + by for mesh, by in zip(meshes, shift, strict=True)]),
-        np.concatenate([mesh.faces + start for mesh, start in zip(meshes, starts, strict=False)]),
-        np.empty((0, 3)),
-    )
-    thin = decimated(whole, triangles)
-    owner = np.round(thin.vertices[thin.faces[:, 0], 0] / APART).astype(int)
-    result = []
-    for number, by in enumerate(shift):
-        used, faces = np.unique(thin.faces[owner == number], return_inverse=True)
-        result.append(Mesh(thin.vertices[used] - by, faces.reshape(-1, 3), np.empty((0, 3))))
-    return result
 
 
 def shaded(mesh: Mesh, wall: Mesh) -> Mesh:

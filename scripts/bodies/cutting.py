@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from mesher import Faces
 from numpy.typing import NDArray
 from solids import Array
+
+from mrlab_ros.adapters.robots.packing.surfaces import Faces
 
 Mask = NDArray[np.bool_]
 SNAP = 1e-4  # m; a vertex as near to the line lies on it: no slivers

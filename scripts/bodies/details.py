@@ -13,9 +13,9 @@ from typing import Any
 
 import numpy as np
 import yaml
-from body import Material
-from mesher import Mesh
 from solids import Array
+
+from mrlab_ros.adapters.robots.packing.surfaces import Material, Mesh
 
 TABLES = Path(__file__).parent / "details"
 MM = 0.001

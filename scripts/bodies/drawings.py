@@ -8,9 +8,11 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from body import STEEL, Material
+from body import STEEL
 from PIL import Image, ImageDraw, ImageFont
 from solids import Array
+
+from mrlab_ros.adapters.robots.packing.surfaces import Material
 
 FINE = 4  # times as large
 INK = (24, 24, 27)

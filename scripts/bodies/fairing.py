@@ -21,10 +21,13 @@ ALIKE, ALIKE_SHARE = (
 )  # m, within which that share of a surface lies of its mirror image
 
 
-def faired(solid: Solid, cell: float) -> Solid:
-    """Return the solid with even fillets and without slits and slivers, on a grid of `cell`, m."""
+def faired(solid: Solid, cell: float, most: float | None = None) -> Solid:
+    """Return the solid with even fillets and without slits and slivers, on a grid of `cell`, m.
+
+    most: of the fillets, m; None: as large as its size lets expect.
+    """
     size = float((solid.high - solid.low).max())
-    radius = float(np.clip(size * FILLET, *FILLETS))
+    radius = min(float(np.clip(size * FILLET, *FILLETS)), most or FILLETS[1])
     margin = radius + 3 * cell
     low = solid.low - margin
     counts = np.ceil((solid.high - solid.low + 2 * margin) / cell).astype(int) + 1

@@ -13,9 +13,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from body import Material
 from scipy.interpolate import PchipInterpolator
 from solids import Array, Solid, rod, union
+
+from mrlab_ros.adapters.robots.packing.surfaces import Material
 
 SKIN = Material("figure", (0.36, 0.42, 0.5), 0.0, 0.75)
 STATURE, MEASURED = 1.8, 1.75  # m

@@ -25,13 +25,14 @@ import measured
 import numpy as np
 import tools
 import yaml
-from body import BLACK, Body, Material
+from body import BLACK, Body
 from figure import SKIN, figure
-from mesher import GRID, Mesh, contour, creased, decimated
+from mesher import contour
 from solids import Array, Solid
 from urdf_writer import LinkFiles, urdf
 
 from mrlab_ros.adapters.robots.hulls import samples
+from mrlab_ros.adapters.robots.packing.surfaces import GRID, Material, Mesh, creased, decimated
 from mrlab_ros.core.base.geometry import inverse_transform, transform_from_xyz_rpy
 
 ROBOTS = Path(__file__).resolve().parents[2] / "robots"

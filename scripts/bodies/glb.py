@@ -11,19 +11,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from body import Material
-from mesher import Mesh
+
+from mrlab_ros.adapters.robots.packing.surfaces import Material, Mesh, linear, srgb
 
 FLOAT, SHORT, INT = 5126, 5123, 5125
-
-
-def linear(srgb: float) -> float:
-    """Return the light of an sRGB value, 0 to 1."""
-    return srgb / 12.92 if srgb <= 0.04045 else ((srgb + 0.055) / 1.055) ** 2.4
-
-
-def _srgb(light: float) -> float:
-    return light * 12.92 if light <= 0.0031308 else 1.055 * light ** (1 / 2.4) - 0.055
 
 
 def read(path: Path) -> list[tuple[Material, Mesh]]:
@@ -45,7 +36,7 @@ def read(path: Path) -> list[tuple[Material, Mesh]]:
     for primitive in document["meshes"][0]["primitives"]:
         made = document["materials"][primitive["material"]]
         finish = made["pbrMetallicRoughness"]
-        red, green, blue = (round(_srgb(value), 4) for value in finish["baseColorFactor"][:3])
+        red, green, blue = (round(srgb(value), 4) for value in finish["baseColorFactor"][:3])
         material = Material(
             made["name"], (red, green, blue), finish["metallicFactor"], finish["roughnessFactor"]
         )

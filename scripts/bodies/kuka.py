@@ -6,8 +6,10 @@ scripts/bodies/sections/<id>.json where the outlines do.
 
 from __future__ import annotations
 
-from body import BLACK, GREY, LIGHT_GREY, ORANGE, RUBBER, STEEL, WHITE, Material, Part, bolts
+from body import BLACK, GREY, LIGHT_GREY, ORANGE, RUBBER, STEEL, WHITE, Part, bolts
 from measured import Link, Region
+
+from mrlab_ros.adapters.robots.packing.surfaces import Material
 
 ALL = 5000.0
 

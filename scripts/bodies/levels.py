@@ -1,8 +1,8 @@
 """Write the packed levels of detail that pages draw: `levels.py [--out DIR] [ID ...]`.
 
 <id>/lod/near.glb has baked light and is drawn nearby; far.glb has few triangles. Both are made of
-the meshes of the links, which other programs read, and change when those do; near.glb of a very
-large robot is made of the castings themselves, of which those meshes are a thinner copy.
+the meshes of the links, which other programs read, and change when those do; those of a large
+robot are made of its castings, measured more densely than for these meshes (castings.py).
 """
 
 from __future__ import annotations
@@ -18,37 +18,33 @@ import details
 import glb
 import kuka
 import numpy as np
-import packed
 import trimesh
 import yaml
-from atlas import Drawing
-from body import Material
 from castings import Castings
 from details import Surface
 from markings import AFAR, Marking, marked, markings
-from mesher import Mesh, creased, decimated
-from occlusion import Around, lit
-from pieces import Piece
 from relief import clamped, grooved, lined, screwed
-from scipy.spatial.transform import Rotation
-from solids import Array
 
-from mrlab_ros.core.base.geometry import inverse_transform, transform_from_xyz_rpy
+from mrlab_ros.adapters.robots.packing import packed
+from mrlab_ros.adapters.robots.packing.atlas import Drawing
+from mrlab_ros.adapters.robots.packing.occlusion import (
+    Around,
+    Pieces,
+    lit,
+    surroundings,
+    triangles_of,
+)
+from mrlab_ros.adapters.robots.packing.pieces import Piece
+from mrlab_ros.adapters.robots.packing.surfaces import Mesh, creased, decimated
 
 ROBOTS = Path(__file__).resolve().parents[2] / "robots"
 LARGE = 1.4  # m of reach, from which a robot is a large one
 NEAR, NEAR_LARGE = 15_000, 36_000  # triangles of a model at most, drawings and screws included
-FAR = 3_600  # of the bodies alone
-FINE = 2.4  # m of reach, from which the meshes of links look faceted at arm's length
+FAR, MOST_FAR = 3_600, 4_000  # of the bodies alone at first; with their drawings
 PLAIN = 0.75  # of the triangles of near are there before it is made finer where light is uneven
 PLAIN_FINE = 0.86  # the same where the castings are thinned
-# Neighbours stand at home and turned by this much to both sides: what is always hidden is dark.
-TURNS = (-0.9, 0.0, 0.9)
 FAR_ATLAS = 256  # pixels
-FLOOR = 4.0  # m, half of its side
 
-
-Pieces = dict[str, list[tuple[Material, Mesh]]]
 Level = dict[str, list[Piece]]
 
 
@@ -57,10 +53,7 @@ class Dress:
 
     def __init__(self, figures: dict[str, Any], pieces: Pieces, reach: float) -> None:
         """pieces: the bodies as they are drawn; on their surfaces all of it lies."""
-        radius = float(np.clip(reach / 9, 0.04, 0.25))
-        self.around = {
-            link: Around(_surroundings(link, pieces, figures), radius) for link in pieces
-        }
+        self.around = surroundings(pieces, figures, reach)
         self._surfaces = {link: Surface(own) for link, own in pieces.items()}
         self._entries = details.table(figures["id"])
         self._marks = markings(figures, self._surfaces)
@@ -109,7 +102,7 @@ def write(folder: Path, figures: dict[str, Any]) -> None:
     most = NEAR_LARGE if reach > LARGE else NEAR
     share = PLAIN
     thinned: Callable[[float], Pieces] = partial(_thinned, pieces)
-    if reach > FINE and figures["id"] in kuka.ROBOTS:
+    if reach > LARGE and figures["id"] in kuka.ROBOTS:
         share, thinned = PLAIN_FINE, Castings(figures, pieces).thinned
     bodies = most
     while True:
@@ -121,10 +114,16 @@ def write(folder: Path, figures: dict[str, Any]) -> None:
         if over <= 0:
             break
         bodies -= over + 50
-    thin = _thinned(pieces, FAR)
-    few = _plainly(thin, _around(thin, figures, reach))
+    bodies = FAR
+    while True:
+        thin = thinned(bodies)
+        few = _plainly(thin, surroundings(thin, figures, reach))
+        far = {link: dress.far(link, found) for link, found in few.items()}
+        over = _count(far) - MOST_FAR
+        if over <= 0:
+            break
+        bodies -= over + 50
     off = max(_off(body[link], few[link]) for link in pieces)
-    far = {link: dress.far(link, found) for link, found in few.items()}
     place = folder / "lod"
     place.mkdir(exist_ok=True)
     made_of = {"made_of": digest(folder), "details": details.digest(figures["id"])}
@@ -206,53 +205,12 @@ def _plain(mesh: Mesh, triangles: int) -> Mesh:
 
 def _off(near: list[Piece], far: list[Piece]) -> float:
     """Return the distance, m, within which 99 of 100 points of a far body lie of the near one."""
-    one, other = (_triangles([(each.material, each.mesh) for each in own]) for own in (near, far))
+    one, other = (
+        triangles_of([(each.material, each.mesh) for each in own]) for own in (near, far)
+    )
     points = other.mean(axis=1)[:: max(len(other) // 600, 1)]
     surface = trimesh.Trimesh(**trimesh.triangles.to_kwargs(one))
     return float(np.quantile(trimesh.proximity.closest_point(surface, points)[1], 0.99))
-
-
-def _around(pieces: Pieces, figures: dict[str, Any], reach: float) -> dict[str, Around]:
-    """Return what darkens each link: itself and its neighbours, as they are drawn."""
-    radius = float(np.clip(reach / 9, 0.04, 0.25))
-    return {link: Around(_surroundings(link, pieces, figures), radius) for link in pieces}
-
-
-def _surroundings(
-    link: str, pieces: dict[str, list[tuple[Material, Mesh]]], figures: dict[str, Any]
-) -> list[Array]:
-    own = _triangles(pieces[link])
-    joints: Sequence[dict[str, Any]] = figures["joints"]
-    root = joints[0]["parent"] if joints else link
-    fixed = [own]
-    if link == root or (joints and joints[0]["type"] == "fixed" and joints[0]["child"] == link):
-        low = float(own[:, :, 2].min()) - 2e-4
-        a, b, c, d = ([x * FLOOR, y * FLOOR, low] for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1)))
-        fixed.append(np.array([[a, b, c], [a, c, d]]))
-    poses = []
-    for turn in TURNS:
-        around = list(fixed)
-        for joint in joints:
-            moves = joint["type"] in ("revolute", "continuous")
-            pose = transform_from_xyz_rpy(joint["xyz"], joint["rpy"])
-            if moves:
-                turned = Rotation.from_rotvec(turn * np.array(joint["axis"], float))
-                pose[:3, :3] = pose[:3, :3] @ turned.as_matrix()
-            if joint["parent"] == link and joint["child"] in pieces:
-                around.append(_moved(_triangles(pieces[joint["child"]]), pose))
-            elif joint["child"] == link and joint["parent"] in pieces:
-                around.append(_moved(_triangles(pieces[joint["parent"]]), inverse_transform(pose)))
-        poses.append(np.concatenate(around))
-    return poses
-
-
-def _triangles(pieces: Sequence[tuple[Material, Mesh]]) -> Array:
-    return np.concatenate([mesh.vertices[mesh.faces] for _, mesh in pieces])
-
-
-def _moved(triangles: Array, pose: Array) -> Array:
-    result: Array = triangles @ pose[:3, :3].T + pose[:3, 3]
-    return result
 
 
 def models(ids: Sequence[str], library: Path) -> list[tuple[Path, Path]]:

@@ -12,15 +12,14 @@ from typing import Any
 
 import drawings
 import numpy as np
-from atlas import Drawing
-from body import Material
 from cutting import cut
 from details import MM, SEARCH, Surface, frame_of, table, unit
-from mesher import Faces
-from pieces import Piece, piece_of, rows_of
 from scipy.spatial.transform import Rotation
 from solids import Array
 
+from mrlab_ros.adapters.robots.packing.atlas import Drawing
+from mrlab_ros.adapters.robots.packing.pieces import Piece, piece_of, rows_of
+from mrlab_ros.adapters.robots.packing.surfaces import Faces, Material
 from mrlab_ros.core.base.geometry import transform_from_xyz_rpy
 
 GRID = 7  # rays across a marking, each way, that find its plane

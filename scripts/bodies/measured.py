@@ -8,23 +8,28 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from body import Material, Part
+from body import Part
 from casting import casting
 from drums import turned_true
 from fairing import faired
-from mesher import Mesh, contour, decimated, smoothed
+from mesher import contour, smoothed
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 from solids import Array, Solid
 
+from mrlab_ros.adapters.robots.packing.surfaces import Material, Mesh, decimated
 from mrlab_ros.core.base.geometry import transform_from_xyz_rpy
 
-TABLES = Path(__file__).parent / "sections"
-SAMPLES = 2e6  # of the box of a casting
+TABLES = Path(__file__).parent / "sections"  # of meshes and hulls
+DENSE_TABLES = TABLES / "dense"  # of what pages draw
+SAMPLES, SAMPLES_DENSE = 2e6, 4e6  # of the box of a casting
+DENSE = 0.009  # m, between sections: what is as near shows edges, and they stay
+SHARP = 0.003  # m, the largest fillet of edges that sections show
 SHRED = 0.03  # of the area of a casting; a piece apart from it is larger
 FINEST = 0.0018  # m
 MOST = 40_000  # triangles of a surface; more cost time and show nothing
@@ -48,26 +53,51 @@ class Link:
     parts: tuple[Part, ...] = field(default=())
 
 
-def table(robot: str, link: str) -> dict[str, Any]:
-    """Return the measured outlines of a link, those of a like one where the table names it."""
-    found: dict[str, Any] = json.loads((TABLES / f"{robot}.json").read_text())[link]
-    return table(*found["as"].split("/")) if "as" in found else found
+@cache
+def table(robot: str, link: str, dense: bool = False) -> dict[str, Any]:
+    """Return the measured outlines of a link, those of a like one where the table names it.
+
+    dense: those in DENSE_TABLES where there are such.
+    """
+    place = DENSE_TABLES / f"{robot}.json"
+    tables = json.loads(place.read_text()) if dense and place.is_file() else {}
+    tables = tables if link in tables else json.loads((TABLES / f"{robot}.json").read_text())
+    found: dict[str, Any] = tables[link]
+    return table(*found["as"].split("/"), dense) if "as" in found else found
 
 
-def surface(robot: str, link: str, axes: Sequence[Array]) -> tuple[Solid, Mesh]:
+def surface(
+    robot: str, link: str, axes: Sequence[Array], dense: bool = False
+) -> tuple[Solid, Mesh]:
     """Return a link's faired casting, and its surface with exact drums about the joints' axes.
 
-    axes: poses (4, 4) whose z axes are those.
+    axes: poses (4, 4) whose z axes are those; dense: from the sections in DENSE_TABLES.
     """
-    body = casting(table(robot, link))
-    cell = max(float(np.cbrt(np.prod(body.high - body.low) / SAMPLES)), FINEST)
-    body = turned = faired(body, cell)
+    # Robots of a family share links: one table, one surface.
+    key = id(table(robot, link, dense)), np.round(axes, 6).tobytes(), dense
+    if key not in _SURFACES:
+        _SURFACES[key] = _surface(table(robot, link, dense), axes, dense)
+    return _SURFACES[key]
+
+
+_SURFACES: dict[tuple[int, bytes, bool], tuple[Solid, Mesh]] = {}
+
+
+def _surface(outlines: dict[str, Any], axes: Sequence[Array], dense: bool) -> tuple[Solid, Mesh]:
+    body = casting(outlines)
+    along = "xyz".index(outlines["slice_axis"])
+    dense &= (body.high - body.low)[along] < DENSE * len(outlines["sections"])
+    samples = SAMPLES_DENSE if dense else SAMPLES
+    cell = max(float(np.cbrt(np.prod(body.high - body.low) / samples)), FINEST)
+    body = turned = faired(body, cell, SHARP if dense else None)
     for pose in axes:
         turned = turned_true(turned, pose)
     return body, decimated(smoothed(whole(contour(turned, cell))), MOST)
 
 
-def surfaces(figures: dict[str, Any], links: Mapping[str, Link]) -> dict[str, tuple[Solid, Mesh]]:
+def surfaces(
+    figures: dict[str, Any], links: Mapping[str, Link], dense: bool = False
+) -> dict[str, tuple[Solid, Mesh]]:
     """Return the castings of a robot's links with their surfaces, each in its link's frame."""
     found = {}
     for link in links:
@@ -77,7 +107,7 @@ def surfaces(figures: dict[str, Any], links: Mapping[str, Link]) -> dict[str, tu
             for joint in figures["joints"]
             if joint["parent"] == link and joint["type"] != "fixed"
         ]
-        found[link] = surface(figures["id"], link, axes)
+        found[link] = surface(figures["id"], link, axes, dense)
     return found
 
 

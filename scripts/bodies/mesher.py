@@ -1,30 +1,15 @@
-"""Turns solids into triangle meshes: dual contouring, smoothing, decimation, creased normals."""
+"""Turns solids into triangle meshes: dual contouring, smoothing."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
-import fast_simplification
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 from solids import Array, Solid
 
-Faces = NDArray[np.int64]
-CREASE_DEG = 38.0
+from mrlab_ros.adapters.robots.packing.surfaces import Faces, Mesh
+
 ALIKE_DEG = 22.0  # between faces that are smoothed together; sharper edges stay
 SMOOTHINGS, FITTINGS = 18, 18  # rounds of normals, then of vertices
-GRID = 1e-5  # m; positions are rounded to it, so that the last bits of a sum do not matter
-
-
-@dataclass(frozen=True, eq=False)
-class Mesh:
-    """vertices (V, 3) m, faces (F, 3), counter-clockwise from outside; normals (V, 3) or empty."""
-
-    vertices: Array
-    faces: Faces
-    normals: Array
 
 
 def contour(solid: Solid, cell: float) -> Mesh:
@@ -169,49 +154,3 @@ def smoothed(mesh: Mesh) -> Mesh:
                 )
         vertices += shift / np.maximum(degree, 1)
     return Mesh(vertices, faces, mesh.normals)
-
-
-def decimated(mesh: Mesh, triangles: int) -> Mesh:
-    """Return the mesh with about `triangles` faces, quadric error smallest first."""
-    if len(mesh.faces) <= triangles:
-        return mesh
-    points, faces = fast_simplification.simplify(
-        mesh.vertices.astype(np.float32),
-        mesh.faces.astype(np.int32),
-        target_count=triangles,
-        agg=4,
-    )
-    return Mesh(points.astype(np.float64), faces.astype(np.int64), np.empty((0, 3)))
-
-
-def creased(mesh: Mesh) -> Mesh:
-    """Return the mesh with normals: smooth, but split where faces meet at more than CREASE_DEG."""
-    vertices = np.round(mesh.vertices / GRID) * GRID
-    faces = mesh.faces
-    a, b, c = (vertices[faces[:, i]] for i in range(3))
-    area = np.cross(b - a, c - a)
-    size = np.linalg.norm(area, axis=1)
-    keep = size > 1e-12
-    faces, area, size = faces[keep], area[keep], size[keep]
-    unit = area / size[:, None]
-    corner = np.arange(faces.size).reshape(-1, 3)
-    # Two corners at one vertex share a normal where a smooth edge joins their faces.
-    edges = np.concatenate([np.sort(faces[:, [i, (i + 1) % 3]], axis=1) for i in range(3)])
-    owner = np.tile(np.arange(len(faces)), 3)
-    sides = np.concatenate([corner[:, [i, (i + 1) % 3]] for i in range(3)])
-    flipped = np.concatenate([faces[:, i] > faces[:, (i + 1) % 3] for i in range(3)])
-    sides = np.where(flipped[:, None], sides[:, ::-1], sides)
-    order = np.lexsort((edges[:, 1], edges[:, 0]))
-    one, two = order[:-1], order[1:]
-    same = (edges[one] == edges[two]).all(axis=1)
-    flat = (unit[owner[one]] * unit[owner[two]]).sum(axis=1) > np.cos(np.radians(CREASE_DEG))
-    one, two = one[same & flat], two[same & flat]
-    links = (sides[one].ravel(), sides[two].ravel())
-    graph = coo_matrix((np.ones(len(links[0])), links), shape=(faces.size, faces.size))
-    count, index = connected_components(graph, directed=False)
-    normal = np.zeros((count, 3))
-    np.add.at(normal, index, np.repeat(area, 3, axis=0))
-    normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-30)
-    vertex = np.empty(count, dtype=np.int64)
-    vertex[index] = faces.ravel()
-    return Mesh(vertices[vertex], index.reshape(-1, 3), np.round(normal, 4))

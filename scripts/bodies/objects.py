@@ -11,9 +11,11 @@ from collections.abc import Callable
 from pathlib import Path
 
 import glb
-from body import LIGHT_GREY, STEEL, WHITE, Material, drum, slab
-from mesher import contour, creased, decimated
+from body import LIGHT_GREY, STEEL, WHITE, drum, slab
+from mesher import contour
 from solids import Solid, lathe, ring, union
+
+from mrlab_ros.adapters.robots.packing.surfaces import Material, creased, decimated
 
 FOLDER = Path(__file__).resolve().parents[2] / "config" / "objects"
 PORCELAIN = Material("porcelain", (0.93, 0.93, 0.94), 0.0, 0.25)

@@ -6,13 +6,14 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from body import BLACK, STEEL, Material
+from body import BLACK, STEEL
 from cutting import cut
 from details import MM, Surface, frame_of, unit
-from mesher import Mesh
-from occlusion import Around
-from pieces import Piece, piece_of, rows_of
 from solids import Array
+
+from mrlab_ros.adapters.robots.packing.occlusion import Around
+from mrlab_ros.adapters.robots.packing.pieces import Piece, piece_of, rows_of
+from mrlab_ros.adapters.robots.packing.surfaces import Material, Mesh
 
 DARK = 0.3  # of the light at the bottom of a groove
 WIDE, DEEP = 2.5, 1.5  # mm, of a groove

@@ -226,6 +226,31 @@ NOT_OF_LIBRARY = Code(
     "Import it again instead.",
     meaning="Meshes of a manufacturer are for the lab's own robots.",
 )
+NO_CLONE = Code(
+    "no_clone",
+    "{folder} holds no clone of {repository}[ at commit {commit}][: {why}].",
+    "Clone it there, or say where it is.",
+    meaning="The repository of a manufacturer's description is not on this machine.",
+)
+NOT_CLONED = Code(
+    "commit_not_cloned",
+    "The clone {folder} of {repository} lacks commit {commit}, with which its meshes were tried.",
+    "Fetch that commit.",
+    meaning="A clone of a manufacturer's description lacks the commit that robot.yaml states.",
+)
+MESHES_NEED = Code(
+    "meshes_need",
+    "Packing meshes needs the Python package '{package}', which is not installed.",
+    "Install fast-simplification and embreex beside the lab.",
+    meaning="A package that thins or lights meshes is missing.",
+)
+ANOTHER_SHAPE = Code(
+    "another_shape",
+    "The silhouette of these meshes has {share:share} of that of '{robot}'; at least "
+    "{least:share} is expected.",
+    "Take the description of the same product.",
+    meaning="The meshes of a manufacturer's description show another body than the lab's.",
+)
 NOT_IMPORTED = Code(
     "not_imported",
     "Nothing was imported as '{robot}', so nothing is removed.",

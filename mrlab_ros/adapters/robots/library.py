@@ -92,6 +92,7 @@ class RobotLibrary:
         facts = self.facts(robot_id)
         if override.is_file():
             text = _read(override)
+            beside += levels(override.parent, f"{MESH_PREFIX}{robot_id}", VENDOR)
         else:
             folder = self._robot_folder(robot_id)
             beside += levels(folder, f"{MESH_PREFIX}{robot_id}") + hoses(facts)
@@ -317,18 +318,24 @@ def _adapter_plate(radius: float) -> ET.Element:
 
 
 LEVELS = ("near", "far")
+VENDOR = "vendor_"  # the lab's own file of a name is found before an imported one
 
 
-def levels(folder: Path, uri: str) -> list[ET.Element]:
+def levels(folder: Path, uri: str, prefix: str = "") -> list[ET.Element]:
     """Return the packed levels of a model's folder; none where one is missing.
 
     uri: of the folder. They stand for all meshes below <uri>/meshes/, which is not named: clients
-    fetch whatever a description names as package://.
+    fetch whatever a description names as package://. prefix: of the files' names.
     """
-    if not all((folder / "lod" / f"{name}.glb").is_file() for name in LEVELS):
+    names = {level: f"lod/{prefix}{level}.glb" for level in LEVELS}
+    if not all((folder / name).is_file() for name in names.values()):
         return []
-    files = {name: f"{uri}/lod/{name}.glb" for name in LEVELS}
-    return [ET.Element("level_of_detail", files)]
+    return [ET.Element("level_of_detail", {level: f"{uri}/{names[level]}" for level in names})]
+
+
+def vendor_levels(folder: Path) -> dict[str, Path]:
+    """Return the files of the packed levels of a vendor's meshes, by level."""
+    return {level: folder / "lod" / f"{VENDOR}{level}.glb" for level in LEVELS}
 
 
 def hoses(facts: Mapping[str, Any]) -> list[ET.Element]:

@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import shutil
+import tempfile
 import xml.etree.ElementTree as ET
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
-from mrlab_ros.adapters.robots import checks, mesh_files, urdf
+from mrlab_ros.adapters.robots import checks, drawing, mesh_files, urdf
 from mrlab_ros.adapters.robots.diagnostics import (
+    ANOTHER_SHAPE,
+    MESHES_NEED,
+    NO_CLONE,
     NO_SHARED_LINK,
     NOT_IMPORTED,
     NOT_OF_LIBRARY,
@@ -19,12 +24,14 @@ from mrlab_ros.adapters.robots.diagnostics import (
 from mrlab_ros.adapters.robots.drawing import Assembly
 from mrlab_ros.adapters.robots.library import MESH_PREFIX, RobotLibrary
 from mrlab_ros.adapters.robots.source import MeshFinder, description_text, packages_around
+from mrlab_ros.adapters.robots.vendor_sources import NOTICE, TEXTS, Clone, Pinned
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.geometry import Array
 
 LARGEST_SHIFT = 1e-4  # m, between the same link's frames in both descriptions
 LARGEST_TURN = 1e-4  # rad
+ALIKE = 0.85  # of the silhouettes of the lab's body and a vendor's
 
 
 def use_meshes(
@@ -86,6 +93,96 @@ def use_meshes(
     shutil.rmtree(folder, ignore_errors=True)
     aside.rename(folder)
     return found
+
+
+def dress(
+    robot_id: str, source: Pinned, clone: Clone, library: RobotLibrary, before_and_after: Path
+) -> Worn:
+    """Let a robot wear the meshes of the description that it was taken from, packed for pages.
+
+    Licence and notices of the repository are kept beside the meshes, with its address and commit.
+    before_and_after: a folder for the picture of both bodies. With a finding that is an error the
+    robot keeps the body that it has. Raises BadInput as `use_meshes` does, and where a
+    package that packs meshes is missing.
+    """
+    try:
+        import fast_simplification  # noqa: F401
+
+        from mrlab_ros.adapters.robots import vendor_levels
+    except ModuleNotFoundError as error:
+        raise BadInput(MESHES_NEED(package=str(error.name))) from None
+    names = clone.files()
+    texts = [name for name in names if name.endswith(TEXTS) or NOTICE.search(name)]
+    before = drawing.bodies(RobotLibrary(library.folder, library.imported / "none"), robot_id)
+    with tempfile.TemporaryDirectory(prefix="mrlab-") as made:
+        tree = Path(made, source.repository.rpartition("/")[2])
+        clone.copy(texts, tree)
+        path = next((tree / name for name in source.names if (tree / name).is_file()), None)
+        if path is None:
+            raise BadInput(NO_CLONE(repository=source.repository, folder=str(clone.folder)))
+        packages = packages_around(path)
+        text = description_text(path, packages, source.arguments)
+        wanted = _seen_folders(urdf.parse(text, path.name), packages, tree)
+        clone.copy([name for name in names if name.rpartition("/")[0] in wanted], tree)
+        found = use_meshes(path, robot_id, library, packages, arguments=source.arguments)
+        if checks.errors(found):
+            return Worn(found)
+        folder = library.imported / robot_id
+        share = vendor_levels.overlap(library, robot_id)
+        if share < ALIKE:
+            shutil.rmtree(folder)
+            return Worn((*found, ANOTHER_SHAPE(robot=robot_id, share=share, least=ALIKE)))
+        made_of = {"repository": source.address, "commit": clone.commit or source.commit}
+        triangles = vendor_levels.write(library, robot_id, made_of)
+        notices = [name for name in names if NOTICE.search(name) and _applies(name, wanted)]
+        for name in notices:
+            kept = folder / "licence" / name
+            kept.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(tree / name, kept)
+    origin = [source.address, f"commit {made_of['commit']}", source.path, source.licence]
+    (folder / "licence").mkdir(exist_ok=True)
+    (folder / "licence" / "SOURCE.txt").write_text("\n".join([*origin, ""]), encoding="utf-8")
+    picture = before_and_after / f"{robot_id}.png"
+    vendor_levels.picture(library, robot_id, before, picture)
+    files = vendor_levels.sizes(folder)
+    return Worn(found, triangles, files, share, tuple(notices), picture)
+
+
+@dataclass(frozen=True)
+class Worn:
+    """What came of dressing a robot.
+
+    triangles and sizes (bytes) by level; share: of the silhouettes that both bodies have; notices:
+    the files of the repository that are kept; None and empty where nothing was installed.
+    """
+
+    findings: tuple[Diagnostic, ...]
+    triangles: Mapping[str, int] = field(default_factory=dict)
+    sizes: Mapping[str, int] = field(default_factory=dict)
+    share: float = 0.0
+    notices: tuple[str, ...] = ()
+    picture: Path | None = None
+
+
+def _seen_folders(root: ET.Element, packages: Mapping[str, Path], tree: Path) -> set[str]:
+    """Return the folders of the repository that hold what is seen: meshes, their pictures."""
+    found = set()
+    for mesh in root.iterfind("link/visual/geometry/mesh"):
+        package, _, inside = str(mesh.get("filename")).removeprefix("package://").partition("/")
+        place = Path(str(mesh.get("filename")).removeprefix("file://"))
+        if package in packages:
+            place = packages[package] / inside
+        if place.is_relative_to(tree):
+            found.add(place.relative_to(tree).parent.as_posix())
+    return found
+
+
+def _applies(notice: str, folders: set[str]) -> bool:
+    """Return whether a notice is of one of the folders, or of one that holds it."""
+    above, _, _ = notice.rpartition("/")
+    return (
+        any(folder == above or folder.startswith(f"{above}/") for folder in folders) or not above
+    )
 
 
 def remove(robot_id: str, library: RobotLibrary) -> None:

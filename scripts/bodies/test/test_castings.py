@@ -25,6 +25,7 @@ import trimesh
 from body import BLACK, ORANGE
 
 from mrlab_ros.adapters.robots import hulls as fits
+from mrlab_ros.adapters.robots.packing import surfaces
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -209,7 +210,7 @@ def test_slits_between_the_pieces_of_a_collision_mesh_are_closed() -> None:
     assert np.ptp(measure.solid(whole).vertices, axis=0) == pytest.approx([120, 118, 120], abs=1.5)
 
 
-def ball(radius: float, cell: float, middle: float = 0.0) -> mesher.Mesh:
+def ball(radius: float, cell: float, middle: float = 0.0) -> surfaces.Mesh:
     return mesher.contour(solids.ball(radius).moved(middle, 0, 0), cell)
 
 
@@ -223,10 +224,10 @@ def test_what_is_thinned_together_is_as_exact_everywhere_and_stays_in_place() ->
 
 
 def test_a_thinned_ball_is_shaded_as_the_fine_one() -> None:
-    fine = mesher.creased(ball(0.5, 0.02))
-    thin = mesher.creased(mesher.decimated(fine, 300))
+    fine = surfaces.creased(ball(0.5, 0.02))
+    thin = surfaces.creased(surfaces.decimated(fine, 300))
 
-    def off(mesh: mesher.Mesh) -> float:
+    def off(mesh: surfaces.Mesh) -> float:
         true = mesh.vertices / np.linalg.norm(mesh.vertices, axis=1, keepdims=True)
         return float(
             np.degrees(np.arccos(np.clip((true * mesh.normals).sum(axis=1), -1, 1))).max()
@@ -235,7 +236,7 @@ def test_a_thinned_ball_is_shaded_as_the_fine_one() -> None:
     told = castings.shaded(thin, fine)
     assert off(told) < 0.4 * off(thin)
     # a wall that looks the other way tells nothing
-    turned = mesher.Mesh(fine.vertices, fine.faces, -fine.normals)
+    turned = surfaces.Mesh(fine.vertices, fine.faces, -fine.normals)
     np.testing.assert_allclose(castings.shaded(thin, turned).normals, thin.normals, atol=1e-4)
 
 
@@ -277,7 +278,7 @@ def test_the_person_has_the_measures_it_names() -> None:
 
 def test_shreds_in_mid_air_are_dropped(drum: Any) -> None:
     mesh = mesher.contour(drum, 0.008)
-    shred = mesher.Mesh(
+    shred = surfaces.Mesh(
         np.concatenate([mesh.vertices, mesh.vertices[:3] * 0.01 + 1.0]),
         np.concatenate([mesh.faces, [[len(mesh.vertices) + n for n in range(3)]]]),
         mesh.normals,

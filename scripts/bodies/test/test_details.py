@@ -12,16 +12,16 @@ import glb
 import numpy as np
 import pytest
 import yaml
-from atlas import RIM, Atlas, Drawing
-from body import BLACK, ORANGE, STEEL, Material
+from body import BLACK, ORANGE, STEEL
 from cutting import cut
 from markings import marked, markings, sense
-from mesher import Mesh
-from pieces import Piece
 from relief import grooved, lined, outline, places, screwed
 from scipy.spatial.transform import Rotation
 
 from mrlab_ros.adapters.robots.hulls import samples
+from mrlab_ros.adapters.robots.packing.atlas import RIM, Atlas, Drawing
+from mrlab_ros.adapters.robots.packing.pieces import Piece
+from mrlab_ros.adapters.robots.packing.surfaces import Material, Mesh
 from mrlab_ros.core.base.geometry import transform_from_xyz_rpy
 
 ROOT = Path(__file__).resolve().parents[3]

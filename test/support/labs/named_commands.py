@@ -250,6 +250,7 @@ ELSEWHERE = {
     "robots sheet --out": "as robots sheet",
     "robots meshes --package": "as robots meshes",
     "robots meshes": "writes into the clone; test/unit/adapters/robots/test_arm_and_hand.py",
+    "robots meshes --from": "needs clones; test/unit/adapters/robots/test_vendor_meshes.py",
     "demo": "test/system/test_demo.py",
     "up": "test/support/labs/launched_lab.py",
     "up --class": "the gateway's own option --classroom, in test/browser/test_class.py",

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from body import Material
-from mesher import Faces, Mesh
-from solids import Array
+
+from mrlab_ros.adapters.robots.packing.surfaces import Faces, Material, Mesh
+from mrlab_ros.core.base.geometry import Array
 
 
 @dataclass(frozen=True, eq=False)

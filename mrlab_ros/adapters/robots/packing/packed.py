@@ -3,7 +3,8 @@
 One node a link, one primitive a link, one material. Colour, metalness and roughness are pictures:
 the colours of the materials, and the drawings on the links (atlas.py); the baked light is the
 colour of the vertices.
-Positions are 16 bits (KHR_mesh_quantization), the buffers are packed (EXT_meshopt_compression).
+Positions are 16 bits (KHR_mesh_quantization); the buffers are packed (EXT_meshopt_compression)
+where meshoptimizer is installed, which has to be compiled, and three times as large elsewhere.
 """
 
 from __future__ import annotations
@@ -14,12 +15,13 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-import meshoptimizer
 import numpy as np
-from atlas import Atlas, Drawing
-from glb import linear
-from pieces import Piece
-from solids import Array
+from numpy.typing import NDArray
+
+from mrlab_ros.adapters.robots.packing.atlas import Atlas, Drawing
+from mrlab_ros.adapters.robots.packing.pieces import Piece
+from mrlab_ros.adapters.robots.packing.surfaces import Faces, linear
+from mrlab_ros.core.base.geometry import Array
 
 USHORT, UINT, BYTE, UBYTE = 5123, 5125, 5120, 5121
 VERTICES, INDICES = 34962, 34963
@@ -29,9 +31,14 @@ STRIDE = 20
 FINEST = 2e-5  # m, between two coordinates
 STEPS = 16383  # along the longest side; more bits pack worse and show nothing
 
-# What the extension reads: vertices as in its version 0, indices as in its version 1.
-meshoptimizer.encode_vertex_version(0)
-meshoptimizer.encode_index_version(1)
+try:
+    import meshoptimizer
+except ModuleNotFoundError:
+    meshoptimizer = None
+else:
+    # What the extension reads: vertices as in its version 0, indices as in its version 1.
+    meshoptimizer.encode_vertex_version(0)
+    meshoptimizer.encode_index_version(1)
 
 
 def write(
@@ -89,13 +96,7 @@ class _File:
         vertices, indices, low, step = _ordered(*joined)
         accessors = len(self._accessors)
         wide = len(vertices) > 65535
-        self._view(
-            meshoptimizer.encode_vertex_buffer(vertices, len(vertices), STRIDE),
-            len(vertices),
-            STRIDE,
-            "ATTRIBUTES",
-            VERTICES,
-        )
+        self._view(vertices, STRIDE, "ATTRIBUTES", VERTICES)
         view = len(self._views) - 1
         places = vertices["position"]
         fields = (
@@ -117,13 +118,7 @@ class _File:
             )
         self._accessors[accessors]["min"] = places.min(axis=0).tolist()
         self._accessors[accessors]["max"] = places.max(axis=0).tolist()
-        self._view(
-            meshoptimizer.encode_index_buffer(indices, len(indices), len(vertices)),
-            len(indices),
-            4 if wide else 2,
-            "TRIANGLES",
-            INDICES,
-        )
+        self._view(indices, 4 if wide else 2, "TRIANGLES", INDICES, len(vertices))
         self._accessors.append(
             {
                 "bufferView": view + 1,
@@ -145,26 +140,33 @@ class _File:
             "scale": [step] * 3,
         }
 
-    def _view(self, packed: bytes, count: int, stride: int, mode: str, target: int) -> None:
-        extension = {
-            "buffer": 0,
-            "byteOffset": self._store(packed),
-            "byteLength": len(packed),
-            "byteStride": stride,
-            "count": count,
-            "mode": mode,
-        }
-        view = {
-            "buffer": 1,
-            "byteOffset": self._unpacked,
-            "byteLength": count * stride,
-            "target": target,
-            "extensions": {PACKING: extension},
-        }
+    def _view(
+        self, values: NDArray[Any], stride: int, mode: str, target: int, vertices: int = 0
+    ) -> None:
+        """Add a view of a row of vertices, or of indices of so many of them."""
+        view: dict[str, Any] = {"byteLength": len(values) * stride, "target": target}
         if mode == "ATTRIBUTES":
             view["byteStride"] = stride
+        if meshoptimizer is None:
+            plain = values if vertices == 0 else values.astype(f"<u{stride}")
+            view |= {"buffer": 0, "byteOffset": self._store(plain.tobytes())}
+        else:
+            packed = (
+                meshoptimizer.encode_index_buffer(values, len(values), vertices)
+                if vertices
+                else meshoptimizer.encode_vertex_buffer(values, len(values), stride)
+            )
+            extension = {
+                "buffer": 0,
+                "byteOffset": self._store(packed),
+                "byteLength": len(packed),
+                "byteStride": stride,
+                "count": len(values),
+                "mode": mode,
+            }
+            view |= {"buffer": 1, "byteOffset": self._unpacked, "extensions": {PACKING: extension}}
+            self._unpacked += len(values) * stride + -len(values) * stride % 4
         self._views.append(view)
-        self._unpacked += count * stride + -count * stride % 4
 
     def _store(self, data: bytes) -> int:
         at = len(self._packed)
@@ -214,14 +216,19 @@ class _File:
         }
         nearest, smooth, mipmaps, clamped = 9728, 9729, 9987, 33071
         drawn = bool(self._atlas.drawings)
+        extensions, buffers = [SHORTS], [dict[str, Any](byteLength=len(self._packed))]
+        if self._unpacked:
+            extensions = [PACKING, SHORTS]
+            fallback = {PACKING: {"fallback": True}}
+            buffers.append({"byteLength": self._unpacked, "extensions": fallback})
         document = {
             "asset": {
                 "version": "2.0",
-                "generator": "mrlab scripts/robots",
+                "generator": "mrlab",
                 "extras": dict(made_of),
             },
-            "extensionsUsed": [PACKING, SHORTS],
-            "extensionsRequired": [PACKING, SHORTS],
+            "extensionsUsed": extensions,
+            "extensionsRequired": extensions,
             "scene": 0,
             "scenes": [{"nodes": self._roots}],
             "nodes": self._nodes,
@@ -238,10 +245,7 @@ class _File:
                 }
                 for mixed in (drawn, False)
             ],
-            "buffers": [
-                {"byteLength": len(self._packed)},
-                {"byteLength": self._unpacked, "extensions": {PACKING: {"fallback": True}}},
-            ],
+            "buffers": buffers,
             "bufferViews": self._views,
             "accessors": self._accessors,
         }
@@ -256,7 +260,7 @@ class _File:
         )
 
 
-def _joined(pieces: Sequence[Piece], atlas: Atlas) -> tuple[Array, Array]:
+def _joined(pieces: Sequence[Piece], atlas: Atlas) -> tuple[Array, Faces]:
     """Return vertices (V, 9): place, normal, light, place in the picture; and their faces."""
     rows, faces, at = [], [], 0
     for piece in pieces:
@@ -274,7 +278,7 @@ def _joined(pieces: Sequence[Piece], atlas: Atlas) -> tuple[Array, Array]:
     return np.concatenate(rows), np.concatenate(faces)
 
 
-def _ordered(rows: Array, faces: Array) -> tuple[Array, Array, Array, float]:
+def _ordered(rows: Array, faces: Faces) -> tuple[NDArray[Any], NDArray[Any], Array, float]:
     """Return vertices and indices as they are stored, and the corner and step of their grid, m."""
     low = rows[:, :3].min(axis=0)
     step = max(float((rows[:, :3].max(axis=0) - low).max()) / STEPS, FINEST)
@@ -300,6 +304,8 @@ def _ordered(rows: Array, faces: Array) -> tuple[Array, Array, Array, float]:
     whole = (corners != np.roll(corners, 1, axis=1)).all(axis=1)
     indices = np.ascontiguousarray(corners[whole].ravel().astype(np.uint32))
     count = len(vertices)
+    if meshoptimizer is None:
+        return vertices, indices, low, step
     ordered = np.empty_like(indices)
     meshoptimizer.optimize_vertex_cache(ordered, indices, len(indices), count)
     remap = np.empty(count, dtype=np.uint32)

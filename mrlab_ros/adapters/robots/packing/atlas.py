@@ -11,9 +11,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from body import Material
+from numpy.typing import NDArray
 from PIL import Image
-from solids import Array
+
+from mrlab_ros.adapters.robots.packing.surfaces import Material
+from mrlab_ros.core.base.geometry import Array
 
 BAND = 8  # pixels, of either band and of the grid
 RIM = 4  # pixels about a drawing
@@ -125,7 +127,7 @@ class Atlas:
         return [corners[key] for key in keys]
 
 
-def _png(pixels: Array) -> bytes:
+def _png(pixels: NDArray[np.uint8]) -> bytes:
     out = io.BytesIO()
     Image.fromarray(pixels).save(out, "PNG", optimize=True)
     return out.getvalue()

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
-from mesher import Mesh
-from solids import Array
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from mrlab_ros.adapters.robots.packing.surfaces import Material, Mesh
+from mrlab_ros.core.base.geometry import Array, inverse_transform, transform_from_xyz_rpy
 
 RAYS = 64
 LIFT = 0.0012  # m, of a ray's start above the surface
@@ -17,6 +21,11 @@ CONTRAST = 1.5  # exponent: what sees half of the sky is drawn with about a thir
 CHUNK = 400_000
 UNEVEN = 0.07  # between the light in the middle of an edge and the mean of its ends: it is cut
 ROUNDS = 3
+# Neighbours stand at home and turned by this much to both sides: what is always hidden is dark.
+TURNS = (-0.9, 0.0, 0.9)
+FLOOR = 4.0  # m, half of its side
+
+Pieces = dict[str, list[tuple[Material, Mesh]]]
 
 
 class Around:
@@ -77,7 +86,7 @@ def lit(mesh: Mesh, around: Around, shortest: float, most: int) -> tuple[Mesh, A
     for _ in range(ROUNDS):
         # Corners at one place are cut alike, or a gap would open.
         _, place = np.unique(np.round(mesh.vertices, 6), axis=0, return_inverse=True)
-        place = place.ravel()
+        place = place.ravel().astype(np.int64)
         edges = np.concatenate([mesh.faces[:, [i, (i + 1) % 3]] for i in range(3)])
         length = np.linalg.norm(mesh.vertices[edges[:, 0]] - mesh.vertices[edges[:, 1]], axis=1)
         long = edges[length > 2 * shortest]
@@ -107,7 +116,7 @@ def _between(mesh: Mesh, edges: Array) -> tuple[Array, Array]:
     return middle, normal / np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-12)
 
 
-def _cut(mesh: Mesh, place: Array, cut: set[tuple[int, int]]) -> Mesh:
+def _cut(mesh: Mesh, place: NDArray[np.int64], cut: set[tuple[int, int]]) -> Mesh:
     """Return the mesh with the edges between places cut in half."""
     made: dict[tuple[int, int], int] = {}
     count = len(mesh.vertices)
@@ -139,3 +148,47 @@ def _cut(mesh: Mesh, place: Array, cut: set[tuple[int, int]]) -> Mesh:
         np.array(faces, dtype=np.int64),
         np.concatenate([mesh.normals, normal]),
     )
+
+
+def surroundings(pieces: Pieces, figures: dict[str, Any], reach: float) -> dict[str, Around]:
+    """Return what darkens each link: itself and its neighbours, as they are drawn."""
+    radius = float(np.clip(reach / 9, 0.04, 0.25))
+    return {link: Around(_surroundings(link, pieces, figures), radius) for link in pieces}
+
+
+def _surroundings(link: str, pieces: Pieces, figures: dict[str, Any]) -> list[Array]:
+    own = triangles_of(pieces[link])
+    joints: Sequence[dict[str, Any]] = figures["joints"]
+    root = joints[0]["parent"] if joints else link
+    fixed = [own]
+    if link == root or (joints and joints[0]["type"] == "fixed" and joints[0]["child"] == link):
+        low = float(own[:, :, 2].min()) - 2e-4
+        a, b, c, d = ([x * FLOOR, y * FLOOR, low] for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1)))
+        fixed.append(np.array([[a, b, c], [a, c, d]]))
+    poses = []
+    for turn in TURNS:
+        around = list(fixed)
+        for joint in joints:
+            moves = joint["type"] in ("revolute", "continuous")
+            pose = transform_from_xyz_rpy(joint["xyz"], joint["rpy"])
+            if moves:
+                turned = Rotation.from_rotvec(turn * np.array(joint["axis"], float))
+                pose[:3, :3] = pose[:3, :3] @ turned.as_matrix()
+            if joint["parent"] == link and joint["child"] in pieces:
+                around.append(_moved(triangles_of(pieces[joint["child"]]), pose))
+            elif joint["child"] == link and joint["parent"] in pieces:
+                around.append(
+                    _moved(triangles_of(pieces[joint["parent"]]), inverse_transform(pose))
+                )
+        poses.append(np.concatenate(around))
+    return poses
+
+
+def triangles_of(pieces: Sequence[tuple[Material, Mesh]]) -> Array:
+    """Return the triangles of the pieces of a link, (T, 3, 3) m."""
+    return np.concatenate([mesh.vertices[mesh.faces] for _, mesh in pieces])
+
+
+def _moved(triangles: Array, pose: Array) -> Array:
+    result: Array = triangles @ pose[:3, :3].T + pose[:3, 3]
+    return result
