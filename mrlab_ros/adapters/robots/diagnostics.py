@@ -231,18 +231,21 @@ NO_CLONE = Code(
     "{folder} holds no clone of {repository}[ at commit {commit}][: {why}].",
     "Clone it there, or say where it is.",
     meaning="The repository of a manufacturer's description is not on this machine.",
+    page=False,
 )
 NOT_CLONED = Code(
     "commit_not_cloned",
     "The clone {folder} of {repository} lacks commit {commit}, with which its meshes were tried.",
     "Fetch that commit.",
     meaning="A clone of a manufacturer's description lacks the commit that robot.yaml states.",
+    page=False,
 )
 MESHES_NEED = Code(
     "meshes_need",
     "Packing meshes needs the Python package '{package}', which is not installed.",
     "Install fast-simplification and embreex beside the lab.",
     meaning="A package that thins or lights meshes is missing.",
+    page=False,
 )
 ANOTHER_SHAPE = Code(
     "another_shape",
@@ -250,6 +253,7 @@ ANOTHER_SHAPE = Code(
     "{least:share} is expected.",
     "Take the description of the same product.",
     meaning="The meshes of a manufacturer's description show another body than the lab's.",
+    page=False,
 )
 NOT_IMPORTED = Code(
     "not_imported",

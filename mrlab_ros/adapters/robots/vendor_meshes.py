@@ -106,6 +106,7 @@ def dress(
     package that packs meshes is missing.
     """
     try:
+        import embreex  # noqa: F401
         import fast_simplification  # noqa: F401
 
         from mrlab_ros.adapters.robots import vendor_levels

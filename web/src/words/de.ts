@@ -1101,10 +1101,6 @@ export const diagnostics: Templates = {
   another_count: [
     'sie hat {count:count Element|Elemente} und die Trajektorie {rows:count Zeile|Zeilen}',
   ],
-  another_shape: [
-    "Die Silhouette dieser Meshes deckt sich zu {share:share} mit der von '{robot}'; erwartet sind mindestens {least:share}.",
-    'Nimm die Beschreibung desselben Produkts.',
-  ],
   appeared: ['{name} ist hinzugekommen'],
   arm_mimics: [
     "{file}: Das Gelenk '{joint}' des Arms folgt '{other}' (mimic); jedes Gelenk eines Arms braucht eine eigene Spalte der Bewegung.",
@@ -1554,10 +1550,6 @@ export const diagnostics: Templates = {
   ],
   commas_twice: [
     'Kommas sind Dezimalzeichen und trennen zugleich die Spalten: Jede Zeile hat {count:integer} Werte[ unter {headings:count Überschrift|Überschriften}]; exportiere die Tabelle mit Semikolons zwischen den Spalten',
-  ],
-  commit_not_cloned: [
-    'Dem Klon {folder} von {repository} fehlt der Commit {commit}, mit dem seine Meshes erprobt sind.',
-    'Hole diesen Commit.',
   ],
   compressed_cut_short: ['ihr Ende fehlt'],
   compressed_damaged: ['die komprimierten Daten sind beschädigt: {problem}'],
@@ -2251,10 +2243,6 @@ export const diagnostics: Templates = {
   mesh_outside: ['{mesh} ist {path}; das liegt weder neben der Beschreibung noch in einem Paket.'],
   mesh_vertex_nowhere: ['ein Eckpunkt ist nicht endlich'],
   mesh_without_triangles: ['es enthält keine Dreiecke'],
-  meshes_need: [
-    "Zum Packen von Meshes fehlt das Python-Paket '{package}'.",
-    'Installiere fast-simplification und embreex neben dem Labor.',
-  ],
   message_too_large: ['Eine Nachricht auf {topic} ist größer als {limit:bytes}.'],
   messages_unreadable: [
     '{messages:count Nachricht|Nachrichten} auf {topic} nicht lesbar und weggelassen',
@@ -2438,10 +2426,6 @@ export const diagnostics: Templates = {
   no_arm_there: [
     "{file}: Bevor sich die Ketten am Glied '{link}' teilen, bewegt sich kein Gelenk, wie bei einem Greifer oder einem Fahrzeug.",
     'Importiere einen Arm, oder nenne sein letztes Glied.',
-  ],
-  no_clone: [
-    'In {folder} liegt kein Klon von {repository}[ mit dem Commit {commit}][: {why}].',
-    'Klone es dorthin, oder sage, wo es liegt.',
   ],
   no_course: ['Noch ist kein Kurs verbunden.', 'Öffne das Labor als Lehrperson aus dem Kurs.'],
   no_landlock: [

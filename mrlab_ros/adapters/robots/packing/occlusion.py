@@ -6,8 +6,6 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from embreex.mesh_construction import TriangleMesh
-from embreex.rtcore_scene import EmbreeScene
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
@@ -35,6 +33,10 @@ class Around:
     """
 
     def __init__(self, poses: Sequence[Array], reach: float) -> None:
+        # Who packs no meshes does without its package.
+        from embreex.mesh_construction import TriangleMesh
+        from embreex.rtcore_scene import EmbreeScene
+
         self._reach = reach
         self._scenes = []
         for triangles in poses:
@@ -48,7 +50,7 @@ class Around:
         seen: Array = np.mean(found, axis=0)
         return DARKEST + (1 - DARKEST) * seen**CONTRAST
 
-    def _in(self, scene: EmbreeScene, points: Array, normals: Array) -> Array:
+    def _in(self, scene: Any, points: Array, normals: Array) -> Array:
         seen = np.empty(len(points))
         step = CHUNK // RAYS
         for start in range(0, len(points), step):
