@@ -38,14 +38,14 @@ MACHINES: tuple[tuple[str, str, Table], ...] = (
     ("docs/playback.md", "playback", playback.TABLE),
     ("docs/system-states.md", "system", systems.TABLE),
     ("docs/recorder-states.md", "recorder", recording.TABLE),
-    ("docs/physics.md", "grasp", states.TABLE),
+    ("docs/physics-model.md", "grasp", states.TABLE),
 )
 BLOCKS: dict[tuple[str, str], Callable[[], str]] = {
     **{(page, f"{name} states"): table.mermaid for page, name, table in MACHINES},
     **{
         (page, f"{name} table"): table.markdown
         for page, name, table in MACHINES
-        if page != "docs/physics.md"
+        if page != "docs/physics-model.md"
     },
     ("docs/rubrics.md", "measures"): rubrics_page.measures,
 }
