@@ -181,6 +181,7 @@ system dissolve cell
 scene list
 scene save lesson_1
 scene load lesson_1
+scene undo
 """,
     "bags": """
 record class.bag

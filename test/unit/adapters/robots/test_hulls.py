@@ -37,7 +37,7 @@ OPEN_CASTINGS = {
     "kuka_kr150_r2700_2": 150,
     "kuka_kr300_r2700_2": 150,
 }
-# What each vendor's kinematics give, mm; docs/robots.md says how each is measured.
+# What each vendor's kinematics give, mm; docs/bodies.md says how each is measured.
 REACH_MM = {
     "kuka_kr3_r540": 540.768,
     "kuka_kr6_r900_sixx": 901.456,
