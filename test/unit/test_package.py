@@ -219,7 +219,7 @@ def test_each_required_package_has_its_reason(name: str) -> None:
 
 
 # By fastapi, uvicorn, authlib and matplotlib, which are nothing without it.
-BROUGHT_ALONG = {"anyio", "h11", "joserfc", "pillow", "pydantic", "starlette"}
+BROUGHT_ALONG = {"anyio", "embreex", "h11", "joserfc", "pillow", "pydantic", "starlette"}
 
 
 def names_of(node: ast.Import) -> list[str]:

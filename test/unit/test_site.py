@@ -46,6 +46,25 @@ def test_every_page_has_one_place_on_the_site() -> None:
     assert inside <= set(listed), f"add to scripts/site/mkdocs.yml: {inside - set(listed)}"
 
 
+def test_no_guide_is_long() -> None:
+    """Long pages explain, or list: the navigation has them elsewhere."""
+    navigation = yaml.safe_load((SITE / "mkdocs.yml").read_text().partition("\nnav:\n")[2])
+    readers = [entry for reader in navigation for entry in next(iter(reader.values()))]
+    guides = [
+        page
+        for entry in readers
+        if isinstance(entry, dict) and {"Guides", "Tutorials"} & set(entry)
+        for page in places(entry)
+    ]
+    assert len(guides) > 20
+    long = {
+        page: len((ROOT / "docs" / page).read_text().split())
+        for page in guides
+        if (ROOT / "docs" / page).exists()
+    }
+    assert {page: count for page, count in long.items() if count > 1200} == {}
+
+
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_links_of_a_page_lead_somewhere(page: Path) -> None:
     wrong = []
