@@ -41,7 +41,7 @@ FILES: tuple[tuple[str, type[Any], str], ...] = (
     (
         "`config/physics.yaml`",
         Settings,
-        "Figures of the physics; [how physics works](physics-model.md) explains them. Read when physics starts.",
+        "Figures of [physics](physics-model.md), read when it starts.",
     ),
     (
         "`config/torque_proxy.yaml`",

@@ -218,7 +218,7 @@ def test_each_required_package_has_its_reason(name: str) -> None:
     assert any(name == word or (word[0] == "-" and name.endswith(word)) for word in named)
 
 
-# By fastapi, uvicorn, authlib and matplotlib, which are nothing without it.
+# By fastapi, uvicorn, authlib, trimesh and matplotlib, which are nothing without it.
 BROUGHT_ALONG = {"anyio", "embreex", "h11", "joserfc", "pillow", "pydantic", "starlette"}
 
 
