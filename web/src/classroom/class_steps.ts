@@ -24,6 +24,9 @@ export class ClassSteps {
   readonly graded = signal<GradedClass | null>(null)
   readonly problem = signal('')
   readonly order = signal<Order>('class')
+  /** Whether the desk is open: at first where something is to be done, then as its teacher leaves
+   * it. */
+  readonly deskOpen = signal(false)
   readonly submissions = computed(() =>
     ordered(this.graded.value?.submissions ?? [], this.order.value),
   )
@@ -44,7 +47,12 @@ export class ClassSteps {
 
   async load(): Promise<void> {
     try {
-      this.graded.value = await this.api.gradedClass()
+      const graded = await this.api.gradedClass()
+      if (this.graded.value === null) {
+        const { run, proposed } = graded.desk
+        this.deskOpen.value = !graded.marked || run?.running === true || proposed !== null
+      }
+      this.graded.value = graded
       this.problem.value = ''
     } catch (error) {
       this.problem.value = sentence(error)

@@ -37,8 +37,6 @@ export function Desk({ steps }: DeskProps) {
     return () => clearInterval(timer)
   }, [steps, running])
   const [form, setForm] = useState<string | null>(null)
-  // Open where something is to be done; from then on as its teacher leaves it.
-  const [open, setOpen] = useState(!graded?.marked || running || graded.desk.proposed !== null)
   if (graded === null) return null
   const { desk } = graded
   const act = (
@@ -53,8 +51,10 @@ export function Desk({ steps }: DeskProps) {
   return (
     <details
       class="card desk"
-      open={open}
-      onToggle={(event) => setOpen((event.currentTarget as HTMLDetailsElement).open)}
+      open={steps.deskOpen.value}
+      onToggle={(event) => {
+        steps.deskOpen.value = (event.currentTarget as HTMLDetailsElement).open
+      }}
     >
       <summary>
         <h2>{w.title}</h2>

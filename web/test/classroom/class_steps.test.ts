@@ -132,3 +132,20 @@ test('keys are in addresses and names of trajectories', () => {
   expect(keyOfPath('/class/%')).toBe('')
   expect(publishedName('Müller_12345 (b)')).toBe('class_m_ller_12345_b')
 })
+
+test('the desk opens where something is to be done, and stays as its teacher leaves it', async () => {
+  const { steps: marked } = stepsOf(CLASS)
+  await marked.load()
+  expect(marked.deskOpen.value).toBe(false)
+
+  const graded = { ...CLASS, marked: false }
+  const { steps } = stepsOf(graded)
+  await steps.load()
+  expect(steps.deskOpen.value).toBe(true)
+  graded.marked = true
+  await steps.load()
+  expect(steps.deskOpen.value).toBe(true)
+  steps.deskOpen.value = false
+  await steps.load()
+  expect(steps.deskOpen.value).toBe(false)
+})
