@@ -97,7 +97,6 @@ def test_a_person_works_with_a_robot_on_a_table(headset: Headset, lab: ServedLab
     headset.wait_for("room.supports.some(({ name }) => name === 'table_1')")
 
     headset.press(ROBOT, "remove")
-    headset.press(ROBOT, "remove")
     headset.wait_for("room.handles.size === 0")
     if "robot ur5e" not in page.evaluate("room.board.panel.ids"):
         headset.press(BOARD, "next")

@@ -39,8 +39,8 @@ def test_the_projector_shows_what_a_student_sees_and_all_see_where_a_teacher_poi
     inside = page.get_by_role("article", name="In the room")
     see = inside.get_by_role("button", name=re.compile("See what .* sees"))
     see.click()
-    status = page.locator(".lab-eyes")
-    expect(status).to_contain_text("Through the eyes of")
+    status = page.get_by_role("status").filter(has_text="Through the eyes of")
+    expect(status).to_be_visible()
     # The picture is that of the head: it turns as the head turns.
     student.page.evaluate("headset.device.quaternion.set(0, 0, 0, 1)")
     student.frames()
