@@ -169,7 +169,6 @@ def convert(reader: WorkspaceReader, store: CatalogueWriter, path: Path, this: T
 def conversions(size: Size) -> list[dict[str, Any]]:
     rows = []
     with WorkspaceReader() as reader, tempfile.TemporaryDirectory() as folder:
-        reader.start()
         conversion(100, reader, Path(folder), 1)
         for frames in size.some(SIZES):
             repeats = size.of(1, 1, 3) if frames > 10_000 else 5
