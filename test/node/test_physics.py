@@ -360,7 +360,9 @@ def test_a_robot_that_goes_while_it_holds_something_leaves_it_and_may_come_back(
         "the attachment",
     )
     wait_for(lambda: grasp.last() and grasp.last().object == cube, "its news")
-    wait_for(lambda: [o.held_by for o in objects.last().objects] == [robot], "the holder")
+    wait_for(
+        lambda: objects and [o.held_by for o in objects.last().objects] == [robot], "the holder"
+    )
     answer = graph.call(srv.SetEndEffector, "/lab/set_end_effector", robot=robot)
     assert answer.success, answer.message
     wait_for(lambda: grasp.last().code == LET_GO.code, "what was let go")

@@ -330,6 +330,7 @@ class PlaybackHostNode(
     def _telemetry(self) -> None:
         now_ns = self.scheduler.clock.now_ns()
         for node in self.nodes.values():
+            node.welcome()
             node.publish_telemetry(now_ns)
 
     def _states(self) -> None:

@@ -11,7 +11,6 @@ from typing import Any
 from mrlab_msgs import msg, srv
 from mrlab_msgs.srv import SetLoop, Trigger
 from rclpy.context import Context
-from rclpy.event_handler import PublisherEventCallbacks, QoSPublisherMatchedInfo
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from sensor_msgs.msg import JointState
@@ -121,14 +120,9 @@ class PlaybackNode(Node):
         """Create the topics and services, and begin to play."""
         self._encoder = JointStateEncoder(self.robot, self.model.joint_names)
         self._telemetry_encoder = TelemetryEncoder(self.robot, self.model.joint_names)
-        self._publish_joint_state = raw_publish(
-            self.create_publisher(
-                JointState,
-                "joint_states",
-                qos.STREAM,
-                event_callbacks=PublisherEventCallbacks(matched=self._on_subscriber),
-            )
-        )
+        self._joint_states = self.create_publisher(JointState, "joint_states", qos.STREAM)
+        self._publish_joint_state = raw_publish(self._joint_states)
+        self._subscribers = 0
         self._state = self.create_publisher(
             msg.PlaybackState, "playback_state", qos.LATCHED_EVENTS
         )
@@ -413,10 +407,15 @@ class PlaybackNode(Node):
             playback.hold_at(order.until, by)
         return 0.0
 
-    def _on_subscriber(self, matched: QoSPublisherMatchedInfo) -> None:
-        """Send the pose of an arm that stands to who has just come; it is repeated seldom."""
-        if matched.current_count_change > 0:
-            with self._scheduler.command(self.player) as now_ns:
+    def welcome(self) -> None:
+        """Send the pose of an arm that stands to who has just come; it is repeated seldom.
+
+        The count is looked at: for an event of the publisher the events executor runs Python
+        without the interpreter's lock, which ends the process.
+        """
+        before, self._subscribers = self._subscribers, self._joint_states.get_subscription_count()
+        if self._subscribers > before:
+            with self._command() as now_ns:
                 self.playback.repeat(now_ns)
 
     def _on_collision(self, message: msg.Collision) -> None:
