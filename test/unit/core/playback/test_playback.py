@@ -611,6 +611,9 @@ def test_whatever_is_asked_the_arm_stays_on_the_trajectory_and_never_moves_while
             pass
         standing = playback.state not in (State.PLAYING, State.ADJUSTING)
         arm = playback.arm
+        if np.array_equal(arm, playback.model.home):
+            # A second stop in a halt leads there, and the way back begins there.
+            rows = np.vstack((rows, arm))
         samples = run(playback, now := now + round(x * 4 * PERIOD))
         if standing:
             assert all(np.array_equal(s.positions, arm) for s in samples)
