@@ -410,8 +410,8 @@ class PlaybackNode(Node):
     def welcome(self) -> None:
         """Send the pose of an arm that stands to who has just come; it is repeated seldom.
 
-        The count is looked at: for an event of the publisher the events executor runs Python
-        without the interpreter's lock, which ends the process.
+        The count is looked at: with a publisher's event under way as its node leaves the events
+        executor, that runs Python without the interpreter's lock, and the process crashes.
         """
         before, self._subscribers = self._subscribers, self._joint_states.get_subscription_count()
         if self._subscribers > before:
