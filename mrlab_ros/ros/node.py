@@ -6,7 +6,10 @@ import weakref
 from typing import Any
 
 from rclpy.context import Context
+from rclpy.event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks
 from rclpy.node import Node
+from rclpy.publisher import Publisher
+from rclpy.subscription import Subscription
 
 
 class _Living(set[Any]):
@@ -23,7 +26,12 @@ class _Living(set[Any]):
 
 
 class LeanNode(Node):
-    """A node whose memory does not grow with what is created and destroyed."""
+    """A node that may leave while its process goes on, and keeps nothing of what it destroys.
+
+    It handles no events, such as incompatible qualities of service, unless it is asked to: with
+    one under way as a node leaves the events executor, that runs Python without the interpreter's
+    lock, and the process crashes. Tools of ROS warn on their own side.
+    """
 
     def __init__(self, name: str, **ros: Any) -> None:
         super().__init__(name, **ros)
@@ -31,6 +39,14 @@ class LeanNode(Node):
         earlier, group.entities = group.entities, _Living()
         for reference in earlier:
             group.entities.add(reference)
+
+    def create_publisher(self, *args: Any, **more: Any) -> Publisher:
+        more.setdefault("event_callbacks", PublisherEventCallbacks(use_default_callbacks=False))
+        return super().create_publisher(*args, **more)
+
+    def create_subscription(self, *args: Any, **more: Any) -> Subscription:
+        more.setdefault("event_callbacks", SubscriptionEventCallbacks(use_default_callbacks=False))
+        return super().create_subscription(*args, **more)
 
 
 class HiddenNode(LeanNode):

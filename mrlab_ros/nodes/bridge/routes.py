@@ -17,7 +17,6 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any, Generic, TypeVar
 
-from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.topic_endpoint_info import TopicEndpointInfo
@@ -37,11 +36,7 @@ class Kept:
 
     def __init__(self, node: Node, kind: Any, topic: str, quality: QoSProfile) -> None:
         self._messages: deque[tuple[float, bytes]] = deque(maxlen=MOST)
-        # A publisher without this `quality` is of another program; rclpy would warn of it.
-        silent = SubscriptionEventCallbacks(incompatible_qos=lambda _: None)
-        node.create_subscription(
-            kind, topic, self._keep, quality, raw=True, event_callbacks=silent
-        )
+        node.create_subscription(kind, topic, self._keep, quality, raw=True)
 
     def _keep(self, message: bytes) -> None:
         self._messages.append((time.monotonic(), message))

@@ -11,7 +11,6 @@ from typing import Any
 from mrlab_msgs import msg, srv
 from mrlab_msgs.srv import SetLoop, Trigger
 from rclpy.context import Context
-from rclpy.node import Node
 from rclpy.parameter import Parameter
 from sensor_msgs.msg import JointState
 
@@ -41,6 +40,7 @@ from mrlab_ros.nodes.playback.controller import Controller
 from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.deadlines import Command, Player, Scheduler
 from mrlab_ros.ros.decoding import subscribe
+from mrlab_ros.ros.node import LeanNode
 from mrlab_ros.ros.raw_streams import raw_publish
 from mrlab_ros.ros.services import answered, create_deferred_service, create_service
 from mrlab_ros.ros.worker import Worker
@@ -49,7 +49,7 @@ from mrlab_ros.ros.worker import Worker
 RETURN_TIMEOUT_S = 60.0
 
 
-class PlaybackNode(Node):
+class PlaybackNode(LeanNode):
     """Publishes one robot's joint states and offers its playback services.
 
     Its callbacks halt and command the arm, so none of them loads, decodes or calls: `load` runs
@@ -410,8 +410,7 @@ class PlaybackNode(Node):
     def welcome(self) -> None:
         """Send the pose of an arm that stands to who has just come; it is repeated seldom.
 
-        The count is looked at: with a publisher's event under way as its node leaves the events
-        executor, that runs Python without the interpreter's lock, and the process crashes.
+        The count is looked at: a LeanNode handles no events.
         """
         before, self._subscribers = self._subscribers, self._joint_states.get_subscription_count()
         if self._subscribers > before:
