@@ -34,9 +34,7 @@ class Announcer:
         from mrlab_ros.ros import environment
 
         environment.prepare()
-        # The supervisor computes nothing.
         environment.skip_generator()
-        environment.postpone_numpy()
         import rclpy
         from mrlab_msgs.msg import LabProcesses
         from rclpy.context import Context
