@@ -63,6 +63,10 @@ class Acts:
         self._acts.remove(found[0])
         return found[0]
 
+    def give_back(self, act: Act) -> None:
+        """Keep an act that was taken and could not be undone, as long as it would have been."""
+        self._acts = sorted([*self._acts, act], key=lambda each: each.until)
+
 
 def removed_with(name: str, scene: SceneDocument) -> SceneDocument:
     """Return a robot of the scene, and the system that ends as its member goes."""

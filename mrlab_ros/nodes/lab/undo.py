@@ -11,6 +11,7 @@ from rclpy.node import Node
 
 from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.scene import restore as core
 from mrlab_ros.core.scene.diagnostics import OBJECTS_TAKEN_OUT, UNDONE
 from mrlab_ros.core.scene.document import ObjectEntry, SceneDocument
@@ -122,7 +123,13 @@ class Undo:
         """
         with self._lock:
             act = self._acts.take(id, time.monotonic())
-        with self:
-            core.run(plan_undo(act, present), self._restore.execute)
-        self._announce()
+        try:
+            with self:
+                core.run(plan_undo(act, present), self._restore.execute)
+        except LabError:
+            with self._lock:
+                self._acts.give_back(act)
+            raise
+        finally:
+            self._announce()
         return UNDONE(act=act.said)

@@ -50,6 +50,17 @@ def test_each_act_can_be_undone_once_in_any_order_until_it_is_too_old():
     assert acts.newest(3.0 + UNDO_S) is None
 
 
+def test_what_could_not_be_undone_can_be_tried_again_until_it_is_too_old():
+    acts = Acts()
+    acts.note(SAID, removed_with("a", SCENE), 0.0)
+    act = acts.take("", 1.0)
+    acts.note(SAID, removed_with("b", SCENE), 2.0)
+    acts.give_back(act)
+    assert [acts.take("", 3.0).id, acts.take("", 3.0).id] == ["2", "1"]
+    acts.give_back(act)
+    assert acts.newest(UNDO_S) is None
+
+
 def test_a_scene_that_is_loaded_ends_what_could_be_undone_of_the_one_before():
     acts = Acts()
     acts.note(SAID, SceneDocument((A,)), 0.0)
