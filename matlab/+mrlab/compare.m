@@ -12,7 +12,8 @@ function result = compare(q1, q2, fs)
 %       planned = q;  [measured, fs] = mrlab.fromBag('run_1');
 %       mrlab.compare(planned, measured, fs)
 %
-%   Errors: mrlab:columnsDiffer where the motions do not have equally many columns.
+%   Errors: mrlab:columnsDiffer where the motions do not have equally many columns, mrlab:noMotion
+%   where one is none, mrlab:nonFinite where a row has NaN or Inf, mrlab:badRate.
 %
 %   See also mrlab.fromBag.
 
@@ -31,6 +32,18 @@ end
 if columns == 0 || size(q1, 1) < 2 || size(q2, 1) < 2
     error('mrlab:noMotion', 'Each motion needs two rows and a column; they are %s and %s.', ...
         mat2str(size(q1)), mat2str(size(q2)));
+end
+if ~(isnumeric(fs) && isscalar(fs) && isreal(fs) && isfinite(fs) && fs > 0)
+    error('mrlab:badRate', 'FS is no number of rows a second; expected one number above 0.');
+end
+motions = {q1, q2};
+for k = 1:2
+    [row, column] = find(~isfinite(motions{k}), 1);
+    if ~isempty(row)
+        error('mrlab:nonFinite', ...
+            'Row %d of motion %d has %g in column %d. Take rows without it, such as q(%d:end, :).', ...
+            row, k, motions{k}(row, column), column, row + 1);
+    end
 end
 best = Inf;
 shift = 0;
@@ -56,7 +69,11 @@ if nargout > 0
     result = compared;
     return
 end
-mrlab.internal.say('The second is %.3g later.\n%5s %12s %12s %8s\n', compared.delay, ...
+unit = 's';
+if nargin < 3
+    unit = 'rows';
+end
+mrlab.internal.say('The second is %.3g %s later.\n%5s %12s %12s %8s\n', compared.delay, unit, ...
     'joint', 'rms', 'most', 'in row');
 for j = 1:columns
     mrlab.internal.say('%5d %12.4g %12.4g %8d\n', j, compared.rms(j), compared.most(j), ...

@@ -41,6 +41,9 @@ save('-v6', 'motion.mat', 'q');
 [back, fs] = mrlab.fromBag('motion.mat', 'frame_rate', 50);
 found = mrlab.compare(back, [repmat(q(1, :), 7, 1); q], fs);
 printf('%d %g %g\\n', fs, found.delay, max(found.most));
+back(3, 2) = NaN;
+try, mrlab.compare(back, q, fs), catch problem, disp(problem.identifier), end
+try, mrlab.compare(q, q, 0), catch problem, disp(problem.identifier), end
 """
 
 # The first row is below the floor, so that the arm is not clear there either.
@@ -211,6 +214,7 @@ def test_a_robot_plays_and_what_was_recorded_is_compared(octave: Octave) -> None
     assert "ur5e_1 plays played@1" in said
     assert "played@2" in said
     assert "50 0.14 0" in said
+    assert said.split()[-2:] == ["mrlab:nonFinite", "mrlab:badRate"]
 
 
 def test_a_script_is_shown_again_when_it_is_saved(
