@@ -95,7 +95,7 @@ def test_a_file_that_is_none_says_what_to_do(page: Page, tmp_path: Path) -> None
     upload = UploadPage(page)
     upload.send(file)
     expect(upload.outcome("refused")).to_be_visible()
-    expect(upload.findings.first).to_contain_text("save('traj.mat', 'q')")
+    expect(upload.findings.first).to_contain_text("save('traj.mat', 'q', '-v7')")
     expect(upload.strips).to_have_count(0)
 
 

@@ -146,7 +146,7 @@ const RATE = finding({
   severity: 'warning',
   code: 'rate_assumed',
   message: 'The file says no rate; 100 rows a second was assumed.',
-  remedy: "Save the rate as well: fs = 100; save('traj.mat', 'q', 'fs').",
+  remedy: "Save the rate as well: fs = 100; save('traj.mat', 'q', 'fs', '-v7').",
   fixes: [{ option: 'frame_rate', value: '200', matlab: 'fs = 200;' }],
 })
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from mrlab_ros.core.base.diagnostic import Code
 
-SAVE_AGAIN = (("", "", "save('traj.mat', 'q')"),)
+SAVE_AGAIN = (("", "", "save('traj.mat', 'q', '-v7')"),)
 # how a process ended: its exit status, or the signal and what it means
 ENDED = "[ (exit code {exit:integer})][ (signal {signal:integer}[, {meaning}])][ ({error})]"
 

@@ -14,16 +14,16 @@ from mrlab_ros.core.base.diagnostic import MATLAB_PATH, Diagnostic
 from mrlab_ros.core.conversion.workspace import ATTRIBUTE, COMMENT, Variable, Workspace, shortened
 
 OBJECT_CODE = {
-    "timeseries": "q = {name}.Data; save('traj.mat', 'q')",
-    "timetable": "q = {name}.Variables; save('traj.mat', 'q')",
-    "table": "q = {name}{{:, :}}; save('traj.mat', 'q')",
-    "Simulink.SimulationData.Dataset": "q = {name}{{1}}.Values.Data; save('traj.mat', 'q')",
-    "Simulink.SimulationData.Signal": "q = {name}.Values.Data; save('traj.mat', 'q')",
-    "Simulink.SimulationOutput": "q = {name}.get('q').Data; save('traj.mat', 'q')",
-    "dlarray": "q = extractdata({name}); save('traj.mat', 'q')",
-    "gpuArray": "q = gather({name}); save('traj.mat', 'q')",
+    "timeseries": "q = {name}.Data; save('traj.mat', 'q', '-v7')",
+    "timetable": "q = {name}.Variables; save('traj.mat', 'q', '-v7')",
+    "table": "q = {name}{{:, :}}; save('traj.mat', 'q', '-v7')",
+    "Simulink.SimulationData.Dataset": "q = {name}{{1}}.Values.Data; save('traj.mat', 'q', '-v7')",
+    "Simulink.SimulationData.Signal": "q = {name}.Values.Data; save('traj.mat', 'q', '-v7')",
+    "Simulink.SimulationOutput": "q = {name}.get('q').Data; save('traj.mat', 'q', '-v7')",
+    "dlarray": "q = extractdata({name}); save('traj.mat', 'q', '-v7')",
+    "gpuArray": "q = gather({name}); save('traj.mat', 'q', '-v7')",
     "function_handle": "q = cell2mat(arrayfun(@(s) reshape({name}(s), 1, []), t(:), "
-    "'UniformOutput', false)); save('traj.mat', 'q', 't')",
+    "'UniformOutput', false)); save('traj.mat', 'q', 't', '-v7')",
 }
 OPENED = {*OBJECT_CODE, "containers.Map", "dictionary"} - {"function_handle"}
 MOST_LISTED, MOST_INSIDE = 12, 6
@@ -112,7 +112,7 @@ def matlab_name(path: str) -> str:
 def saving(path: str) -> str:
     """Return the line of MATLAB that saves the matrix at `path` as q."""
     taken = "" if matlab_name(path) == "q" else f"q = {path}; "
-    return f"{taken}save('traj.mat', 'q')"
+    return f"{taken}save('traj.mat', 'q', '-v7')"
 
 
 def contents(workspace: Workspace) -> dict[str, Any]:

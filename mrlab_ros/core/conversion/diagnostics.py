@@ -8,8 +8,8 @@ from __future__ import annotations
 from mrlab_ros.core.base.diagnostic import Code, Severity
 
 INFO, WARNING, _ = Severity
-SAVE_AGAIN = (("", "", "save('traj.mat', 'q')"),)
-SAVE_RATE = (("frame_rate", "{rate:g}", "fs = {rate:g}; save('traj.mat', 'q', 'fs')"),)
+SAVE_AGAIN = (("", "", "save('traj.mat', 'q', '-v7')"),)
+SAVE_RATE = (("frame_rate", "{rate:g}", "fs = {rate:g}; save('traj.mat', 'q', 'fs', '-v7')"),)
 # what a file holds
 CONTENTS = (
     " It holds {count:count variable|variables}[: {held:list}][, and {more:integer} more]."
@@ -47,7 +47,7 @@ TOO_MANY_ROWS = Code(
     "'{variable}' has {rows:count sample|samples}; the limit is {most:integer}.",
     "Save a part of it or every tenth sample, or raise the limit on rows.",
     meaning="The matrix has more samples than the limit on rows.",
-    fixes=(("", "", "q = q(1:10:end, :); save('traj.mat', 'q')"),),
+    fixes=(("", "", "q = q(1:10:end, :); save('traj.mat', 'q', '-v7')"),),
 )
 NO_TRAJECTORY = Code(
     "no_trajectory",
@@ -346,7 +346,7 @@ BAD_RATE = Code(
     "{least:number} to {most:number}.",
     "Say how many rows a second you recorded, such as 100.",
     meaning="The frame rate that was asked for is out of bounds.",
-    fixes=(("frame_rate", "0", "fs = 100; save('traj.mat', 'q', 'fs')"),),
+    fixes=(("frame_rate", "0", "fs = 100; save('traj.mat', 'q', 'fs', '-v7')"),),
 )
 BAD_OPTION = Code(
     "bad_option",
@@ -844,7 +844,7 @@ VELOCITY_LIMIT = Code(
     "{slower:number} the robot can follow.",
     severity=WARNING,
     meaning="A joint moves faster than the robot can.",
-    fixes=(("frame_rate", "{slower:g}", "fs = {slower:g}; save('traj.mat', 'q', 'fs')"),),
+    fixes=(("frame_rate", "{slower:g}", "fs = {slower:g}; save('traj.mat', 'q', 'fs', '-v7')"),),
 )
 DISCONTINUITY = Code(
     "discontinuity",

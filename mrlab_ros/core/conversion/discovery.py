@@ -110,7 +110,7 @@ def _ambiguous(offered: list[Assessment], survey: Survey, file: str) -> Diagnost
     for found in joining.series(survey.workspace, len(survey.robot.joints)):
         whole = not survey.workspace.omitted
         if whole and not found.beside and len(found.paths) > 1 and set(found.paths) <= paths:
-            line = f"q = [{'; '.join(found.paths[:8])}]; save('traj.mat', 'q')"
+            line = f"q = [{'; '.join(found.paths[:8])}]; save('traj.mat', 'q', '-v7')"
             fixes = (*fixes, Fix("join", found.text, line))
             break
     if len(offered) == 1:

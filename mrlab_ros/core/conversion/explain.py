@@ -78,7 +78,7 @@ def object_finding(code: Code, objects: list[Variable], file: str) -> Diagnostic
     ordered = sorted(objects, key=lambda v: (v.kind not in OBJECT_CODE, v.path))
     listed = shortened([f"{v.path} ({v.kind})" for v in ordered], MOST_INSIDE)
     first = ordered[0]
-    line = OBJECT_CODE.get(first.kind, "q = ...; save('traj.mat', 'q')").format(
+    line = OBJECT_CODE.get(first.kind, "q = ...; save('traj.mat', 'q', '-v7')").format(
         name=matlab_name(first.path)
     )
     is_function = first.kind == "function_handle"
@@ -169,7 +169,8 @@ def no_trajectory(survey: Survey, file: str) -> Diagnostic:
         joints=joints,
         looks=[described(a, _looks(a)) for a in others],
         **contents(survey.workspace),
-        fixes=tuple(dict.fromkeys(map(_naming, others))) or (Fix(matlab="save('traj.mat', 'q')"),),
+        fixes=tuple(dict.fromkeys(map(_naming, others)))
+        or (Fix(matlab="save('traj.mat', 'q', '-v7')"),),
     )
 
 
@@ -359,7 +360,7 @@ def wide(variable: Variable, survey: Survey) -> Diagnostic:
     if block is None:
         return wrong_shape(variable, survey.robot, **hints)
     text = columns_text(block)
-    line = f"q = {matlab_name(variable.path)}(:, {text}); save('traj.mat', 'q')"
+    line = f"q = {matlab_name(variable.path)}(:, {text}); save('traj.mat', 'q', '-v7')"
     fixes = (Fix("columns", text, line),)
     return wrong_shape(variable, survey.robot, columns=text, fixes=fixes, **hints)
 
@@ -417,7 +418,7 @@ def _in_pieces(found: Series, workspace: Workspace) -> Diagnostic:
         flip = "" if down else ".'"
         code = f"q = {'vertcat' if down else 'horzcat'}({one_by_one}){flip};"
         pieces = "segments" if min(first.shape) > 1 else "samples"
-    code += " save('traj.mat', 'q')"
+    code += " save('traj.mat', 'q', '-v7')"
     fixes = (Fix("join", found.text, code),)
     if workspace.omitted:
         # joining what is listed would leave the end of the motion out

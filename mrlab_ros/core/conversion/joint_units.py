@@ -243,7 +243,7 @@ def _refuse_other_units(
     elif evidence.why is not None:
         if assessment.poses.strong is not None and evidence.unit == "counts":
             why = LIKE_POSES(why=assessment.poses.strong)
-            size, fix = assessment.variable.size, Fix(matlab="save('traj.mat', 'q')")
+            size, fix = assessment.variable.size, Fix(matlab="save('traj.mat', 'q', '-v7')")
             raise BadInput(LOOKS_LIKE(variable=path, size=size, why=why, fixes=(fix,)))
         scaled = _scaled(arm, path, said, robot)
         if scaled is not None:

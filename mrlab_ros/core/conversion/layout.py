@@ -295,7 +295,7 @@ def _gripper_beside(
             notes.append(GRIPPER_APPLIED(variable=path, gripper=v.path))
             return v.values.reshape(-1)
         column = f"{'1 - ' if opens else ''}{matlab_name(v.path)}(:)"
-        line = f"q = [{matlab_name(path)} {column}]; save('traj.mat', 'q')"
+        line = f"q = [{matlab_name(path)} {column}]; save('traj.mat', 'q', '-v7')"
         fix = Fix(matlab=line) if opens else Fix("gripper", v.path, line)
         notes.append(GRIPPER_BESIDE(variable=v.path, size=v.size, fixes=(fix,)))
         return None

@@ -113,7 +113,7 @@ def step_in_unit(clock: Clock) -> float:
 
 def rate_fix(rate: float) -> Fix:
     """Return the fix that names a rate, Hz."""
-    return Fix("frame_rate", f"{rate:.6g}", f"fs = {rate:.6g}; save('traj.mat', 'q', 'fs')")
+    return Fix("frame_rate", f"{rate:.6g}", f"fs = {rate:.6g}; save('traj.mat', 'q', 'fs', '-v7')")
 
 
 def conflict(source: str, rate: float, other: str, other_rate: float) -> Diagnostic:

@@ -35,7 +35,7 @@ MOST_FRAMES = 2_000_000  # of a message that is sampled: five hours and a half a
 MOST_OWN_RATE = 10_000.0  # Hz; points that come more often are sampled at the default
 # Hz and rad (m): rows that come more slowly and are farther apart are waypoints
 WAYPOINT_RATE, WAYPOINT_STEP = 10.0, 0.1
-TIMES_IN_MATLAB = "t = 2 * (0:size(q, 1) - 1)'; save('traj.mat', 'q', 't')"
+TIMES_IN_MATLAB = "t = 2 * (0:size(q, 1) - 1)'; save('traj.mat', 'q', 't', '-v7')"
 
 Nanoseconds = NDArray[np.int64]
 # ns; how far a point may lie from a frame and be that frame: both are rounded to whole ns

@@ -311,7 +311,7 @@ def misnamed(variable: Variable, robot: RobotModel) -> Diagnostic | None:
         unknown=shortened(unknown),
         repeated=shortened(repeated),
         joints=list(joints),
-        fixes=(Fix(matlab="save('traj.mat', 'q')") if in_vain else by_number,),
+        fixes=(Fix(matlab="save('traj.mat', 'q', '-v7')") if in_vain else by_number,),
     )
 
 

@@ -131,7 +131,7 @@ def unequal(pieces: list[Variable]) -> Diagnostic:
     others = [f"{path} ({n})" for path, n in lengths.items() if n != usual]
     rows = min(lengths.values())
     cut = "; ".join(f"{path}(1:{rows})" for path in lengths)
-    line = f"q = reshape([{cut}], {rows}, []); save('traj.mat', 'q')"
+    line = f"q = reshape([{cut}], {rows}, []); save('traj.mat', 'q', '-v7')"
     if any(p.shape[0] == 1 for p in pieces):
         line = line.replace("; ", ", ", len(pieces) - 1)
     return PIECES_DIFFER(

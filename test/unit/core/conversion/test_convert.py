@@ -142,7 +142,7 @@ def test_gains_beside_a_timeseries_are_not_published():
         assert result.outcome is Outcome.REJECTED
         worst = result.diagnostics[0]
         assert worst.code == "unsupported_object"
-        assert worst.fixes[0].matlab == "q = q.Data; save('traj.mat', 'q')"
+        assert worst.fixes[0].matlab == "q = q.Data; save('traj.mat', 'q', '-v7')"
         assert worst.values["objects"] == ["q (timeseries)"]
     # nor is a smooth matrix without a telling name taken for it
     assert convert(series, var("Y", motion())).outcome is not Outcome.ACCEPTED
@@ -160,7 +160,7 @@ def test_gains_beside_a_timeseries_are_not_published():
 def test_objects_come_with_the_line_that_saves_their_numbers(kind, line):
     result = convert(var("d", kind=kind, is_object=True))
     assert result.diagnostics[0].code == "unsupported_object"
-    assert result.diagnostics[0].fixes[0].matlab == f"q = {line}; save('traj.mat', 'q')"
+    assert result.diagnostics[0].fixes[0].matlab == f"q = {line}; save('traj.mat', 'q', '-v7')"
 
 
 def test_an_object_that_holds_no_samples_is_not_offered_as_one():

@@ -275,7 +275,6 @@ def test_each_line_of_matlab_runs_and_leads_on(tmp_path):
         values = {v.path: v.values for v in EXAMPLES[code].variables}
         scipy.io.savemat(tmp_path / f"{number}.mat", values)
         saves = "" if "save(" in line else "save('-v7', 'traj.mat');"
-        line = line.replace("save('traj.mat'", "save('-v7', 'traj.mat'")
         script += [
             f"clear all; load('{number}.mat');",
             f"try, {line.rstrip(';')}; {saves} movefile('traj.mat', 'done{number}.mat');",
