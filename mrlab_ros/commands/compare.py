@@ -137,7 +137,9 @@ def _converted(file: Path, robot: str, *, as_json: bool, shown: bool = False) ->
     result = converted(file, robot, "", Options(), _library())
     if shown or result.trajectory is None:
         console = output.console(stderr=as_json)
-        report.show(result, None, convert_words(file, robot), Options(), console)
+        # What is advised writes a file: this command takes no options of a conversion.
+        words = [*convert_words(file, robot), "--to", "mat", "--out", "mended"]
+        report.show(result, None, words, Options(), console)
     if result.trajectory is None:
         raise typer.Exit(exit_code(result))
     return result

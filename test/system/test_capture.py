@@ -101,3 +101,16 @@ def test_what_cannot_be_captured_is_one_sentence(tmp_path, monkeypatch) -> None:
         assert said in done.stderr + done.stdout
         assert "Traceback" not in done.stderr
     assert not list(tmp_path.iterdir())
+
+
+def test_what_is_advised_of_a_refused_plan_makes_one_that_is_compared(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    rows = np.stack([course(k / 100) for k in range(401)])
+    savemat("plan.mat", {"q": np.degrees(rows), "fs": 100.0})
+    savemat("real.mat", {"q": rows, "fs": 100.0})
+    refused = run("compare", "plan.mat", "real.mat")
+    assert refused.returncode == 1
+    advised = next(line for line in refused.stdout.splitlines() if "try: mrlab " in line)
+    assert in_process.mrlab(*advised.split("try: mrlab ")[1].split()).returncode == 0
+    done = run("compare", "mended/plan.mat", "real.mat", "--json")
+    assert json.loads(done.stdout)["comparison"]["delay"] == 0
