@@ -52,4 +52,6 @@ def main(robot):
 
 
 if __name__ == "__main__":
+    if not sys.argv[1:]:
+        sys.exit("usage: follow_joint_trajectory.py ROBOT, such as ur5e_1")
     sys.exit(main(*sys.argv[1:]))

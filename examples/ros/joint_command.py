@@ -36,4 +36,6 @@ def main(robot, seconds="10"):
 
 
 if __name__ == "__main__":
+    if not sys.argv[1:]:
+        sys.exit("usage: joint_command.py ROBOT [SECONDS], such as ur5e_1 5")
     main(*sys.argv[1:])

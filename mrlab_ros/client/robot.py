@@ -149,6 +149,11 @@ class LabRobot:
         self.message = message
         self._follower: Follower | None = None
 
+    def __repr__(self) -> str:
+        return (
+            f"<{self.name}: {self.model}{' with ' * bool(self.end_effector)}{self.end_effector}>"
+        )
+
     @property
     def follower(self) -> Follower:
         """Return the reports of the robot's playback; raise NoAnswer where it has none."""

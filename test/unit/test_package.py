@@ -160,6 +160,8 @@ def test_all_parts_have_the_version_of_the_package() -> None:
         path: re.findall("<version>(.+)</version>", (ROOT / path).read_text())
         for path in ("package.xml", "msg_schemas/package.xml")
     }
+    client = "clients/python/pyproject.toml"
+    found[client] = re.findall('^version = "(.+)"', (ROOT / client).read_text(), re.M)
     for path in ("web/package.json", "web/package-lock.json"):
         found[path] = [json.loads((ROOT / path).read_text())["version"]]
     assert found == {path: [mrlab_ros.__version__] for path in found}

@@ -182,7 +182,12 @@ class Lab:
                 raise LabError("Name the model, such as ur5e: the lab has no robot.", "no_model")
             robot = there[0]["model"]
         if isinstance(q, str | Path):
-            data, file = Path(q).read_bytes(), Path(q).name
+            try:
+                data, file = Path(q).read_bytes(), Path(q).name
+            except OSError as error:
+                raise LabError(
+                    f"{q} cannot be read: {error.strerror}.", "file_unreadable"
+                ) from None
             if fs is not None:
                 options["frame_rate"] = fs
         else:

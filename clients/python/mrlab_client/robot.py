@@ -65,6 +65,11 @@ class LabRobot:
         self.joint_names = tuple(map(str, robot.joint_names))
         self._states: States | None = None
 
+    def __repr__(self) -> str:
+        return (
+            f"<{self.name}: {self.model}{' with ' * bool(self.end_effector)}{self.end_effector}>"
+        )
+
     @property
     def states(self) -> States:
         """Return the states of its playback; raise NoAnswer where it has none."""
