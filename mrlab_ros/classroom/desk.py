@@ -206,7 +206,11 @@ class Desk:
             return [entry]
 
         if entry.key:
-            self.graded.entry(entry.key)
+            student = self.graded.entry(entry.key)
+            if entry.points is not None and (
+                out := changes.out_of_range(student, entry.test, entry.points)
+            ):
+                raise BadInput(out)
         return self.journal.append(made)
 
     def check(self, entry: Entry) -> None:

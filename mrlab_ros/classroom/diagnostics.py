@@ -69,7 +69,6 @@ ROBOT_NOT_SAID = Code(
     "'{file}' does not say which robot it is for, nor does the rubric; add robot: ur5e to the "
     "rubric, or mark a cell (.yaml).",
 )
-EXAMPLE_NOT_READ = Code("example_not_read", "{file} cannot be read: {why:problem}.")
 
 
 # the export

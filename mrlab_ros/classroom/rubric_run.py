@@ -10,7 +10,6 @@ from mrlab_ros.adapters import share
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.app.check.stage import Stage
 from mrlab_ros.classroom import trials, words
-from mrlab_ros.classroom.diagnostics import EXAMPLE_NOT_READ
 from mrlab_ros.classroom.mark import (
     compared,
     ground_of,
@@ -131,12 +130,13 @@ def measures() -> str:
 
 
 def example(*, as_json: bool = False) -> str:
-    """Return the text of the example, or what it holds as JSON; raise BadInput where it is not
-    installed."""
+    """Return the text of the example, or what it holds as JSON, with its reference as a path that
+    holds from every folder; raise BadInput where it is not installed."""
     path = share.directory() / "examples" / "rubrics" / "pick_and_place.yaml"
+    rubric = read_rubric(path)
+    reference = str(Path(rubric.reference).resolve())
     if as_json:
-        return json.dumps(document.plain(read_rubric(path)))
-    try:
-        return path.read_text(encoding="utf-8")
-    except OSError as error:
-        raise BadInput(EXAMPLE_NOT_READ(file=str(path), why=error.strerror)) from None
+        return json.dumps({**document.plain(rubric), "reference": reference})
+    named = str(Path(rubric.reference).relative_to(path.parent))
+    written = json.dumps(reference, ensure_ascii=False)
+    return path.read_text(encoding="utf-8").replace(named, written)

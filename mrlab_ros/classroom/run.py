@@ -393,8 +393,8 @@ def _known(request: Request, folder: ResultsFolder) -> Any:
 
 
 def _state(request: Request, folder: ResultsFolder) -> tuple[State, list[Diagnostic]]:
-    """Return what teachers did to the marks, in the table too, and cells of it that are no
-    numbers. Raises BadInput where the class is locked."""
+    """Return what teachers did to the marks, in the table too, and cells of it that are not
+    taken. Raises BadInput where the class is locked."""
     journal = JournalFile(request.base or request.out)
     state = journal.state()
     if state.locked and not request.final and request.base is None:

@@ -15,7 +15,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from mrlab_ros.classroom.marks.diagnostics import CHANGED_MARK, CHANGED_MARK_NOT_READ
+from mrlab_ros.classroom.marks.diagnostics import (
+    CHANGED_MARK,
+    CHANGED_MARK_NOT_READ,
+    CHANGED_MARK_OUT_OF_RANGE,
+)
 from mrlab_ros.classroom.marks.gradebook import BOM, cell, number
 from mrlab_ros.classroom.marks.graded import Student
 from mrlab_ros.core.base.diagnostic import Diagnostic
@@ -57,26 +61,48 @@ def found(
     table: str, document: Mapping[str, Any]
 ) -> tuple[dict[str, dict[str, float]], list[Diagnostic]]:
     """Return the points that differ from class.json, by key and column, and cells that are no
-    numbers. The table may have been written by a program that parts cells with semicolons."""
+    numbers or out of range. The table may have been written by a program that parts cells with
+    semicolons."""
     content = table.removeprefix(BOM)
     first = content.partition("\n")[0]
     delimiter = max(DELIMITERS, key=first.count)
     rows = csv.DictReader(io.StringIO(content), delimiter=delimiter)
-    before = {s["key"]: columns_of(s) for s in document["students"]}
+    students = {s["key"]: s for s in document["students"]}
     changes: dict[str, dict[str, float]] = {}
     problems = []
     for row in rows:
         key = row.get("key") or ""
-        for column, points in before.get(key, {}).items():
+        before = columns_of(students[key]) if key in students else {}
+        for column, points in before.items():
             text = row.get(column if column == POINTS else str(cell(column)))
             if text is None or not text.strip():
                 continue
             value = _number(text)
             if value is None:
                 problems.append(CHANGED_MARK_NOT_READ(student=key, test=column, found=text))
-            elif number(value) != number(points):
+            elif number(value) == number(points):
+                continue
+            elif why := out_of_range(students[key], column, value):
+                problems.append(why)
+            else:
                 changes.setdefault(key, {})[column] = value
     return changes, problems
+
+
+def out_of_range(student: Mapping[str, Any], column: str, points: float) -> Diagnostic | None:
+    """Return why a student of class.json cannot have these points, None: they can be had.
+
+    Bonus tests come on top of the sum; the row of the late, which gives none, can take them all.
+    """
+    of = {m["name"]: float(m["of"]) for m in student["marks"]}
+    all_points = math.fsum(of.values())
+    most = {**of, POINTS: all_points}.get(column, math.inf)
+    least = 0.0 if most else -all_points
+    if least <= points <= most:
+        return None
+    return CHANGED_MARK_OUT_OF_RANGE(
+        student=student["key"], test=column, found=points, least=least, most=most
+    )
 
 
 def _number(text: str) -> float | None:

@@ -32,6 +32,12 @@ CHANGED_MARK_NOT_READ = Code(
     "{student}, {test}: '{found}' is no number; the mark stays as the test gave it.",
     severity=WARNING,
 )
+CHANGED_MARK_OUT_OF_RANGE = Code(
+    "changed_mark_out_of_range",
+    "{student}, {test}: {found:number} is not between {least:number} and {most:number} points; "
+    "the mark stays as it was.",
+    severity=WARNING,
+)
 MARKS_CHANGED = Code(
     "marks_changed",
     "Marks of {count:count submission|submissions} were changed by hand; they are kept.",

@@ -104,6 +104,8 @@ def test_a_class_is_marked_changed_marked_again_released_and_downloaded(gateway,
         == "mark_without_reason"
     )
     mark = {"did": "mark", "key": ben, "test": "Takes the cube", "points": 1.5, "text": "on paper"}
+    said = act(teacher, **(mark | {"points": 99})).json()["error"]
+    assert (said["code"], said["values"]["most"]) == ("changed_mark_out_of_range", 2)
     assert act(teacher, **mark).status_code == 204
     assert act(teacher, did="comment", key=ben, text="Come and see me").status_code == 204
     said = act(teacher, did="second", key=ben, test="Takes the cube", points=1)

@@ -199,8 +199,11 @@ def test_a_file_without_a_motion_gets_nothing_and_a_reason():
     assert found["note"]["code"] == "unsupported_format"
 
 
-def test_the_example_and_the_measures_are_printed():
-    assert run("rubric", "example").stdout == RUBRIC.read_text()
+def test_the_example_works_where_it_is_written_and_the_measures_are_printed(tmp_path):
+    (tmp_path / "rubric.yaml").write_text(run("rubric", "example").stdout)
+    said = run("rubric", "lint", tmp_path / "rubric.yaml", "--json")
+    assert said.exit_code == 0, said.stdout
+    assert json.loads(said.stdout)["reference"]["points"] == 15
     held = json.loads(run("rubric", "example", "--json").stdout)
     assert held["name"] == "Pick and place"
     listed = json.loads(run("rubric", "measures", "--json").stdout)

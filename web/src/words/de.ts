@@ -1449,6 +1449,9 @@ export const diagnostics: Templates = {
   changed_mark_not_read: [
     "{student}, {test}: '{found}' ist keine Zahl; es bleibt bei den Punkten des Tests.",
   ],
+  changed_mark_out_of_range: [
+    '{student}, {test}: {found:number} liegt nicht zwischen {least:number} und {most:number} Punkten; die Bewertung bleibt, wie sie war.',
+  ],
   channel_shape: [
     "{channel:choice gripper=Die Greiferzustände|derived=Die abgeleiteten Kanäle} von '{id}' sind {size}; erwartet wird {expected}, mit einer Zeile für jede Zeile der Trajektorie.",
   ],
@@ -2573,7 +2576,6 @@ export const diagnostics: Templates = {
   cell_for_one_robot: [
     '{file} ist eine Zelle mehrerer Roboter, und die Rubrik ist für einen {robot}; lass robot: in einer Rubrik für Zellen weg.',
   ],
-  example_not_read: ['{file} ist nicht lesbar: {why:problem}.'],
   grader_not_started: ['Der Prozess, der prüft, ist nicht gestartet.'],
   key_table_not_read: [
     'Die Schlüsseltabelle {file} ist nicht lesbar ({why:problem}); ohne sie würden sich die Pseudonyme ändern.',

@@ -70,6 +70,39 @@ def test_changes_are_found_and_hold():
     assert given == [changes.columns_of(s) for s in DOCUMENT["students"]]
 
 
+def test_points_that_cannot_be_had_are_refused():
+    tests = (
+        Mark("a; b", 6.0, 6.0, True, FOUND),
+        Mark("more", 1.0, 2.0, False, FOUND, bonus=True),
+        Mark("Late", -1.0, 0.0, False, FOUND),
+    )
+    marks = Marks(tests).plain()
+    rubric = Rubric("task", tuple(Test(t.name, "x", Never(), t.of, bonus=t.bonus) for t in tests))
+    anna = Student(
+        Submission("anna", "Anna", "folder"), Result(MARKED, plain(FOUND), marks, marks)
+    )
+    document, text = (
+        GradedClass(rubric, "folder", (anna,)).document(),
+        gradebook.table(rubric, (anna,)),
+    )
+    had = ",6,6,marked,,6,1,-1,"
+    assert had in text
+
+    def refused(*row):
+        found, problems = changes.found(
+            text.replace(had, ",{},6,marked,,{},{},{},".format(*row)), document
+        )
+        assert {p.code for p in problems} <= {"changed_mark_out_of_range"}
+        said = [(p.values["test"], p.values["least"], p.values["most"]) for p in problems]
+        return found.get("anna", {}), said
+
+    every = {"points": 8.0, "a; b": 0.0, "more": 2.0, "Late": -8.0}
+    assert refused(8, 0, 2, -8) == (every, [])
+    ranges = [("a; b", 0, 6), ("more", 0, 2), ("Late", -8, 0), ("points", 0, 8)]
+    for row in ((99, 6.5, 2.5, 1), (-3, -3, -0.5, -9)):
+        assert refused(*row) == ({}, ranges)
+
+
 def test_what_the_test_gave_comes_back():
     marks = STUDENTS[1].result.marks
     changed = changes.marks(marks, {"a; b": 2.0, "points": 9.0, "a test of old": 3.0})
