@@ -234,9 +234,9 @@ def surface_from_message(message: msg.Surface) -> Surface:
     )
 
 
-def things_from_message(message: msg.SceneObjects) -> tuple[Thing, ...]:
+def things_from_message(objects: Iterable[msg.SceneObject]) -> tuple[Thing, ...]:
     """Return the objects that a robot must not be put into: those that nobody holds."""
-    free = (thing for thing in message.objects if not thing.held_by)
+    free = (thing for thing in objects if not thing.held_by)
     return tuple(Thing.of(pose_from_message(t.pose), (t.size.x, t.size.y, t.size.z)) for t in free)
 
 

@@ -5,7 +5,7 @@ The robots of the scene as messages.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 
 from mrlab_msgs import msg, srv
 from std_msgs.msg import String
@@ -132,6 +132,21 @@ def placement_from_message(message: msg.ObjectPlacement) -> ObjectEntry:
 
 def placements_from_messages(messages: Iterable[msg.ObjectPlacement]) -> tuple[ObjectEntry, ...]:
     return tuple(map(placement_from_message, messages))
+
+
+def things_of_scene(
+    things: Iterable[msg.SceneObject], robots: Collection[str]
+) -> tuple[ObjectEntry, ...]:
+    """Return objects as they are; the hand of a person holds none: it lets go."""
+    return tuple(
+        ObjectEntry(
+            thing.name,
+            thing.type,
+            pose_from_message(thing.pose),
+            held_by=thing.held_by if thing.held_by in robots else "",
+        )
+        for thing in things
+    )
 
 
 def loaded_from_messages(messages: Sequence[msg.TrajectoryInfo]) -> list[Loaded]:

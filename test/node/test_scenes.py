@@ -21,6 +21,8 @@ from mrlab_ros.core.scene.diagnostics import (
     CONTENTS_LEFT_OUT,
     LOADED_IN_PART,
     NO_ACT_TO_UNDO,
+    NO_SUCH_PLACE,
+    NOT_BACK,
     PLACE_SET,
     POSITION_BEYOND,
     TRAJECTORY_NOT_FITTING,
@@ -32,6 +34,7 @@ from mrlab_ros.nodes.coordinator.node import CoordinatorNode
 from mrlab_ros.nodes.lab.diagnostics import (
     NO_PHYSICS_TO_SAVE,
     NO_PLAYBACK_RUNS,
+    ROBOT_REMOVED,
     SCENE_LOADED,
     SCENE_SAVED,
 )
@@ -146,8 +149,6 @@ def test_robots_and_systems_of_a_scene_come_back_without_physics(graph, lab):
     assert values_of(answer) == {
         "scene": "lesson",
         "robots": "3",
-        "objects": "0",
-        "surfaces": "0",
         "systems": "1",
     }
     wait_for(lambda: len(names(lab)) == 3, "the robots")
@@ -176,18 +177,67 @@ def test_what_was_loaded_removed_or_dissolved_is_undone_whoever_did_it(graph, la
     done(graph.call(srv.Remove, "/coordinator/dissolve_system", name="cell"))
     wait_for(lambda: undoable.last().code == DISSOLVED.code, "the system's end")
     done(graph.call(srv.Undo, "/lab/undo", id=undoable.last().id, timeout=60))
-    wait_for(lambda: undoable.last().id == "", "nothing to undo")
+    # What was there before the first undo can be had back, and what came since.
+    wait_for(lambda: undoable.last().code == UNDONE.code, "the other scene")
+    done(graph.call(srv.Undo, "/lab/undo", timeout=60))
+    wait_for(lambda: (names(lab), place.last().name) == ([], "Lab B"), "the other scene")
+    done(graph.call(srv.Undo, "/lab/undo", timeout=60))
+    is_back(graph, lab, robots)
+    wait_for(lambda: place.last().name == "Lab A", "the place of the scene")
     done(graph.call(srv.Remove, "/lab/remove_robot", name=robots.alone))
     done(graph.call(srv.Remove, "/lab/remove_robot", name=robots.members[0]))
     wait_for(lambda: system(lab) is None, "the end of the system with its member")
     done(graph.call(srv.Undo, "/lab/undo", timeout=60))
     done(graph.call(srv.Undo, "/lab/undo", timeout=60))
     is_back(graph, lab, robots)
-    answer = graph.call(srv.Undo, "/lab/undo")
+    answer = graph.call(srv.Undo, "/lab/undo", id="cow")
     assert (answer.success, answer.code) == (False, NO_ACT_TO_UNDO.code)
-    for name in ("", "x" * 65, "a\nb"):
+
+
+def test_acts_of_before_come_back_with_the_scene_that_another_replaced(graph, lab):
+    robot = spawn(graph)
+    wait_for(lambda: names(lab) == [robot], "the robot")
+    done(graph.call(srv.Remove, "/lab/remove_robot", name=robot))
+    for name, there in (("handover", ["ur5e_1", f"{KUKA}_1"]), ("empty", [])):
+        done(scene(graph, "load", name))
+        wait_for(lambda there=there: names(lab) == there, name)
+    for there in (["ur5e_1", f"{KUKA}_1"], [], [robot]):
+        done(graph.call(srv.Undo, "/lab/undo", timeout=60))
+        wait_for(lambda there=there: names(lab) == there, "the scene of before")
+
+
+def test_what_cannot_come_back_is_named_and_a_new_lab_offers_nothing(graph, lab, tmp_path):
+    undoable = graph.listen(msg.Undoable, "/undoable", qos.LATCHED_EVENTS)
+    wait_for(lambda: undoable and undoable.last().id == "", "nothing to undo")
+    robot = spawn(graph)
+    done(graph.call(srv.Remove, "/lab/remove_robot", name=robot))
+    wait_for(lambda: undoable.last().code == ROBOT_REMOVED.code, "the act")
+    id = undoable.last().id
+    assert spawn(graph) == robot
+    for _ in range(2):
+        answer = graph.call(srv.Undo, "/lab/undo", id=id, timeout=60)
+        assert (answer.success, answer.code) == (False, NOT_BACK.code)
+    done(graph.call(srv.Remove, "/lab/remove_robot", name=robot))
+    done(graph.call(srv.Undo, "/lab/undo", id=id, timeout=60))
+    wait_for(lambda: undoable.last().id not in ("", id), "the other act")
+    graph.drop(lab.lab)
+    undoable.clear()
+    graph.add(LabNode, state_dir=str(tmp_path))
+    wait_for(lambda: undoable and undoable.last().id == "", "nothing to undo")
+
+
+def test_a_place_has_a_name_that_people_can_read_and_an_id_that_was_there_before(graph, lab):
+    place = graph.listen(msg.Place, "/place", qos.LATCHED)
+    wait_for(lambda: place, "the place")
+    first = place.last().id
+    for name in ("", "x" * 65, "a\nb", "  ", "a\u202eb", "\u200b"):
         answer = graph.call(srv.SetPlace, "/lab/set_place", name=name)
         assert (answer.success, answer.code) == (False, BAD_PLACE_NAME.code)
+    answer = graph.call(srv.SetPlace, "/lab/set_place", id="cow", name="Hall")
+    assert (answer.success, answer.code) == (False, NO_SUCH_PLACE.code)
+    done(graph.call(srv.SetPlace, "/lab/set_place", name="Hall"))
+    done(graph.call(srv.SetPlace, "/lab/set_place", id=first, name="Lab"))
+    wait_for(lambda: (place.last().id, place.last().name) == (first, "Lab"), "the first place")
 
 
 def test_objects_of_a_scene_are_named_as_left_out(graph, lab):

@@ -169,10 +169,20 @@ NO_ACT_TO_UNDO = Code(
 )
 UNDONE = Code(
     "undone",
-    "Undone: {act:problem}",
+    "Undone: {act:problem}[\n{missing:problem}]",
     severity=INFO,
     meaning="What an act removed is there again.",
-    page=False,
+)
+NOT_BACK = Code(
+    "not_back",
+    "Not back: {names:list}. Another has the name, or what it needs is not there.",
+    meaning="Some of what an act removed cannot come back as it is undone.",
+)
+UNDONE_IN_PART = Code(
+    "undone_in_part",
+    "Undone in part: {why:problem}. Undo it again.[\nDone:{done:problems}]"
+    "[\nNot tried:{rest:problems}]",
+    meaning="A step of undoing failed after others had been made. It can be tried again.",
 )
 OBJECTS_TAKEN_OUT = Code(
     "objects_taken_out",
@@ -193,7 +203,14 @@ PLACE_SET = Code(
 BAD_PLACE_NAME = Code(
     "bad_place_name",
     "The name or id {name} of a place has {count:integer} characters; expected 1 to "
-    "{most:integer} that can be printed.",
+    "{most:integer} that can be printed, and not blanks alone.",
     meaning="A place cannot be called so.",
+    page=False,
+)
+NO_SUCH_PLACE = Code(
+    "no_such_place",
+    "The lab has never been in a place with the id {place}.",
+    "Leave the id out for a new place.",
+    meaning="The lab was to go back to a place that it does not know.",
     page=False,
 )

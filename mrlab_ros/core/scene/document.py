@@ -30,6 +30,7 @@ from mrlab_ros.core.base.geometry import WORLD_SIZE, Pose
 from mrlab_ros.core.base.names import checked_name
 from mrlab_ros.core.base.records import Record, entry_place, raise_all, unknown_field
 from mrlab_ros.core.scene.diagnostics import (
+    BAD_PLACE_NAME,
     CELL_NOT_SCENE,
     HELD_IN_PART,
     HOLDS_TWO,
@@ -62,6 +63,8 @@ ROBOT_FIELDS = (
 )  # fmt: skip
 OBJECT_FIELDS = ("name", "type", "automatic", *POSE_FIELDS, "held_by", "in_hand")
 SURFACE_FIELDS = ("name", "label", "source", *POSE_FIELDS, "vertices", "triangles")
+# Characters of a place's name or id, at most.
+LONGEST = 64
 VECTOR, QUATERNION = Numbers(3), Numbers(4)
 PLACE = Numbers(3, between(-WORLD_SIZE, WORLD_SIZE), "m")
 VERTICES, TRIANGLES = Matrix(3), Matrix(3, whole=True)
@@ -98,10 +101,22 @@ class ObjectEntry:
 @dataclass(frozen=True)
 class Place:
     """A real room with an origin that its headsets share. id: never used again. name: for people,
-    may be empty."""
+    may be empty. Raises BadInput where one of them cannot be."""
 
     id: str
     name: str = ""
+
+    def __post_init__(self) -> None:
+        checked_text(self.id)
+        if self.name:
+            checked_text(self.name)
+
+
+def checked_text(text: str) -> str:
+    """Return a name or id of a place; raise BadInput where it cannot be one."""
+    if not (text.strip() and len(text) <= LONGEST and text.isprintable()):
+        raise BadInput(BAD_PLACE_NAME(name=text[:LONGEST], count=len(text), most=LONGEST))
+    return text
 
 
 @dataclass(frozen=True)
@@ -244,7 +259,7 @@ def _read(document: object, origin: str, whole: bool) -> tuple[SceneDocument, li
         about = record.value("about", TEXT, "")
         entry = record.record("place", PLACE_FIELDS)
         if entry is not None:
-            place = Place(entry.required("id", FILLED_TEXT), entry.value("name", TEXT, ""))
+            place = _place(entry)
     except BadInput as error:
         mistakes.append(error.diagnostic)
     scene = SceneDocument(
@@ -333,6 +348,14 @@ def _pose(entry: Record, position: Numbers = VECTOR) -> Pose:
     a, b, c, d = entry.value("orientation", QUATERNION, (0.0, 0.0, 0.0, 1.0))
     try:
         return Pose((x, y, z), (a, b, c, d))
+    except BadInput as error:
+        raise entry.error(error.diagnostic) from None
+
+
+def _place(entry: Record) -> Place:
+    id, name = entry.required("id", FILLED_TEXT), entry.value("name", TEXT, "")
+    try:
+        return Place(id, name)
     except BadInput as error:
         raise entry.error(error.diagnostic) from None
 

@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.base.diagnostic import Code, Diagnostic
 from mrlab_ros.core.base.errors import BadInput, LabError
 from mrlab_ros.core.scene.diagnostics import (
     ADD_OBJECTS,
@@ -45,12 +45,19 @@ from mrlab_ros.core.systems.waits import parse as parse_wait
 @dataclass(frozen=True)
 class Present:
     """The contents of the lab. loaded: by robot the trajectory that its playback has loaded, empty
-    for none; a robot whose playback is unknown is left out. physics: whether it runs."""
+    for none; a robot whose playback is unknown is left out. physics: whether it runs. objects: by
+    name who holds each, empty for nobody."""
 
     robots: frozenset[str] = frozenset()
     loaded: Mapping[str, str] = field(default_factory=dict)
     systems: frozenset[str] = frozenset()
     physics: bool = False
+    objects: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def names(self) -> frozenset[str]:
+        """The names that are taken."""
+        return self.robots | self.systems | self.objects.keys()
 
 
 @dataclass(frozen=True)
@@ -154,6 +161,17 @@ class AwaitGrasps:
         return GRIP_OBJECTS(robots=holders, objects=[thing.name for thing in self.objects])
 
 
+@dataclass(frozen=True)
+class Grip:
+    """Put objects of the scene back into the hands that held them."""
+
+    objects: tuple[ObjectEntry, ...]
+
+    @property
+    def said(self) -> Diagnostic:
+        return AwaitGrasps(self.objects).said
+
+
 Step = (
     GoTo
     | DissolveSystems
@@ -164,6 +182,7 @@ Step = (
     | LoadTrajectory
     | CreateSystem
     | AwaitGrasps
+    | Grip
 )
 
 
@@ -256,14 +275,16 @@ def self_contained(scene: SceneDocument) -> SceneDocument:
     )
 
 
-def run(steps: Sequence[Step], execute: Callable[[Step], None]) -> None:
-    """Run the steps in order; raise LabError that names what was done and what was not."""
+def run(
+    steps: Sequence[Step], execute: Callable[[Step], None], failed: Code = LOADED_IN_PART
+) -> None:
+    """Run the steps in order; raise LabError, `failed`, that names what was done and what not."""
     for i, step in enumerate(steps):
         try:
             execute(step)
         except LabError as error:
             raise LabError(
-                LOADED_IN_PART(
+                failed(
                     why=STEP_FAILED(step=step.said, why=error.diagnostic),
                     done=[each.said for each in steps[:i]],
                     rest=[each.said for each in steps[i + 1 :]],

@@ -49,8 +49,9 @@ NO_PHYSICS_TO_SAVE = Code(
 )
 SCENE_LOADED = Code(
     "scene_loaded",
-    "Loaded {scene}: {robots:count robot|robots}, {objects:count object|objects}, "
-    "{surfaces:count surface|surfaces}, {systems:count system|systems}[; {missing:problem}].",
+    "Loaded {scene}: {robots:count robot|robots}[, {objects:count object|objects}]"
+    "[, {surfaces:count surface|surfaces}][, {systems:count system|systems}]"
+    "[; {missing:problem}].",
     severity=INFO,
     meaning="A scene took the place of what was there.",
 )

@@ -24,8 +24,8 @@ from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.robots.controllers import Controller
 from mrlab_ros.core.robots.frames import joint_name
 from mrlab_ros.core.runtime.identity import Identity
-from mrlab_ros.core.scene.diagnostics import BAD_PLACE_NAME, PLACE_SET
-from mrlab_ros.core.scene.document import Place, RobotEntry, SceneDocument
+from mrlab_ros.core.scene.diagnostics import NO_SUCH_PLACE, PLACE_SET
+from mrlab_ros.core.scene.document import Place, RobotEntry, SceneDocument, checked_text
 from mrlab_ros.core.scene.restore import self_contained, with_pending
 from mrlab_ros.core.scene.robots import PlacedRobot, Scene
 from mrlab_ros.core.scene.undo import removed_with
@@ -38,6 +38,7 @@ from mrlab_ros.messages.scenes import (
     robots_to_message,
     system_entry,
     text_to_message,
+    things_of_scene,
 )
 from mrlab_ros.messages.time import make_header
 from mrlab_ros.nodes import parameters
@@ -70,8 +71,6 @@ if TYPE_CHECKING:
 SAVE_PERIOD_S = 2.0
 # Which systems there are is written sooner: one that was dissolved must not come back, s.
 SYSTEMS_PERIOD_S = 0.1
-# Characters of a place's name or id, at most.
-LONGEST_NAME = 64
 
 
 class LabNode(ParameterNode[LabParameters], name="lab", kind=LabParameters, others=parameters.ALL):
@@ -112,6 +111,8 @@ class LabNode(ParameterNode[LabParameters], name="lab", kind=LabParameters, othe
                 self._spawn(model, None, "", None)
             last = SceneDocument()
         last = self._without_dissolved(last)
+        # The ids of the places where the lab has been.
+        self._known_places: set[str] = set()
         self._place = last.place or Place(token_hex(6))
         self._places = self.create_publisher(msg.Place, "/place", qos.LATCHED)
         self._return = Return(
@@ -220,6 +221,7 @@ class LabNode(ParameterNode[LabParameters], name="lab", kind=LabParameters, othe
     def go_to(self, place: Place) -> None:
         """Announce that the robots stand in a place."""
         self._place = place
+        self._known_places.add(place.id)
         header = make_header(self._lab_clock.now_ns())
         self._places.publish(msg.Place(header=header, id=place.id, name=place.name))
 
@@ -346,7 +348,8 @@ class LabNode(ParameterNode[LabParameters], name="lab", kind=LabParameters, othe
 
     @answered
     def _on_remove(self, request: srv.Remove.Request, response: srv.Remove.Response) -> Diagnostic:
-        lost = removed_with(request.name, self._document())
+        held = things_of_scene(self._observer.objects, self._names())
+        lost = removed_with(request.name, self._document(), held)
         self.remove([request.name])
         said = ROBOT_REMOVED(robot=request.name)
         self._undo.note(said, lost)
@@ -372,18 +375,17 @@ class LabNode(ParameterNode[LabParameters], name="lab", kind=LabParameters, othe
     @answered
     def _on_undo(self, request: srv.Undo.Request, response: srv.Undo.Response) -> Diagnostic:
         self._file.check_room()
-        return self._undo.undo(request.id, self._scenes.present(self._names()))
+        return self._undo.undo(request.id, self._scenes)
 
     @answered
     def _on_set_place(
         self, request: srv.SetPlace.Request, response: srv.SetPlace.Response
     ) -> Diagnostic:
-        for text in (request.name, request.id or token_hex(6)):
-            if not (1 <= len(text) <= LONGEST_NAME and text.isprintable()):
-                shown = text[:LONGEST_NAME]
-                raise BadInput(BAD_PLACE_NAME(name=shown, count=len(text), most=LONGEST_NAME))
+        place = Place(request.id or token_hex(6), checked_text(request.name))
+        if request.id and request.id not in self._known_places:
+            raise BadInput(NO_SUCH_PLACE(place=request.id))
         self._file.check_room()
-        self.go_to(Place(request.id or token_hex(6), request.name))
+        self.go_to(place)
         self._save()
         return PLACE_SET(place=request.name)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Sequence
 from functools import partial
 
 from mrlab_msgs import msg
@@ -59,11 +59,16 @@ class Observer:
             return self._supports
 
     @property
+    def objects(self) -> Sequence[msg.SceneObject]:
+        """The objects that physics published last; none where it does not run."""
+        if not self._objects or not self.published(["/objects"]):
+            return ()
+        return list(deserialize_message(self._objects, msg.SceneObjects).objects)
+
+    @property
     def things(self) -> tuple[Thing, ...]:
         """The objects that physics published last, but for those that are held."""
-        if not self._objects:
-            return ()
-        return things_from_message(deserialize_message(self._objects, msg.SceneObjects))
+        return things_from_message(self.objects)
 
     def follow(self, robots: Collection[str]) -> None:
         """Observe exactly these robots; forget the others."""

@@ -6,6 +6,7 @@ import threading
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Any, Protocol
 
 from mrlab_msgs import msg, srv
@@ -30,6 +31,7 @@ from mrlab_ros.core.scene.restore import (
     CreateSystem,
     DissolveSystems,
     GoTo,
+    Grip,
     LoadTrajectory,
     Present,
     RemoveRobots,
@@ -61,6 +63,7 @@ if TYPE_CHECKING:
 ARRIVAL_TIMEOUT_S = 10.0
 # Fingers close, or the object is attached, after this, s.
 GRASP_TIMEOUT_S = 10.0
+CLOSING_S = 1.0
 # A coordinator that did not receive /robots yet refuses a system; a refusal counts after this, s.
 REFUSAL_TIMEOUT_S = 2.0
 RETRY_PERIOD_S = 0.1
@@ -114,6 +117,9 @@ class LabRestore:
                 self._create(system)
             case AwaitGrasps(objects):
                 self._await_grasps({thing.name: thing.held_by for thing in objects})
+            case Grip(objects):
+                for thing in objects:
+                    self._grip(thing)
 
     def order(self, kind: type[Service[Request, Said]], service: str, request: Request) -> Said:
         """Call a service; return its answer, raise Misuse where it refuses."""
@@ -150,6 +156,30 @@ class LabRestore:
             if thing.held_by:
                 hold = srv.Attach.Request(robot=thing.held_by, object=thing.name)
                 self.order(srv.Attach, "/physics/attach", hold)
+
+    def _grip(self, thing: ObjectEntry) -> None:
+        """Hold an object where its robot held it, until that robot has it again."""
+        place = srv.MoveObject.Request(
+            name=thing.name, pose=pose_to_message(thing.pose), held=True
+        )
+        hold = srv.Attach.Request(robot=thing.held_by, object=thing.name)
+        self.order(srv.MoveObject, "/physics/move_object", place)
+        deadline = time.monotonic() + GRASP_TIMEOUT_S
+        # Fingers that close on it take it by themselves.
+        while not self._observer.wait_for(partial(self._holds, thing), CLOSING_S):
+            try:
+                self.order(srv.Attach, "/physics/attach", hold)
+            except Misuse:
+                if time.monotonic() > deadline:
+                    place.held = False
+                    self.order(srv.MoveObject, "/physics/move_object", place)
+                    raise
+
+    def _holds(self, thing: ObjectEntry) -> bool:
+        return any(
+            each.name == thing.name and each.held_by == thing.held_by
+            for each in self._observer.objects
+        )
 
     def _wait_for(
         self, condition: Callable[[], bool], timeout: float, late: Code, **values: Any

@@ -80,7 +80,7 @@ class Scenes:
         """Save the scene; return what was saved. Raises LabError where it cannot be."""
         time.sleep(SETTLE_S)
         physics = self._physics_runs()
-        scene = self._whole(physics=physics)
+        scene = self.whole(physics=physics)
         path = self._files.save(name, core.self_contained(scene))
         missing = None if physics else NO_PHYSICS_TO_SAVE()
         return SCENE_SAVED(**_counts(scene), file=str(path), missing=missing)
@@ -96,7 +96,7 @@ class Scenes:
         scene = self._files.load(name)
         present = self.present(robots)
         self._check(scene, present)
-        before = self._whole(physics=present.physics)
+        before = self.whole(physics=present.physics)
         try:
             core.run(core.plan_scene(scene, present), self._restore.execute)
         except LabError as error:
@@ -105,9 +105,23 @@ class Scenes:
         missing = core.left_out(scene, present)
         if missing is not None:
             scene = replace(scene, objects=(), surfaces=())
-        said = SCENE_LOADED(**_counts(scene), scene=name, missing=missing)
+        counts = _counts(scene)
+        counts |= {part: counts[part] or None for part in ("objects", "surfaces", "systems")}
+        said = SCENE_LOADED(**counts, scene=name, missing=missing)
         note(said, before)
         return said
+
+    def whole(self, *, physics: bool) -> SceneDocument:
+        """Return the scene as it is, with what physics holds where that runs."""
+        scene = self._document()
+        if not physics:
+            return scene
+        content = call(self._get_objects, srv.GetObjects.Request(), LOAD_TIMEOUT_S)
+        return replace(
+            scene,
+            objects=placements_from_messages(content.objects),
+            surfaces=tuple(map(surface_from_message, content.surfaces)),
+        )
 
     def present(self, robots: Iterable[str]) -> Present:
         """Return what the lab holds beside `robots`."""
@@ -118,18 +132,7 @@ class Scenes:
                 system.name for system in systems if self._observer.published(["/systems"])
             ),
             physics=self._physics_runs(),
-        )
-
-    def _whole(self, *, physics: bool) -> SceneDocument:
-        """Return the scene as it is, with what physics holds where that runs."""
-        scene = self._document()
-        if not physics:
-            return scene
-        content = call(self._get_objects, srv.GetObjects.Request(), LOAD_TIMEOUT_S)
-        return replace(
-            scene,
-            objects=placements_from_messages(content.objects),
-            surfaces=tuple(map(surface_from_message, content.surfaces)),
+            objects={thing.name: thing.held_by for thing in self._observer.objects},
         )
 
     def _physics_runs(self) -> bool:

@@ -11,20 +11,19 @@ from rclpy.node import Node
 
 from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.base.errors import LabError
+from mrlab_ros.core.base.errors import LabError, Misuse
 from mrlab_ros.core.scene import restore as core
-from mrlab_ros.core.scene.diagnostics import OBJECTS_TAKEN_OUT, UNDONE
-from mrlab_ros.core.scene.document import ObjectEntry, SceneDocument
-from mrlab_ros.core.scene.restore import Present
-from mrlab_ros.core.scene.undo import Acts, plan_undo
+from mrlab_ros.core.scene.diagnostics import NOT_BACK, OBJECTS_TAKEN_OUT, UNDONE_IN_PART
+from mrlab_ros.core.scene.document import SceneDocument
+from mrlab_ros.core.scene.undo import Acts, opposite, plan_undo
 from mrlab_ros.core.systems.diagnostics import DISSOLVED
 from mrlab_ros.messages import qos
-from mrlab_ros.messages.poses import pose_from_message
-from mrlab_ros.messages.scenes import system_entry
+from mrlab_ros.messages.scenes import system_entry, things_of_scene
 from mrlab_ros.messages.texts import told
 from mrlab_ros.messages.time import make_header, time_to_message
 from mrlab_ros.nodes.lab.observer import Observer
 from mrlab_ros.nodes.lab.restore import LabRestore
+from mrlab_ros.nodes.lab.scenes import Scenes
 from mrlab_ros.ros.clock import LabClock, every
 from mrlab_ros.ros.decoding import subscribe
 
@@ -52,13 +51,15 @@ class Undo:
         self._restore = restore
         self._clock = clock
         self._robots = robots
-        self._announced = ""
+        self._announced: tuple[str, float] | None = None
         # True while the lab itself removes things, as for a scene that is loaded.
         self._own = False
         self._publisher = node.create_publisher(msg.Undoable, "/undoable", qos.LATCHED)
         observer.dissolved = self._on_dissolved
         subscribe(node, msg.SceneObjects, "/objects/taken_out", self._on_objects, qos.EVENTS)
         every(node, PERIOD_S, self._announce)
+        # Others may still have what a lab that died announced last.
+        self._announce()
 
     def note(self, said: Diagnostic, lost: SceneDocument, *, whole: bool = False) -> None:
         """Note an act; whole: it put another scene in place of all that there was."""
@@ -74,21 +75,21 @@ class Undo:
         self._own = False
 
     def _announce(self) -> None:
-        """Publish the newest act, where it is another one than before."""
+        """Publish the newest act, where it is another one than before, or for longer."""
         with self._lock:
             now = time.monotonic()
             act = self._acts.newest(now)
-            id = act.id if act is not None else ""
-            if id == self._announced:
+            announced = (act.id, act.until) if act is not None else ("", 0.0)
+            if announced == self._announced:
                 return
-            self._announced = id
+            self._announced = announced
         now_ns = self._clock.now_ns()
         message = msg.Undoable(header=make_header(now_ns, ""))
         if act is not None:
             until_ns = now_ns + round((act.until - now) * SECOND)
             message = msg.Undoable(
                 header=make_header(now_ns, ""),
-                id=id,
+                id=act.id,
                 until=time_to_message(until_ns),
                 **told(act.said),
             )
@@ -103,33 +104,35 @@ class Undo:
         self.note(DISSOLVED(system=system.name), SceneDocument(systems=(entry,)))
 
     def _on_objects(self, message: msg.SceneObjects) -> None:
-        robots = self._robots()
-        things = tuple(
-            ObjectEntry(
-                thing.name,
-                thing.type,
-                pose_from_message(thing.pose),
-                held_by=thing.held_by if thing.held_by in robots else "",
-            )
-            for thing in message.objects
-        )
+        things = things_of_scene(message.objects, self._robots())
         said = OBJECTS_TAKEN_OUT(objects=[thing.name for thing in things])
         self.note(said, SceneDocument(objects=things))
 
-    def undo(self, id: str, present: Present) -> Diagnostic:
+    def undo(self, id: str, scenes: Scenes) -> Diagnostic:
         """Undo an act, the newest where id is empty; return what to say.
 
-        Raises Misuse where it cannot be, and LabError that names what was done and what not.
+        Raises Misuse where it cannot be, and LabError that names what was done and what not; then
+        it can be tried again.
         """
         with self._lock:
-            act = self._acts.take(id, time.monotonic())
+            act = self._acts.find(id, time.monotonic())
+        present = scenes.present(self._robots())
+        steps, missing = plan_undo(act, present)
+        not_back = NOT_BACK(names=[*missing]) if missing else None
+        if not steps and not_back is not None:
+            raise Misuse(not_back)
+        replaced = scenes.whole(physics=present.physics) if act.whole else None
         try:
             with self:
-                core.run(plan_undo(act, present), self._restore.execute)
+                core.run(steps, self._restore.execute, UNDONE_IN_PART)
         except LabError:
+            back = scenes.present(self._robots()).names - present.names
             with self._lock:
-                self._acts.give_back(act)
+                self._acts.failed(act, back, time.monotonic(), replaced)
             raise
+        else:
+            with self._lock:
+                self._acts.undone(act, time.monotonic(), replaced)
         finally:
             self._announce()
-        return UNDONE(act=act.said)
+        return opposite(act.said, missing=not_back)

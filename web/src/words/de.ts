@@ -2601,6 +2601,9 @@ export const diagnostics: Templates = {
   no_worksheet_given: [
     'Die Bewertungstabelle von Moodle wurde nicht abgegeben; gib sie ab, nimm die Freigabe zurück und gib noch einmal frei.',
   ],
+  not_back: [
+    'Nicht zurück: {names:list}. Den Namen hat etwas anderes, oder es fehlt, was es braucht.',
+  ],
   not_of_course: ['Nur wer aus dem Kurs kommt, kann abgeben.', 'Öffne das Labor aus dem Kurs.'],
   not_ready_for_robot: ['Die Prüfung sperrt die Bewegung: {why:problem}.'],
   not_released: [
@@ -2690,6 +2693,10 @@ export const diagnostics: Templates = {
   ],
   torn_off: [
     '{other} hat {object} aus den geschlossenen Fingern von {robot} gerissen: Es glitt {way:length} gegen {force:number} N, und {other} hält es mit einer Reserve von {margin:share}.',
+  ],
+  undone: ['Zurückgenommen: {act:problem}[\n{missing:problem}]'],
+  undone_in_part: [
+    'Nur zum Teil zurückgenommen: {why:problem}. Nimm es noch einmal zurück.[\nErledigt:{done:problems}][\nNicht versucht:{rest:problems}]',
   ],
   unknown_form: ["Die Form des Exports ist '{form}'; erwartet wird {known:either}."],
   unpacking_ended: [
@@ -3723,7 +3730,7 @@ export const diagnostics: Templates = {
     "'{test}' heißt auch der Test in Zeile {line:integer}; gib jedem Test einen eigenen Namen.",
   ],
   scene_loaded: [
-    '{scene} ist geladen: {robots:count Roboter|Roboter}, {objects:count Gegenstand|Gegenstände}, {surfaces:count Fläche|Flächen}, {systems:count System|Systeme}[; {missing:problem}].',
+    '{scene} ist geladen: {robots:count Roboter|Roboter}[, {objects:count Gegenstand|Gegenstände}][, {surfaces:count Fläche|Flächen}][, {systems:count System|Systeme}][; {missing:problem}].',
   ],
   scene_not_cell: [
     '{place:problem} enthält {parts:list}; eine Zelle hat nur Systeme.',

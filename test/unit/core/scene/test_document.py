@@ -19,6 +19,7 @@ from mrlab_ros.core.base.diagnostics import (
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.scene.diagnostics import (
+    BAD_PLACE_NAME,
     HELD_IN_PART,
     HOLDS_TWO,
     MEMBER_TWICE,
@@ -120,6 +121,18 @@ ROBOT = {"name": "a", "model": "ur5e"}
             },
             MEMBER_TWICE,
             {"robot": "a"},
+        ),
+        *(
+            ({"place": {"id": id, "name": name}}, BAD_PLACE_NAME, {"most": 64})
+            for id, name in (
+                ("a\0b", "Lab"),
+                ("  ", "Lab"),
+                ("a" * 65, "Lab"),
+                ("a", "  "),
+                ("a", "x" * 65),
+                ("a", "\u200b"),
+                ("a", "Lab\u202eB"),
+            )
         ),
         ({"systems": [{"name": "s"}]}, ENTRY, {"one": "system", "number": 1}),
         (
