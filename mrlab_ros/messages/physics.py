@@ -61,6 +61,7 @@ def program_from_message(message: msg.GraspTargets) -> GripperProgram:
     return GripperProgram(
         tuple(target.time for target in message.targets),
         tuple(target.close for target in message.targets),
+        tuple(pose_from_message(target.tool0) for target in message.targets),
     )
 
 

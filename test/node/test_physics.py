@@ -20,7 +20,12 @@ from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.scenes.diagnostics import BAD_SCENE_NAME, NO_SCENE
 from mrlab_ros.adapters.scenes.files import read
 from mrlab_ros.core.base.diagnostics import NAME_TAKEN, NO_ROBOT_IN_SCENE, POSE_NOT_FINITE
-from mrlab_ros.core.physics.diagnostics import LET_GO, NO_OBJECT_IN_SCENE, NO_OBJECT_TYPE
+from mrlab_ros.core.physics.diagnostics import (
+    LET_GO,
+    NO_OBJECT_IN_SCENE,
+    NO_OBJECT_TYPE,
+    OPENED_UNSEEN,
+)
 from mrlab_ros.core.scene.diagnostics import SURFACE_WITHOUT_NAME
 from mrlab_ros.core.trajectory.trajectory import Channels, Source, Trajectory
 from mrlab_ros.messages import qos, trajectories
@@ -329,6 +334,32 @@ def test_a_restarted_physics_has_its_objects_and_robots_back(graph, lab, tmp_pat
     assert again._world.robots == (holds,)
     for name, at in before.items():
         assert np.allclose(where(objects, name), at, atol=0.005), name
+
+
+def test_what_was_to_be_released_while_physics_was_away_lies_where_it_was(graph, lab, tmp_path):
+    robot = spawn(graph, "parallel_gripper")
+    grasp = grasped(graph, robot)
+    objects = graph.listen(msg.SceneObjects, "/objects", qos.LATCHED)
+    states = graph.listen(msg.PlaybackState, f"/{robot}/playback_state", qos.EVENTS)
+    wait_for(lambda: grasp.last() and len(grasp.last().fingers) == 2, "the gripper")
+    center = tool(0, 0.012 + 0.150)
+    place(graph, "pedestal", center - [0, 0, 0.2251])
+    cube = place(graph, "cube", center)
+    load(graph, robot, "pick")
+    assert graph.call(Trigger, f"/{robot}/play").success
+    wait_for(lambda: grasp.last().state == msg.Grasp.HOLDING, "the grasp")
+    graph.drop(lab.physics)
+    wait_for(lambda: states.last().label == "READY", "the end")
+    grasp.clear()
+    again = graph.add(PhysicsNode, state_dir=str(tmp_path))
+    said = OPENED_UNSEEN(object=cube, robot=robot)
+    wait_for(lambda: grasp.last() and grasp.last().code == said.code, "the release")
+    assert grasp.last().state == msg.Grasp.OPEN
+    assert again.lost == [said]
+    wait_for(lambda: where(objects, cube)[2] < 0.1, "the fall")
+    released = tool(0.6, 0.012 + 0.150)
+    assert np.allclose(where(objects, cube)[:2], released[:2], atol=0.02)
+    assert msg.Grasp.HOLDING not in [each.state for each in grasp]
 
 
 def test_a_room_is_kept_for_a_restart_that_nobody_planned(graph, lab, tmp_path):

@@ -105,6 +105,13 @@ LET_GO = Code(
     severity=INFO,
     meaning="A change of the end effector dropped what it held.",
 )
+OPENED_UNSEEN = Code(
+    "opened_unseen",
+    "{object} was let go: {robot} was told to open while the physics did not run.",
+    severity=WARNING,
+    meaning="The physics stood still or was started again, and a gripper opened meanwhile; what "
+    "it held lies where it was opened.",
+)
 
 # why the lab itself removed an object
 

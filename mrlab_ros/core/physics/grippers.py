@@ -24,6 +24,7 @@ from mrlab_ros.core.physics.diagnostics import (
     HOLDS_NOTHING,
     LOOSE_BETWEEN,
     NOT_MOVED_YET,
+    OPENED_UNSEEN,
     OUT_OF_ATTACH_REACH,
     TOO_WIDE,
 )
@@ -150,6 +151,38 @@ class Grippers:
             self._seize(robot, thing, kept.grip)
         robot.held_since_ns = self._world_state.now_ns - kept.for_ns
 
+    def catch_up(self, robot: Robot, now_ns: int) -> None:
+        """Go on after time was skipped: no force comes of it, and the newest command counts."""
+        self._holding.rest(robot)
+        position = robot.commanded_at(now_ns)
+        closed = None if position is None else robot.program.closed_at(position)
+        if closed is None or closed == robot.closed or robot.pending is not None:
+            return
+        robot.takes_over = False
+        thing, in_hand = self._world_state.objects.get(robot.held), robot.in_hand
+        opening = robot.opening(now_ns)
+        if closed or thing is None or in_hand is None:
+            self._set_closed(robot, closed, now_ns)
+            return
+        said = OPENED_UNSEEN(object=thing.name, robot=robot.name)
+        self._set_closed(robot, closed, now_ns, said)
+        self.leave(robot, thing, opening, in_hand)
+
+    def leave(self, robot: Robot, thing: SceneObject, opening: int | None, in_hand: Pose) -> None:
+        """Let an object lie where an opening of the robot's program released it.
+
+        in_hand: T_hand_object. Without a known place it stays where it is.
+        """
+        pose = self._engine.object(thing.name).pose
+        places = robot.program.places
+        if opening is not None and opening < len(places):
+            tool = self._engine.link(robot.name, robot.arm.tool).pose
+            hand = relative(tool, self._world_state.hand(robot).pose)
+            pose = compose(compose(compose(robot.pose, places[opening]), hand), in_hand)
+        thing.held_by, thing.hand, thing.kept_for = "", None, ""
+        robot.leaving.add(thing.name)
+        self._engine.set_object(thing.name, BodyState(pose))
+
     def announce(self, robot: Robot) -> None:
         """Add an event with the state of a gripper."""
         self._holding.announce(robot)
@@ -196,10 +229,12 @@ class Grippers:
         elif pulled is not None and (robot.reason is None or pulled.code != robot.reason.code):
             self._holding.remark(robot, pulled)
 
-    def _set_closed(self, robot: Robot, closed: bool, now_ns: int) -> None:
+    def _set_closed(
+        self, robot: Robot, closed: bool, now_ns: int, reason: Diagnostic | None = None
+    ) -> None:
         robot.closed = closed
         robot.closing_since_ns = now_ns
-        robot.lost, robot.reason, robot.still_grips = "", None, None
+        robot.lost, robot.reason, robot.still_grips = "", reason, None
         robot.watch.reset()
         if not closed:
             self.let_go(robot)

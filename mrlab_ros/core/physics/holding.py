@@ -80,6 +80,16 @@ class Holding:
         robot.share_of = None
         robot.pressed.clear()
 
+    def rest(self, robot: Robot) -> None:
+        """Take what is held as at rest in the hand from now on."""
+        held = robot.holding
+        if held is None:
+            return
+        thing = self._world_state.objects[robot.held]
+        held.poses.clear()
+        held.slip_speed = 0.0
+        held.load = self._load(robot, thing, self._engine.object(thing.name).pose, STILL)
+
     def announce(self, robot: Robot) -> None:
         """Add an event with the state of a gripper."""
         self._world_state.events.append(self._state(robot))

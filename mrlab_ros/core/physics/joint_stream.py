@@ -82,6 +82,8 @@ class JointStream:
         # Set while the next state is expected without a pause.
         self._streams = False
         self._fresh = True
+        # What lies before is left out.
+        self._left_out_ns = 0
         self.delay_ns = 0
 
     def plays(self, since_ns: int | None, until_ns: int | None) -> None:
@@ -127,13 +129,15 @@ class JointStream:
         if moved and period_ns > 0:
             seconds = period_ns / SECOND
             slope = tuple([way / seconds for way in map(sub, q, before)])
-        jump = restarted or (moved and _too_far(before, q, period_ns))
+        placed = stamp_ns <= self._left_out_ns or before_ns < self._left_out_ns - SLOW_NS
+        jump = restarted or (moved and (placed or _too_far(before, q, period_ns)))
         if len(velocities) and moved and not jump:
             jump = _too_fast(slope, v)
         if jump:
             if restarted:
                 self._pieces.clear()
                 self._fresh = True
+                self._left_out_ns = 0
             self._put(stamp_ns, q)
         else:
             self._pieces.append(_Piece(start_ns, stamp_ns, before, q, slope, False))
@@ -144,6 +148,11 @@ class JointStream:
         if not self._streams:
             self.delay_ns = 0
         return True
+
+    def skip(self, to_ns: int) -> None:
+        """Leave out the motion until the world's time `to_ns`: the arm is put where it is then."""
+        self._left_out_ns = to_ns - self.delay_ns
+        self._fresh = True
 
     def _checked(
         self, positions: Sequence[float], velocities: Sequence[float]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import bisect
 from collections import deque
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from operator import mul, sub
 
 from mrlab_ros.core.base.clock import SECOND, PlaybackClock
@@ -34,7 +34,8 @@ SEEK_TOLERANCE = 0.03
 class Playing:
     """A playback state of a robot; see mrlab_msgs/PlaybackState.
 
-    stamp_ns: it applies from then on.
+    stamp_ns: it applies from then on. left: the position, s, at which its trajectory stopped to
+    command the gripper; None: it commands it, or has not yet. after() sets it.
     """
 
     state: State = State.IDLE
@@ -45,6 +46,15 @@ class Playing:
     frame_rate: float = 0.0
     duration: float = 0.0
     stamp_ns: int = 0
+    left: float | None = None
+
+    def after(self, before: Playing) -> Playing:
+        """Return this state with what it has from the one `before` it."""
+        same = self.trajectory_id == before.trajectory_id
+        if not same or self.state in COMMANDING or self.left is not None:
+            return self
+        left = before.position(self.stamp_ns) if before.state in COMMANDING else before.left
+        return replace(self, left=left)
 
     def position(self, now_ns: int) -> float:
         """Return the position on the trajectory, s."""
@@ -71,10 +81,14 @@ class Playing:
 
 @dataclass(frozen=True)
 class GripperProgram:
-    """When a trajectory opens and closes the gripper: times in s, ascending."""
+    """When a trajectory opens and closes the gripper: times in s, ascending.
+
+    places: T_base_tool0 at these times; empty: not known.
+    """
 
     times: tuple[float, ...] = ()
     closes: tuple[bool, ...] = ()
+    places: tuple[Pose, ...] = ()
 
     def closed_at(self, position: float) -> bool | None:
         """Return whether the gripper is closed at `position`, s; None without a gripper."""
@@ -82,6 +96,11 @@ class GripperProgram:
             return None
         i = bisect.bisect_right(self.times, position + 1e-6)
         return self.closes[i - 1] if i else not self.closes[0]
+
+    def opening(self, position: float) -> int | None:
+        """Return the number of the opening that counts at `position`, s; None: none was yet."""
+        i = bisect.bisect_right(self.times, position + 1e-6)
+        return i - 1 if i and not self.closes[i - 1] else None
 
 
 @dataclass(frozen=True)
@@ -218,7 +237,8 @@ class Robot:
 
     def queue(self, playing: Playing) -> None:
         """Queue a playback state; apply_due() applies it from its stamp on."""
-        self.queued.append(playing)
+        before = self.queued[-1] if self.queued else self.playing
+        self.queued.append(playing.after(before))
         self._update_stream()
 
     def apply_due(self, shown_ns: int | None) -> Iterator[Playing]:
@@ -251,6 +271,20 @@ class Robot:
         if self.holding is not None:
             reach += sum(ways) * self.holding.reach
         return reach
+
+    def commanded_at(self, now_ns: int) -> float | None:
+        """Return the position, s, whose command its gripper has at the world's time `now_ns`.
+
+        None: no trajectory has commanded it.
+        """
+        if self.playing.state in COMMANDING:
+            return self.playing.position(self.stream.shown_ns(now_ns))
+        return self.playing.left
+
+    def opening(self, now_ns: int) -> int | None:
+        """Return which opening of its program counts at `now_ns`; None: none does."""
+        position = self.commanded_at(now_ns)
+        return None if position is None else self.program.opening(position)
 
     @property
     def grasp(self) -> Grasp:

@@ -2,12 +2,11 @@
 
 The caller owns time: joint states, clocks and commands carry stamps, and `advance(now_ns)` steps
 on a fixed grid. `take_events()` and `take_contacts()` return what happened. The same inputs give
-the same events. An object that a robot held before a restart is pending until it is held again.
+the same events.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 
 from mrlab_ros.core.base.clock import SECOND
@@ -16,7 +15,7 @@ from mrlab_ros.core.base.errors import Misuse
 from mrlab_ros.core.base.geometry import Pose, Vector, compose, relative
 from mrlab_ros.core.physics.catalogue import Catalogue
 from mrlab_ros.core.physics.collisions import Collisions
-from mrlab_ros.core.physics.diagnostics import ALREADY_IN_WORLD
+from mrlab_ros.core.physics.diagnostics import ALREADY_IN_WORLD, OPENED_UNSEEN
 from mrlab_ros.core.physics.engine import BodyState, Engine, LinkPairs
 from mrlab_ros.core.physics.grasp import kinds
 from mrlab_ros.core.physics.grasp.kinds import Gripper
@@ -55,6 +54,8 @@ class World:
         self._called_ns = 0
         self.steps = 0
         self.skipped_ns = 0
+        # Time was skipped before the next step.
+        self._skipped = False
         self.set_surfaces([])
 
     # what there is --------------------------------------------------------------------------
@@ -219,6 +220,20 @@ class World:
         """Detach what a robot holds, by service; return the object's name."""
         return self._grippers.detach(name)
 
+    def release_missed(self, name: str, object_name: str, in_hand: Pose) -> Diagnostic | None:
+        """Let go of what a robot held where its gripper was commanded to open since.
+
+        in_hand: T_hand_object, as it held it. Return what is said of it; None: it is to hold it.
+        """
+        robot, thing = self.robot(name), self.object(object_name)
+        opening = robot.opening(self.now_ns)
+        if opening is None:
+            return None
+        robot.reason = OPENED_UNSEEN(object=object_name, robot=name)
+        self._grippers.leave(robot, thing, opening, in_hand)
+        self._grippers.announce(robot)
+        return robot.reason
+
     # objects and the room -------------------------------------------------------------------
 
     def spawn(
@@ -302,6 +317,10 @@ class World:
         behind_ns = target_ns - self._world_state.now_ns
         if behind_ns > self._settings.max_catch_up * SECOND:
             self.skipped_ns += behind_ns
+            self._skipped = True
+            for robot in self._robots.values():
+                robot.stream.skip(target_ns)
+            self._rest.end()
             self._grid.shift(behind_ns)
             self._world_state.now_ns += behind_ns
         made = 0
@@ -330,6 +349,10 @@ class World:
         if self._inventory.in_hand:
             self._inventory.keep_in_hand()
         present = [robot for robot in self._robots.values() if robot.placed is not None]
+        if self._skipped:
+            self._skipped = False
+            for robot in present:
+                self._grippers.catch_up(robot, now_ns)
         for k in range(1, divisions + 1):
             if divisions > 1:
                 self._arm_motion.pose_between(moved, k / divisions)
@@ -353,55 +376,3 @@ class World:
                 if robot.held:
                     self._grippers.weigh(robot, now_ns, duration * divisions * SLOW_STEPS)
             self._rest.compare(self._inventory.motions)
-
-
-# Fingers have this long to close on the object before it is attached, ns.
-CLOSING_NS = SECOND
-
-
-class PendingGrasp:
-    """Brings an object back to the hand that held it: fingers close on it, or it is attached.
-
-    in_hand: T_hand_object. absent_ns: until when, on the caller's clock, a robot that the lab
-    does not have may still come.
-    """
-
-    def __init__(self, name: str, robot: str, in_hand: Pose, absent_ns: int) -> None:
-        self.name = name
-        self.robot = robot
-        self.in_hand = in_hand
-        self._absent_ns = absent_ns
-        self._since_ns: int | None = None
-
-    def keep(self, world: World, state: BodyState) -> None:
-        """Hold the object where it is to be, for its robot alone."""
-        world.move(
-            self.name, state.pose, state.linear, state.angular, held=True, kept_for=self.robot
-        )
-
-    def check(self, world: World, now_ns: int, *, absent: bool) -> bool:
-        """Move the object along with the hand; return whether nothing is left to do.
-
-        absent: whether the lab is known not to have the robot. Past absent_ns the object is let
-        go then; until its robot is in the world it stays where it is.
-        """
-        present = {thing.name for thing in world.objects}
-        if self.name not in present:
-            return True
-        if absent and now_ns > self._absent_ns:
-            motion = world.motion(self.name)
-            world.move(self.name, motion.pose, motion.linear, motion.angular, held=False)
-            return True
-        if self.robot not in world.robots or world.robot(self.robot).placed is None:
-            return False
-        if world.robot(self.robot).held == self.name:
-            return True
-        state = BodyState(compose(world.hand(self.robot).pose, self.in_hand))
-        self.keep(world, state)
-        if self._since_ns is None:
-            self._since_ns = now_ns
-        if now_ns - self._since_ns < CLOSING_NS:
-            return False
-        # It was in the hand like this before.
-        world.attach(self.robot, self.name, math.inf)
-        return True

@@ -14,7 +14,8 @@ from mrlab_ros.core.base.diagnostics import IN_PLACE
 from mrlab_ros.core.base.errors import BadInput, LabError
 from mrlab_ros.core.base.names import checked_name
 from mrlab_ros.core.physics.engine import BodyState
-from mrlab_ros.core.physics.world import PendingGrasp, World
+from mrlab_ros.core.physics.pending_grasp import PendingGrasp
+from mrlab_ros.core.physics.world import World
 from mrlab_ros.core.scene.document import ObjectEntry, SceneDocument
 from mrlab_ros.core.scene.surfaces import Surface
 from mrlab_ros.nodes.physics.diagnostics import (
@@ -51,6 +52,8 @@ class Contents:
         self._log = log
         self._pending: list[PendingGrasp] = []
         self.changed = False
+        # What of the last run is not as it was.
+        self.lost: list[Diagnostic] = []
 
     def document(self) -> SceneDocument:
         """Return the objects and surfaces as they are; the caller holds the lock."""
@@ -109,10 +112,12 @@ class Contents:
             self.changed = True
         return placed
 
-    def _put(self, entry: ObjectEntry, absent_ns: int) -> None:
+    def _put(self, entry: ObjectEntry, absent_ns: int, *, missed: bool = False) -> None:
         self._world.spawn(entry.type, entry.name, entry.pose, automatic=entry.automatic)
         if entry.held_by and entry.in_hand is not None:
-            grasp = PendingGrasp(entry.name, entry.held_by, entry.in_hand, absent_ns)
+            grasp = PendingGrasp(
+                entry.name, entry.held_by, entry.in_hand, absent_ns, missed=missed
+            )
             grasp.keep(self._world, BodyState(entry.pose))
             self._pending.append(grasp)
 
@@ -127,6 +132,9 @@ class Contents:
             try:
                 if not grasp.check(self._world, now_ns, absent=absent):
                     waiting.append(grasp)
+                elif grasp.let_go is not None:
+                    self.lost.append(grasp.let_go)
+                    self._log(str(grasp.let_go))
             except LabError as error:
                 self._log(f"{grasp.robot} does not hold {grasp.name} again: {error}")
                 motion = self._world.motion(grasp.name)
@@ -151,7 +159,7 @@ class Contents:
         for entry in scene.objects:
             try:
                 # A robot of the last run that the lab no longer has drops its object at once.
-                self._put(entry, 0)
+                self._put(entry, 0, missed=True)
             except LabError as error:
                 mistakes.append(IN_PLACE(place=entry.name, why=error.diagnostic))
         if mistakes:

@@ -156,7 +156,7 @@ class GraphListener:
         known.subscriptions += [
             self._subscribe_joints(name, tuple(robot.joint_names)),
             subscribe(String, "robot_description", self._on_description, qos.LATCHED),
-            subscribe(msg.PlaybackState, "playback_state", self._on_playback, qos.LATCHED),
+            subscribe(msg.PlaybackState, "playback_state", self._on_playback, qos.LATCHED_EVENTS),
             subscribe(msg.GraspTargets, "targets", self._on_targets, qos.LATCHED),
         ]
 
@@ -223,6 +223,7 @@ class GraphListener:
         stamp_ns = time_from_message(message.header.stamp)
         shifted_ns = stamp_ns - self._clock.instant(stamp_ns)
         playing = messages.playing_from_message(message, shifted_ns)
+        playing = playing.after(self.robots[name].playing)
         self.robots[name].playing = playing
         with self._lock:
             if name in self._world.robots:

@@ -73,6 +73,8 @@ MOST_STEPS = 24
 SAVE_PERIOD = 2.0  # s
 # Pages are back by then after their gateway was started again, and take anew what they carry, s.
 RETURN_S = 5.0
+# After the process did not run, what came meanwhile is taken for so long before time is skipped.
+TAKEN_IN_NS = 3 * SECOND // 10
 LET_GO_PERIOD_S = 0.5
 FILE = "physics.json"
 
@@ -107,6 +109,8 @@ class PhysicsNode(
             log.warning,
         )
         self._contents.restore()
+        # Of time.monotonic_ns(): when the last turn began, and before when none steps the world.
+        self._turned_ns, self._turns_from_ns = time.monotonic_ns(), 0
         self._world_publishers.publish_surfaces(self._world.surfaces)
         self._listener = GraphListener(
             self,
@@ -162,7 +166,20 @@ class PhysicsNode(
         finally:
             engine.close()
 
+    @property
+    def lost(self) -> list[Diagnostic]:
+        """Return what could not be brought back after a restart."""
+        return self._contents.lost
+
     # time -----------------------------------------------------------------------------------
+
+    def _taking_in(self) -> int:
+        """Return for how long, ns, a process that did not run is still to take what came."""
+        now_ns = time.monotonic_ns()
+        if now_ns - self._turned_ns > self._settings.max_catch_up * SECOND:
+            self._turns_from_ns = now_ns + TAKEN_IN_NS
+        self._turned_ns = now_ns
+        return self._turns_from_ns - now_ns
 
     def _turn(self) -> int:
         """Advance the world and publish its events; return how long to wait at most, ns.
@@ -170,6 +187,9 @@ class PhysicsNode(
         An error in one call must not end the thread.
         """
         try:
+            taking_in_ns = self._taking_in()
+            if taking_in_ns > 0:
+                return taking_in_ns
             with self._lock:
                 now_ns = self._lab_clock.instant_ns()
                 made = self._world.advance(now_ns, MOST_STEPS)

@@ -6,12 +6,14 @@ from pathlib import Path
 
 import numpy as np
 from scipy.io import loadmat
+from scipy.spatial.transform import Rotation
 
 from mrlab_ros.adapters.bullet.engine import BulletEngine
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.scenes.files import SceneFiles
 from mrlab_ros.adapters.yaml_files import read_yaml
 from mrlab_ros.core.base.clock import SECOND, PlaybackClock
+from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.physics import catalogue
 from mrlab_ros.core.physics.grasp import kinds
 from mrlab_ros.core.physics.grasp.states import Grasp
@@ -31,6 +33,11 @@ HANDOVER = {
     "ur5e_1": "two_robot_handover_ur5e",
     "kuka_kr6_r900_sixx_1": "two_robot_handover_kr6",
 }
+
+
+def _place(transform: np.ndarray) -> Pose:
+    x, y, z, w = Rotation.from_matrix(transform[:3, :3]).as_quat()
+    return Pose(tuple(map(float, transform[:3, 3])), (float(x), float(y), float(z), float(w)))
 
 
 class Stage:
@@ -58,7 +65,9 @@ class Stage:
             closed = q[:, 6] > 0.5
             frames = [0, *(np.flatnonzero(np.diff(q[:, 6])) + 1)]
             program = GripperProgram(
-                tuple(f / RATE for f in frames), tuple(bool(closed[f]) for f in frames)
+                tuple(f / RATE for f in frames),
+                tuple(bool(closed[f]) for f in frames),
+                tuple(map(_place, model.chain.tool0(q[frames, :6]))),
             )
             self.world.set_program(robot.name, program)
             self.motions[robot.name] = q[:, :6]
@@ -72,14 +81,17 @@ class Stage:
         for name, q in self.motions.items():
             clock = PlaybackClock(self.now_ns, frame / RATE, float(state is State.PLAYING))
             count = len(q)
-            playing = Playing(state, "t", clock, frame, count, RATE, (count - 1) / RATE)
+            duration = (count - 1) / RATE
+            playing = Playing(state, "t", clock, frame, count, RATE, duration, self.now_ns)
             self.world.playback(name, playing)
 
-    def _send(self, frame: int, *, moving: bool) -> None:
+    def _send(self, frame: int, *, moving: bool, frozen: bool = False) -> None:
         for name, q in self.motions.items():
             last = len(q) - 1
-            v = (q[min(frame + 1, last)] - q[max(frame - 1, 0)]) * RATE / 2 * moving
+            v = (q[min(frame + 1, last)] - q[min(max(frame - 1, 0), last)]) * RATE / 2 * moving
             self.world.joint_state(name, self.now_ns, q[min(frame, last)], v)
+        if frozen:
+            return
         self.world.advance(self.now_ns)
         self.events += self.world.take_events()
 
@@ -90,6 +102,19 @@ class Stage:
             self.frame += 1
             self.now_ns += FRAME_NS
             self._send(self.frame, moving=True)
+
+    def freeze(self, until: float) -> None:
+        """Let the arms play on to a place on the timeline, s, and to their end where it lies
+        behind that, while the world is not stepped; then go on with it."""
+        while self.frame < round(until * RATE):
+            self.frame += 1
+            self.now_ns += FRAME_NS
+            last = max(map(len, self.motions.values())) - 1
+            if self.frame == last:
+                self._tell(State.READY, 0)
+            self._send(self.frame, moving=self.frame < last, frozen=True)
+        self.world.advance(self.now_ns)
+        self.events += self.world.take_events()
 
     def stand(self, seconds: float = 0.3) -> None:
         self._tell(State.PAUSED, self.frame)

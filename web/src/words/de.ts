@@ -3123,6 +3123,9 @@ export const diagnostics: Templates = {
     'An {host}:{port:integer} könnte jeder im Netz alles lesen und ändern.',
     'Gib dem Labor Schlüssel, nimm nur 127.0.0.1, oder lass es ausdrücklich zu.',
   ],
+  opened_unseen: [
+    '{object} wurde losgelassen: {robot} sollte öffnen, während die Physik nicht lief.',
+  ],
   order_stated: [
     "'{source}' sagt, welches Gelenk jede Spalte von '{variable}' enthält ({words}); die Spalten wurden in die Reihenfolge von {model} gebracht.",
     'Prüfe, ob sich der Roboter richtig bewegt. Stehen die Spalten schon in der Reihenfolge des Roboters, wähle sie nach Nummern.',

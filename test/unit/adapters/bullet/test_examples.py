@@ -7,6 +7,7 @@ import pytest
 from physics_stage import HANDOVER, LIBRARY, SCENES, Stage
 
 from mrlab_ros.core.base.clock import SECOND
+from mrlab_ros.core.physics.diagnostics import OPENED_UNSEEN
 from mrlab_ros.core.physics.grasp import kinds
 from mrlab_ros.core.physics.grasp.states import Grasp
 from mrlab_ros.core.physics.world_state import GraspChanged
@@ -52,6 +53,36 @@ def test_a_cube_is_picked_carried_and_put_down_as_the_script_says(stages):
     assert stage.place("cube_1") == pytest.approx(
         [0.46 * np.cos(turn), 0.46 * np.sin(turn), 0.025], abs=0.005
     )
+
+
+@pytest.mark.parametrize("until", [5.6, 7.5, 14.0])
+def test_what_was_to_be_released_while_time_was_skipped_lies_where_it_was_released(stages, until):
+    stage = stages("pick_and_place", {"ur5e_1": "pick_and_place_ur5e"})
+    stage.play(3.0)
+    stage.events.clear()
+    stage.freeze(until)
+    stage.play(max(until, 7.6))
+    stage.stand(0.5)
+    assert stage.world.object("cube_1").held_by == ""
+    assert stage.place("cube_1") == pytest.approx((0.23, 0.3984, 0.025), abs=0.002)
+    assert stage.grasps("ur5e_1") == [Grasp.OPEN]
+    (said,) = [e.reason for e in stage.events if isinstance(e, GraspChanged)]
+    assert said == OPENED_UNSEEN(object="cube_1", robot="ur5e_1")
+    assert not stage.hits()
+
+
+def test_what_is_still_to_be_held_after_time_was_skipped_stays_in_the_hand(stages):
+    stage = stages("pick_and_place", {"ur5e_1": "pick_and_place_ur5e"})
+    stage.play(2.6)
+    stage.events.clear()
+    stage.freeze(5.1)
+    stage.play(5.2)
+    # Neither a force of the jump nor a remark comes of it.
+    assert stage.events == []
+    assert stage.world.object("cube_1").held_by == "ur5e_1"
+    stage.play(7.6)
+    assert stage.place("cube_1") == pytest.approx((0.23, 0.3984, 0.025), abs=0.002)
+    assert stage.grasps("ur5e_1") == [Grasp.OPEN]
 
 
 def test_after_a_seek_the_fingers_are_at_what_is_held_and_without_them_it_falls(stages):

@@ -7,15 +7,19 @@ import pytest
 from fake_engine import FakeEngine
 from refusals import refused
 
-from mrlab_ros.core.base.clock import SECOND
+from mrlab_ros.core.base.clock import SECOND, PlaybackClock
 from mrlab_ros.core.base.errors import Misuse
-from mrlab_ros.core.base.geometry import Pose
+from mrlab_ros.core.base.geometry import Pose, compose
 from mrlab_ros.core.physics import catalogue
-from mrlab_ros.core.physics.diagnostics import FIXED_OBJECT
+from mrlab_ros.core.physics.diagnostics import FIXED_OBJECT, OPENED_UNSEEN
+from mrlab_ros.core.physics.engine import BodyState
 from mrlab_ros.core.physics.grasp import kinds
+from mrlab_ros.core.physics.pending_grasp import CLOSING_NS, PendingGrasp
 from mrlab_ros.core.physics.settings import Settings
-from mrlab_ros.core.physics.world import CLOSING_NS, PendingGrasp, World
+from mrlab_ros.core.physics.simulated_robot import GripperProgram, Playing
+from mrlab_ros.core.physics.world import World
 from mrlab_ros.core.physics.world_state import HAND
+from mrlab_ros.core.playback.states import State
 
 TYPES = {
     "ball": {"shape": "sphere", "size": [0.05], "mass": 0.1},
@@ -87,3 +91,27 @@ def test_what_is_fixed_to_the_room_cannot_come_back(world):
     assert not grasp.check(world, 0, absent=False)
     with refused(FIXED_OBJECT, Misuse):
         grasp.check(world, CLOSING_NS, absent=False)
+
+
+@pytest.mark.parametrize("missed", [True, False])
+@pytest.mark.parametrize(("state", "position"), [(State.PAUSED, 3.0), (State.READY, 0.0)])
+def test_it_lies_where_its_gripper_was_told_to_open_meanwhile(world, missed, state, position):
+    place = Pose((0.0, 1.0, 0.5))
+    add_robot(world)
+    world.set_program("a", GripperProgram((1.0, 2.0), (True, False), (Pose(), place)))
+    # A run that has ended stands at its beginning; what it commanded last counts.
+    for known, at, stamp_ns in ((State.PLAYING, 0.0, 1), (state, position, SECOND // 2)):
+        clock = PlaybackClock(stamp_ns, at, 8.0 if known is State.PLAYING else 0.0)
+        world.playback("a", Playing(known, "t", clock, 0, 401, 100.0, 4.0, stamp_ns))
+    world.take_events()
+    grasp = PendingGrasp("ball", "a", IN_HAND, TIMEOUT_NS, missed=missed)
+    assert grasp.check(world, 10, absent=False) is missed
+    if not missed:
+        # A scene says what it is to be like, whatever was commanded.
+        assert grasp.check(world, 10 + CLOSING_NS, absent=False)
+        assert world.object("ball").held_by == "a"
+        return
+    assert grasp.let_go == OPENED_UNSEEN(object="ball", robot="a")
+    assert world.object("ball").held_by == ""
+    assert world.motion("ball") == BodyState(compose(place, IN_HAND))
+    assert [event.reason for event in world.take_events()] == [grasp.let_go]
