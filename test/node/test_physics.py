@@ -336,7 +336,11 @@ def test_a_restarted_physics_has_its_objects_and_robots_back(graph, lab, tmp_pat
         assert np.allclose(where(objects, name), at, atol=0.005), name
 
 
-def test_what_was_to_be_released_while_physics_was_away_lies_where_it_was(graph, lab, tmp_path):
+def test_what_was_to_be_released_while_physics_was_away_lies_where_it_was(
+    graph, lab, tmp_path, monkeypatch
+):
+    # What is held is written at once: physics may be killed a moment later.
+    monkeypatch.setattr("mrlab_ros.nodes.physics.contents.SAVE_PERIOD_S", 600.0)
     robot = spawn(graph, "parallel_gripper")
     grasp = grasped(graph, robot)
     objects = graph.listen(msg.SceneObjects, "/objects", qos.LATCHED)
@@ -348,6 +352,8 @@ def test_what_was_to_be_released_while_physics_was_away_lies_where_it_was(graph,
     load(graph, robot, "pick")
     assert graph.call(Trigger, f"/{robot}/play").success
     wait_for(lambda: grasp.last().state == msg.Grasp.HOLDING, "the grasp")
+    kept = tmp_path / "physics.json"
+    wait_for(lambda: kept.exists() and any(o.held_by for o in read(kept).objects), "the file")
     graph.drop(lab.physics)
     wait_for(lambda: states.last().label == "READY", "the end")
     grasp.clear()

@@ -128,6 +128,8 @@ SHADE = 0.4  # of the colour, where no light falls
 # matplotlib draws whole triangles, the furthest first: the longest side of one is at most the
 # robot's size divided by this, so that none hides what is in front of it.
 PIECES = 70
+# Bars in place of bodies: the shortest, m, their radius as a share of the longest, their sides.
+LEAST_BAR, THIN, BAR_SIDES = 1e-3, 0.06, 16
 
 
 def bodies(
@@ -141,14 +143,32 @@ def bodies(
     """Return the robot's meshes at the joint positions, m, in the frame of its root link.
 
     positions: rad or m by the names of the joints; None: home. collision: the convex hulls
-    instead of what is seen. Raises BadInput for an unknown id or a missing mesh.
+    instead of what is seen, as of a robot that has nothing to be seen; one that has neither is
+    bars from joint to joint. Raises BadInput for an unknown id or a missing mesh.
     """
     model = library.model(robot_id)
     root = urdf.parse(library.description(robot_id, end_effector), robot_id)
-    robot = Assembly(root, robot_id, library.mesh_path, collision=collision)
     home = dict(zip(model.joint_names, model.home, strict=True))
-    robot.move(home if positions is None else positions)
-    return [mesh.copy().apply_transform(pose) for _, mesh, pose in robot.meshes()]
+    for hulls in (True,) if collision else (False, True):
+        robot = Assembly(root, robot_id, library.mesh_path, collision=hulls)
+        robot.move(home if positions is None else positions)
+        parts = [mesh.copy().apply_transform(pose) for _, mesh, pose in robot.meshes()]
+        if parts:
+            return parts
+    return _bars(urdf.joints(root, robot_id), robot.poses())
+
+
+def _bars(joints: tuple[urdf.UrdfJoint, ...], poses: Mapping[str, Array]) -> list[trimesh.Trimesh]:
+    """Return a bar, m, from each joint to the next; one at the root where all are at one place."""
+    places = [(poses[joint.parent][:3, 3], poses[joint.child][:3, 3]) for joint in joints]
+    ways = [(start, end) for start, end in places if np.linalg.norm(end - start) > LEAST_BAR]
+    radius = THIN * max((float(np.linalg.norm(end - start)) for start, end in ways), default=0.1)
+    if not ways:
+        return [trimesh.creation.icosphere(radius=radius)]
+    return [
+        trimesh.creation.cylinder(radius, segment=np.array(way), sections=BAR_SIDES)
+        for way in ways
+    ]
 
 
 def write(parts: list[trimesh.Trimesh], path: Path) -> None:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import threading
+import time
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import replace
@@ -26,6 +28,7 @@ from mrlab_ros.nodes.physics.diagnostics import (
 
 # A robot that is to hold an object may come this long after the object, ns.
 ROBOT_TIMEOUT_NS = 20 * SECOND
+SAVE_PERIOD_S = 2.0
 
 
 class Contents:
@@ -52,6 +55,9 @@ class Contents:
         self._log = log
         self._pending: list[PendingGrasp] = []
         self.changed = False
+        # What was held, and when, as it was written last.
+        self._held: dict[str, str] = {}
+        self._saved_at = -math.inf
         # What of the last run is not as it was.
         self.lost: list[Diagnostic] = []
 
@@ -183,12 +189,17 @@ class Contents:
         self._world.set_surfaces(intact)
         return mistakes
 
-    def save(self) -> None:
-        """Write what changed since the last call; the world does not wait for the file."""
+    def save(self, *, now: bool = False) -> None:
+        """Write what changed every SAVE_PERIOD_S; at once `now`, or where something else is held.
+
+        The world does not wait for the file.
+        """
+        due = now or time.monotonic() - self._saved_at >= SAVE_PERIOD_S
         with self._lock:
-            if not self.changed:
+            held = {thing.name: thing.held_by for thing in self._world.objects if thing.held_by}
+            if held == self._held and not (due and self.changed):
                 return
-            self.changed = False
+            self.changed, self._held, self._saved_at = False, held, time.monotonic()
             scene = self.document()
         if not self._file.save(scene):
             self.changed = True

@@ -70,7 +70,8 @@ except ModuleNotFoundError as error:
 TURN_NS = SECOND // 240
 # After this many steps the lock is released and events are published.
 MOST_STEPS = 24
-SAVE_PERIOD = 2.0  # s
+# How often it is looked whether there is something to save, s.
+SAVE_LOOK_S = 0.1
 # Pages are back by then after their gateway was started again, and take anew what they carry, s.
 RETURN_S = 5.0
 # After the process did not run, what came meanwhile is taken for so long before time is skipped.
@@ -145,7 +146,7 @@ class PhysicsNode(
         self._let_go_at = math.inf
         subscribe(self, msg.LabProcesses, "/processes", self._on_processes, qos.LATCHED)
         every(self, LET_GO_PERIOD_S, self._let_go)
-        every(self, SAVE_PERIOD, self._contents.save)
+        every(self, SAVE_LOOK_S, self._contents.save)
         # With Python's default of 5 ms another thread could delay a halt.
         sys.setswitchinterval(SWITCH_INTERVAL_S)
         self._listener.start()
@@ -153,7 +154,7 @@ class PhysicsNode(
     def destroy_node(self) -> None:
         self._listener.stop()
         self._contents.changed = True
-        self._contents.save()
+        self._contents.save(now=True)
         with self._lock:
             self._engine.close()
         super().destroy_node()

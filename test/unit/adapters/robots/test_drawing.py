@@ -12,7 +12,7 @@ from PIL import Image
 from refusals import refused
 from typer.testing import CliRunner
 
-from mrlab_ros.adapters.robots import drawing, urdf
+from mrlab_ros.adapters.robots import checks, drawing, sheet, urdf
 from mrlab_ros.adapters.robots.diagnostics import (
     DOCUMENT_TYPE,
     ELEMENT_LACKS,
@@ -30,6 +30,7 @@ from mrlab_ros.adapters.robots.diagnostics import (
     TWICE_IN_URDF,
 )
 from mrlab_ros.adapters.robots.drawing import Assembly
+from mrlab_ros.adapters.robots.importing import import_robot
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.commands.robots import app
 from mrlab_ros.core.base.diagnostic import Code
@@ -78,6 +79,27 @@ def test_joint_positions_count_and_hulls_are_larger() -> None:
     assert stretched[1, 2] > 0.9 > home[1, 2]
     hulls = trimesh.Scene(drawing.bodies(LIBRARY, "ur5e", collision=True)).bounds
     assert np.abs(hulls - home).max() < 0.021
+
+
+HULL = '<collision><geometry><box size="0.1 0.1 0.5"/></geometry></collision>'
+
+
+@pytest.mark.parametrize(("hull", "high"), [(HULL, 0.65), ("", 0.4)])
+def test_without_anything_to_see_hulls_are_drawn_and_else_bars(hull, high, tmp_path: Path) -> None:
+    limit = '<limit lower="-1" upper="1" velocity="1" effort="1"/>'
+    source = tmp_path / "bare.urdf"
+    source.write_text(
+        f'<robot name="bare"><link name="base"/><link name="arm">{hull}</link>'
+        f'<joint name="turn" type="revolute"><parent link="base"/><child link="arm"/>'
+        f'<origin xyz="0 0 0.4"/>{limit}</joint></robot>'
+    )
+    library = RobotLibrary(ROBOTS, tmp_path / "imported")
+    assert not checks.errors(import_robot(source, "bare", library, {}).findings)
+    parts = drawing.bodies(library, "bare")
+    assert max(part.bounds[1, 2] for part in parts) == pytest.approx(high)
+    for name in ("bare.png", "bare.html", "bare.glb"):
+        drawing.write(parts, tmp_path / name)
+    sheet.write(library, "bare", tmp_path / "sheet.html")
 
 
 def test_colours_are_those_of_the_materials() -> None:
