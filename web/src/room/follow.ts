@@ -11,7 +11,7 @@ import { sentence, spoken } from '../words/diagnostic'
 import type { Words } from '../words/en'
 import type { Board } from './board/board'
 import type { ObjectHandles } from './handles/object_handles'
-import type { Catalogue, Entry, Lab, Speech } from './ports'
+import type { Catalogue, Entry, Lab, May, Speech } from './ports'
 import type { RobotPanels } from './robots/robot_panels'
 import type { RoomRobots } from './robots/robots'
 import { hopsOf } from './session/hops'
@@ -81,7 +81,7 @@ const PERIOD_S = 1
 
 /** The parts that show the state of the lab. */
 export interface Listeners {
-  readonly ports: Speech & Lab & Catalogue
+  readonly ports: Speech & Lab & Catalogue & May
   readonly follower: LabFollower
   readonly board: Board
   readonly panels: RobotPanels
@@ -142,7 +142,7 @@ export function listen({
     }),
     effect(() => {
       const act = follower.undoing.act.value
-      const undo = () => void follower.undoing.undo(ports)
+      const undo = ports.scene ? () => void follower.undoing.undo(ports) : null
       const label = words.room.undo
       board.offer(act === null ? null : { words: spoken(act), label, undo })
     }),

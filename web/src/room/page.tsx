@@ -108,6 +108,7 @@ function RoomView({ link, extra }: { link: Link; extra: RoomExtra }) {
             courseOf(await api.motion(extra.motionUrl(id) ?? trajectoryUrl(id, 'motion'))),
           checks: api,
           commands: session.value?.may.commands ?? false,
+          scene: session.value?.may.scene ?? false,
           tabs: tab === null ? [] : [tab],
         })
         room.value = made

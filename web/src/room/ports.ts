@@ -47,6 +47,12 @@ export interface Catalogue {
   readonly trajectories: readonly TrajectoryInfo[]
 }
 
+/** What the person who is signed in may do beside watching. */
+export interface May {
+  /** Undo, and set the surfaces of the room. */
+  readonly scene: boolean
+}
+
 /** Settings of the viewer, and the display that they use. */
 export interface Preferences {
   readonly leftHanded: boolean

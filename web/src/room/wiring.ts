@@ -22,7 +22,7 @@ import type { Caption } from './panels/caption'
 import type { Feedback, Surroundings } from './panels/panel'
 import type { Spawning } from './place/spawning'
 import type { Ground, Obstacle, Support, Wall } from './place/supports'
-import type { Catalogue, Entry, Frames, Lab, Preferences, Speech, Viewer } from './ports'
+import type { Catalogue, Entry, Frames, Lab, May, Preferences, Speech, Viewer } from './ports'
 import type { Checks } from './robots/check'
 import type { RoomRobots } from './robots/robots'
 import type { Drawings } from './scene/drawings'
@@ -38,7 +38,7 @@ const READ_AT = 0.9
 const LARGE_TEXT = 1.35
 
 /** Everything that a room is made from. */
-export interface RoomParts extends Checks {
+export interface RoomParts extends Checks, May {
   readonly container: HTMLElement
   readonly link: Link
   readonly words: Words
@@ -60,6 +60,7 @@ export type Ports = TabPorts &
   Preferences &
   Ground &
   Checks &
+  May &
   Surroundings
 
 /** The parts of a room whose present values the ports return. */
@@ -80,7 +81,7 @@ interface Wired extends Viewer {
 /** Return the ports of the room's parts. Values that change are read from the room, and nothing
  * is read before a part asks for it. */
 export function portsOf(
-  { link, words, robots, endEffectors, checks, commands }: RoomParts,
+  { link, words, robots, endEffectors, checks, commands, scene }: RoomParts,
   room: Wired,
   feedback: Feedback,
 ): Ports {
@@ -91,6 +92,7 @@ export function portsOf(
     endEffectors,
     checks,
     commands,
+    scene,
     feedback,
     stir: () => room.stage.invalidate(),
     world: room.stage.world,

@@ -207,26 +207,28 @@ export function Lab({ link }: { link: Link }) {
               ref={host}
               onClick={point}
             />
-            {(eyes || pointing.value) && (
-              <p class="lab-eyes" role="status">
-                {pointing.value ? w.lookHereHow : eyes && w.seesWith(named(eyes.name))}
-                {!pointing.value && (
-                  <Button look="quiet" onClick={() => view.current?.seeWith('')}>
-                    {w.ownView}
-                  </Button>
-                )}
-              </p>
-            )}
-            {undoable && (
-              <p class="lab-eyes lab-undo" role="status">
-                {spoken(undoable)}
-                {may.scene && (
-                  <Button look="quiet" onClick={() => void follower.undoing.undo(lab)}>
-                    {words.value.room.undo}
-                  </Button>
-                )}
-              </p>
-            )}
+            <div class="lab-over">
+              {(eyes || pointing.value) && (
+                <p class="lab-eyes" role="status">
+                  {pointing.value ? w.lookHereHow : eyes && w.seesWith(named(eyes.name))}
+                  {!pointing.value && (
+                    <Button look="quiet" onClick={() => view.current?.seeWith('')}>
+                      {w.ownView}
+                    </Button>
+                  )}
+                </p>
+              )}
+              {undoable && (
+                <p class="lab-eyes lab-undo" role="status">
+                  {spoken(undoable)}
+                  {may.scene && (
+                    <Button look="quiet" onClick={() => void follower.undoing.undo(lab)}>
+                      {words.value.room.undo}
+                    </Button>
+                  )}
+                </p>
+              )}
+            </div>
             {trouble.value && (
               <p class="lab-note small" role="status">
                 {trouble.value}
@@ -308,7 +310,11 @@ export function Lab({ link }: { link: Link }) {
                 place={follower.place.value}
                 present={present.value}
                 seen={seen.value}
-                onSee={(id) => view.current?.seeWith(id)}
+                onSee={(id) => {
+                  view.current?.seeWith(id)
+                  // On a narrow page the picture is above the cards.
+                  if (id !== '') host.current?.scrollIntoView({ block: 'nearest' })
+                }}
               />
               <ReplayCard follower={follower} />
             </fieldset>

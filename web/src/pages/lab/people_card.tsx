@@ -29,7 +29,10 @@ export function PeopleCard({ place, present, seen, onSee }: PeopleCardProps) {
   return (
     <article class="lab-card lab-people" aria-label={w.inRoom}>
       <header class="lab-card-head">
-        <h2>{place?.name || w.inRoom}</h2>
+        <h2>
+          {w.inRoom}
+          {place?.name && <span class="second"> · {place.name}</span>}
+        </h2>
         {lab.may.scene && place !== null && name === null && (
           <Button look="quiet" onClick={() => setName(place.name)}>
             {w.namePlace}

@@ -38,11 +38,12 @@ export interface TabPorts extends Speech, Lab {
   repaintBoard(): void
 }
 
-/** An act that can be undone: what was done, and the words of the button. */
+/** An act that can be undone: what was done, and the words of the button. undo: null where the
+ * person may not. */
 interface Undoable {
   readonly words: string
   readonly label: string
-  undo(): void
+  readonly undo: (() => void) | null
 }
 
 /** Return a tab of another part of the pages. */
@@ -144,25 +145,17 @@ export class Board {
     })
     this.tabs[this.chosen]?.draw(pen)
     const { undoable } = this
+    const undo = undoable?.undo ?? null
     const text = undoable?.words || this.notice || this.stands
     if (text === '') return
     const warns = undoable !== null || this.notice === '' || this.warns
     const ink = warns ? PANEL_THEME.states.PAUSED : PANEL_THEME.colours.second
-    const wide = BOARD_WIDTH - 2 * EDGE - (undoable === null ? 0 : UNDO_WIDTH + EDGE)
+    const wide = BOARD_WIDTH - 2 * EDGE - (undo === null ? 0 : UNDO_WIDTH + EDGE)
     pen.lines(EDGE, BOTTOM + 18, text, TEXT.small, wide, ink, 2)
-    if (undoable === null) return
+    if (undoable === null || undo === null) return
     const left = BOARD_WIDTH - EDGE - UNDO_WIDTH
     const look = { primary: true, small: true }
-    pen.button(
-      'undo',
-      left,
-      BOTTOM + 4,
-      UNDO_WIDTH,
-      undoable.label,
-      undoable.undo,
-      look,
-      UNDO_HEIGHT,
-    )
+    pen.button('undo', left, BOTTOM + 4, UNDO_WIDTH, undoable.label, undo, look, UNDO_HEIGHT)
   }
 }
 

@@ -4,7 +4,7 @@ import type { Alignment } from '../place/alignment'
 import type { SceneAnchor } from '../place/anchor'
 import { orderSurfaces, type RoomScan } from '../place/scan'
 import type { TouchAlignment } from '../place/touch_alignment'
-import type { Lab, Speech, Viewer } from '../ports'
+import type { Lab, May, Speech, Viewer } from '../ports'
 import type { RoomStage } from '../scene/stage'
 import type { Visit } from '../session/visit'
 import { type RoomSwitches, roomLines } from './settings_tab'
@@ -19,7 +19,7 @@ export interface Places {
 
 /** Return the lines and switches of the room tab. surfaces: how many the lab knows. */
 export function roomSwitches(
-  ports: Speech & Lab & Viewer,
+  ports: Speech & Lab & May & Viewer,
   { anchor, alignment, scan, touching }: Places,
   visit: Visit,
   stage: RoomStage,
@@ -72,6 +72,7 @@ export function roomSwitches(
       if (scan.awaited) ports.say(ports.words.room.touchTable, false)
     },
     bringHere: () => alignment.align(ports),
+    canForget: ports.scene,
     forgetSurfaces: () =>
       asking.press('forget', ports.words.room.asksForget, () => {
         orderSurfaces(ports, '', [])

@@ -104,6 +104,7 @@ export interface RoomSwitches {
   /** Bring the scene's origin to the floor before the person. */
   bringHere(): void
   /** Have the lab forget the surfaces of all headsets, also of those that left. */
+  readonly canForget: boolean
   forgetSurfaces(): void
   leave(): void
 }
@@ -135,7 +136,9 @@ export function roomTab(ports: Speech, room: RoomSwitches): Tab {
         enabled: room.canUndo,
       })
       pen.button('bring', EDGE, third, width, w.bringHere, () => room.bringHere())
-      pen.button('forget', right, third, width, w.forgetSurfaces, () => room.forgetSurfaces())
+      pen.button('forget', right, third, width, w.forgetSurfaces, () => room.forgetSurfaces(), {
+        enabled: room.canForget,
+      })
       const fourth = third + HIT + GAP
       pen.button('leave', EDGE, fourth, width, w.leave, () => room.leave(), {
         enabled: room.canAlign,

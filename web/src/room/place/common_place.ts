@@ -1,7 +1,7 @@
 import type { People } from '../../lab/people/people'
 import type { Surface } from '../../protocol/mrlab_msgs'
 import type { OwnPresence } from '../people/own_presence'
-import type { Lab, Speech } from '../ports'
+import type { Lab, May, Speech } from '../ports'
 import { orderSurfaces, type RoomScan } from './scan'
 import type { TouchAlignment } from './touch_alignment'
 
@@ -21,7 +21,7 @@ export class CommonPlace {
 
   /** device: the source of this headset's surfaces. */
   constructor(
-    private readonly ports: Speech & Lab,
+    private readonly ports: Speech & Lab & May,
     private readonly device: string,
     private readonly people: Pick<People, 'isFirst'>,
     private readonly presence: Pick<OwnPresence, 'setAligned'>,
@@ -57,7 +57,7 @@ export class CommonPlace {
     this.presence.setAligned(aligned)
     if (aligned) this.scan.tellAgain()
     else {
-      orderSurfaces(this.ports, this.device, [])
+      this.order([])
       this.ports.say(this.ports.words.room.alignToCount)
     }
   }
@@ -73,6 +73,10 @@ export class CommonPlace {
   tell(surfaces: Surface[]): void {
     if (!this.aligned) return
     this.told = surfaces.length > 0
-    orderSurfaces(this.ports, this.device, surfaces)
+    this.order(surfaces)
+  }
+
+  private order(surfaces: Surface[]): void {
+    if (this.ports.scene) orderSurfaces(this.ports, this.device, surfaces)
   }
 }

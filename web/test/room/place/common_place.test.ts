@@ -33,7 +33,7 @@ describe('the common place of headsets', () => {
     tellings = 0
     link = new FakeLink()
     link.answer('physics/set_surfaces', setSurfacesType, () => ({ success: true, message: '' }))
-    const ports = { link, words: en, say: (text: string) => said.push(text) }
+    const ports = { link, words: en, scene: true, say: (text: string) => said.push(text) }
     const scan = { tellAgain: () => tellings++ }
     place = new CommonPlace(ports as never, 'quest', people, people, scan as never, touching)
   })
@@ -53,6 +53,17 @@ describe('the common place of headsets', () => {
     expect([news, tellings, ordered(), said]).toEqual([[false, true], 1, [1], []])
     place.end()
     expect(ordered()).toEqual([1, 0])
+  })
+
+  it('tells the lab no surfaces of a person who may not set them', () => {
+    const ports = { link, words: en, scene: false, say: (text: string) => said.push(text) }
+    const scan = { tellAgain: () => tellings++ }
+    place = new CommonPlace(ports as never, 'quest', people, people, scan as never, touching)
+    place.begin(10)
+    place.update(11.5)
+    place.tell([createSurface()])
+    place.end()
+    expect([news, ordered()]).toEqual([[false, true, true], []])
   })
 
   it('is joined by touch only, and left when the touch is undone', () => {
