@@ -9,24 +9,28 @@ ROBOT_SPAWNED = Code(
     "{robot} stands at {place:position}.",
     severity=INFO,
     meaning="A robot was added to the scene.",
+    page=False,
 )
 ROBOT_PLACED = Code(
     "robot_placed",
     "{robot} is placed.",
     severity=INFO,
     meaning="The base of a robot was moved.",
+    page=False,
 )
 END_EFFECTOR_SET = Code(
     "end_effector_set",
     "{robot} carries {end_effector}.",
     severity=INFO,
     meaning="A robot was given an end effector.",
+    page=False,
 )
 END_EFFECTOR_REMOVED = Code(
     "end_effector_removed",
     "{robot} carries no end effector.",
     severity=INFO,
     meaning="The end effector of a robot was taken off.",
+    page=False,
 )
 ROBOT_REMOVED = Code(
     "robot_removed",
@@ -40,12 +44,14 @@ SCENE_SAVED = Code(
     "surface|surfaces}, {systems:count system|systems} in {file}[; {missing:problem}].",
     severity=INFO,
     meaning="The scene was written to a file.",
+    page=False,
 )
 NO_PHYSICS_TO_SAVE = Code(
     "no_physics_to_save",
     "objects and surfaces are left out: no physics runs",
     severity=INFO,
     meaning="A scene was saved in a lab without physics.",
+    page=False,
 )
 SCENE_LOADED = Code(
     "scene_loaded",

@@ -9,24 +9,28 @@ OBJECT_SPAWNED = Code(
     "{object} is at {place:position}.",
     severity=INFO,
     meaning="An object was added to the scene.",
+    page=False,
 )
 OBJECT_MOVED = Code(
     "object_moved",
     "{object} is {state:choice held=held|released=released}.",
     severity=INFO,
     meaning="An object was moved by a person.",
+    page=False,
 )
 OBJECT_REMOVED = Code(
     "object_removed",
     "{object} is removed.",
     severity=INFO,
     meaning="An object was taken out of the scene.",
+    page=False,
 )
 OBJECTS_REMOVED = Code(
     "objects_removed",
     "{count:count object is|objects are} removed.",
     severity=INFO,
     meaning="All objects were taken out of the scene.",
+    page=False,
 )
 SURFACES_SET = Code(
     "surfaces_set",
@@ -34,30 +38,35 @@ SURFACES_SET = Code(
     "it has moved out of them].",
     severity=INFO,
     meaning="The surfaces of the room were set.",
+    page=False,
 )
 OBJECT_ATTACHED = Code(
     "object_attached",
     "{robot} holds {object}.",
     severity=INFO,
     meaning="An object was attached to a robot's hand.",
+    page=False,
 )
 OBJECT_DETACHED = Code(
     "object_detached",
     "{robot} let go of {object}.",
     severity=INFO,
     meaning="An object was detached from a robot's hand.",
+    page=False,
 )
 CONTENTS_SET = Code(
     "contents_set",
     "{objects:count object|objects} and {surfaces:count surface|surfaces} are set.",
     severity=INFO,
     meaning="All objects and surfaces were replaced.",
+    page=False,
 )
 CONTENTS_FIT = Code(
     "contents_fit",
     "{objects:count object|objects} and {surfaces:count surface|surfaces} can be set.",
     severity=INFO,
     meaning="A dry run found nothing wrong with objects and surfaces.",
+    page=False,
 )
 CONTENTS_NOT_BACK = Code(
     "contents_not_back",

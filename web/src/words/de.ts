@@ -1559,16 +1559,10 @@ export const diagnostics: Templates = {
   config_and_keys: [
     'Die Bridge hat zenoh_config ({file}) und keys ({folder}); erwartet wird nur eines, denn jedes legt fest, wer sich verbinden darf.',
   ],
-  contents_fit: [
-    '{objects:count Gegenstand|Gegenstände} und {surfaces:count Fläche|Flächen} passen.',
-  ],
   contents_left_out: [
     '{objects:count Gegenstand|Gegenstände} und {surfaces:count Fläche|Flächen} bleiben weg: Es läuft keine Physik.',
   ],
   contents_not_back: ['Vom letzten Lauf bleibt weg:{all:problems}'],
-  contents_set: [
-    'Gesetzt: {objects:count Gegenstand|Gegenstände} und {surfaces:count Fläche|Flächen}.',
-  ],
   continuous: ['stetig'],
   converted_unit: [
     "Die Datei nennt für '{variable}' die Einheit {stated:choice rad=Radiant|deg=Grad|mrad=Milliradiant|urad=Mikroradiant|gon=Gon|turn=Umdrehungen|halfturn=halbe Umdrehungen|ddeg=Zehntelgrad|cdeg=Hundertstel Grad|mdeg=Tausendstel Grad|arcmin=Bogenminuten|arcsec=Bogensekunden|counts=Zählschritte|%=Prozent|normalized=Anteile eines Bereichs|mm=mm}[ ('{source}')]; die Werte wurden in Radiant umgerechnet.",
@@ -1709,8 +1703,6 @@ export const diagnostics: Templates = {
   empty_upload: ["'{file}' ist leer.", 'Sichere die Datei noch einmal und sende sie.'],
   empty_value: ['{what:problem} ist leer; erwartet: {expected:problem}.'],
   encrypted_file: ['Die Datei ist verschlüsselt; bitte um eine offene.'],
-  end_effector_removed: ['{robot} trägt keinen Endeffektor mehr.'],
-  end_effector_set: ['{robot} trägt jetzt {end_effector}.'],
   ended_early: ['{robot} endete vor seiner letzten Zeile[: {why:problem}].'],
   endless_hold: [
     "nichts sagt, bis wann bei frame {frame:integer} gewartet wird; ergänze wait, etwa 'object cube_1 free', oder after, etwa 'kr6_1.frame 120'",
@@ -2729,7 +2721,6 @@ export const diagnostics: Templates = {
   no_partial: ["partial ist '{rule}'; '{sentence}' kennt keine Teilpunkte; lass partial weg."],
   no_person: ["Niemand heißt '{name}'."],
   no_physics: ['Es gibt keine Physik: {why:problem}.'],
-  no_physics_to_save: ['Gegenstände und Flächen bleiben weg: Es läuft keine Physik'],
   no_place_before_viewer: [
     'Vor dir ist innerhalb von {distance:length} kein Platz frei.',
     'Dreh dich um, entferne dort einen Roboter oder einen Gegenstand, oder gib eine Pose an.',
@@ -3044,9 +3035,7 @@ export const diagnostics: Templates = {
   nothing_to_show: ['Es gibt keine Bewegung zu zeigen: {why:problem}.'],
   nothing_touched: ['Nichts wird berührt.'],
   numbers_differ: ['zwei Leseprogramme finden verschiedene Zahlen darin'],
-  object_attached: ['{robot} hält {object}.'],
   object_catalogue: ['der Katalog der Gegenstände'],
-  object_detached: ['{robot} hat {object} losgelassen.'],
   object_entry: ["Gegenstand '{object}'"],
   object_id: ['die Kennung eines Gegenstands im Katalog'],
   object_ignored: [
@@ -3083,15 +3072,11 @@ export const diagnostics: Templates = {
   object_mesh_uri: [
     "Das Netz ist '{mesh}'; erwartet wird eine URI, die mit {prefix} beginnt und auf {formats:either} endet.",
   ],
-  object_moved: ['{object} wird {state:choice held=gehalten|released=losgelassen}.'],
   object_not_in_scene: [
     "Die Szene hat keinen Gegenstand '{object}'[; vorhanden: {known:list}].",
     '[Meinst du {close}?]',
   ],
-  object_removed: ['{object} ist entfernt.'],
-  object_spawned: ['{object} ist bei {place:position}.'],
   object_unreadable: ['mat-io kann es nicht lesen ({error})'],
-  objects_removed: ['{count:count Gegenstand ist|Gegenstände sind} entfernt.'],
   odd_bytes: [
     '{part:choice variable=eine Variable hat|fields=die Feldnamen eines struct haben} {count:integer} Bytes; das ist kein Vielfaches von {unit_size:integer}',
   ],
@@ -3616,14 +3601,12 @@ export const diagnostics: Templates = {
     'Nenne den Roboter, einen von {known:list}.',
   ],
   robot_nowhere: ['Den Roboter gibt es weder hier noch im Labor: {here:problem}; {lab:problem}.'],
-  robot_placed: ['{robot} hat seinen Platz.'],
   robot_removed: ['{robot} ist entfernt.'],
   robot_repeated: ["'{robot}' ist {count:integer}-mal genannt.", 'Nenne den Roboter einmal.'],
   robot_roots: [
     'Erwartet wird genau ein Wurzelglied; gefunden: {count:integer}[: {roots:list}].',
     'Verbinde die Glieder durch feste Gelenke.',
   ],
-  robot_spawned: ['{robot} steht bei {place:position}.'],
   robot_speed: [
     "'{joint}' nennt keine größte Geschwindigkeit; Bewegungen werden mit {value:measure} verglichen.",
     'Schreibe <limit velocity=> aus dem Datenblatt in die URDF, und importiere sie noch einmal.',
@@ -3738,9 +3721,6 @@ export const diagnostics: Templates = {
   scene_not_cell: [
     '{place:problem} enthält {parts:list}; eine Zelle hat nur Systeme.',
     'Lade sie als Szene.',
-  ],
-  scene_saved: [
-    '{file} ist gesichert: {robots:count Roboter|Roboter}, {objects:count Gegenstand|Gegenstände}, {surfaces:count Fläche|Flächen}, {systems:count System|Systeme}[; {missing:problem}].',
   ],
   scheduler_needs_cluster: [
     'Ein Scheduler braucht das Backend dask oder ray; loky benutzt nur diesen Rechner.',
@@ -3945,9 +3925,6 @@ export const diagnostics: Templates = {
   ],
   surfaces_changed: ['die Flächen des Raums haben sich geändert'],
   surfaces_of_one_name: ['Zwei Flächen heißen {name}.', 'Gib jeder einen eigenen Namen.'],
-  surfaces_set: [
-    'Der Raum hat {count:count Fläche|Flächen}[; in einem Roboter steckt {inside:list}: Das zählt erst, wenn er sich daraus bewegt hat].',
-  ],
   system_created: [
     '{system} bewegt {robots:list}: {duration:time}, {mode:choice parallel=alle zugleich|sequential=einer nach dem anderen}',
   ],
