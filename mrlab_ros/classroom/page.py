@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -10,9 +11,11 @@ import numpy as np
 
 from mrlab_ros.app.show import ingredients, still_text
 from mrlab_ros.app.show.page import page
+from mrlab_ros.app.show.refusal import refusal_page
+from mrlab_ros.classroom.folder import FEEDBACK, PAGES, ResultsFolder
 from mrlab_ros.classroom.marks.exports import REFERENCE
 from mrlab_ros.classroom.marks.graded import SCHEMA, GradedClass, Student
-from mrlab_ros.classroom.marks.result import MARKED, MOST_PATH, Result
+from mrlab_ros.classroom.marks.result import MARKED, MOST_PATH, REFUSED, TO_REPEAT, Result
 from mrlab_ros.core.base.diagnostic import plain
 
 MOST_FINDINGS, MOST_TESTS = 6, 8
@@ -84,7 +87,7 @@ def _result(key: str, result: Result, points: int = MOST_PATH) -> dict[str, Any]
         path = path[np.linspace(0, len(path) - 1, points).round().astype(int)]
     return {
         "key": key,
-        "marked": result.outcome == MARKED,
+        "marked": result.outcome in (MARKED, REFUSED),
         "said": result.found,
         "file": result.file,
         "points": result.points,
@@ -105,6 +108,18 @@ def _mark(mark: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
+def with_page(student: Student, folder: ResultsFolder, share: Path) -> Student:
+    """Return a student who has a page: one whose submission could not be checked gets one that
+    says why, unless the check is to be repeated."""
+    result = student.result
+    if result.has_page or result.outcome == TO_REPEAT:
+        return student
+    for name, marks in ((PAGES, result.marks), (FEEDBACK, result.public)):
+        text = refusal_page(student.submission.name, [result.found], marks, share)
+        folder.write(f"{name}/{student.key}.html", text.encode())
+    return replace(student, result=replace(result, has_page=True))
+
+
 def text_of(document: Mapping[str, Any]) -> str:
     """Return a ClassDocument as text, which is read without a script."""
     tests, figures = document["tests"], document["statistics"]
@@ -112,7 +127,7 @@ def text_of(document: Mapping[str, Any]) -> str:
     rows = [
         (
             one["name"], f"{one['points']:g}", *(f"{mark['points']:g}" for mark in one["marks"]),
-            *(() if one["marked"] else (still_text.sentence(one["said"]),)),
+            *(() if one["duration"] is not None else (still_text.sentence(one["said"]),)),
         )
         for one in document["students"]
     ]  # fmt: skip

@@ -67,10 +67,12 @@ from mrlab_ros.classroom.marks.result import (
     FAILED,
     MARKED,
     NO_FILE,
+    REFUSED,
     TO_REPEAT,
     Result,
     without_marks,
 )
+from mrlab_ros.classroom.page import class_page, with_page
 from mrlab_ros.classroom.rubrics.rubric import Rubric
 from mrlab_ros.classroom.setup import Bounds, Setup, Task
 from mrlab_ros.classroom.submissions import Export
@@ -163,6 +165,8 @@ def marked(request: Request) -> tuple[GradedClass, Path | None, list[Diagnostic]
         )
         if count := sum(bool(state.columns(s.key)) for s in students):
             problems.append(MARKS_CHANGED(count=count))
+        if request.setup.pages:
+            students = tuple(with_page(s, folder, share.directory()) for s in students)
         reference = results.get(REFERENCE)
         graded = GradedClass(rubric, roster.form, students, roster.left_out, reference)
         _write(graded, folder)
@@ -359,7 +363,7 @@ def _stored(
     if worker.PAGE in files:
         folder.write(f"{PAGES}/{key}.html", files[worker.PAGE])
         folder.write(f"{FEEDBACK}/{key}.html", files.get(worker.FEEDBACK, files[worker.PAGE]))
-    if result.outcome in (MARKED, NO_FILE):
+    if result.outcome in (MARKED, REFUSED, NO_FILE):
         folder.keep(key, digest, document, checked)
     return result
 
@@ -381,7 +385,7 @@ def _known(request: Request, folder: ResultsFolder) -> Any:
             return None
         if request.base is not None:
             return result
-        if request.setup.pages and result.has_trajectory and not result.has_page:
+        if request.setup.pages and not result.has_page:
             return None  # it was checked without pages
         there = (not result.has_trajectory or folder.has(f"{TRAJECTORIES}/{key}.json")) and (
             not result.has_page
@@ -416,8 +420,6 @@ def _state(request: Request, folder: ResultsFolder) -> tuple[State, list[Diagnos
 
 def _write(graded: GradedClass, folder: ResultsFolder) -> None:
     """Write pages and tables."""
-    from mrlab_ros.classroom.page import class_page
-
     for student in graded.students:
         if student.result.outcome == TO_REPEAT:
             continue

@@ -10,7 +10,7 @@ from rich.text import Text
 
 from mrlab_ros.classroom.marks.gradebook import number, text
 from mrlab_ros.classroom.marks.graded import GradedClass
-from mrlab_ros.classroom.marks.result import FAILED, MARKED, NO_FILE, TO_REPEAT
+from mrlab_ros.classroom.marks.result import FAILED, MARKED, NO_FILE, REFUSED, TO_REPEAT
 from mrlab_ros.classroom.rubrics.document import at
 from mrlab_ros.classroom.rubrics.marking import Flaw, Mark, Marks
 from mrlab_ros.classroom.rubrics.measures import FAMILIES
@@ -23,6 +23,7 @@ from mrlab_ros.core.checking.check_record import Checked
 from mrlab_ros.core.runtime.colours import OUTCOME_STYLES, SEVERITY_STYLES
 
 UNMARKED = {
+    REFUSED: ("refused", OUTCOME_STYLES["rejected"]),
     FAILED: ("failed", OUTCOME_STYLES["rejected"]),
     NO_FILE: ("no file", OUTCOME_STYLES["ambiguous"]),
     TO_REPEAT: ("to be repeated", OUTCOME_STYLES["ambiguous"]),
@@ -54,7 +55,7 @@ def show(
             say(f"  and {len(graded.left_out) - MOST_LEFT_OUT} more")
     unmarked = [s for s in students if s.result.outcome != MARKED]
     if unmarked:
-        console.print("\nnot checked", style="bold")
+        console.print("\nnot marked", style="bold")
         table = Table(box=None, show_header=False)
         for student in unmarked[:MOST_ROWS]:
             word, style = UNMARKED[student.result.outcome]
@@ -110,7 +111,7 @@ def marks(file: Path, rubric: Rubric, found: Marks, checked: Checked) -> None:
             "" if mark.time is None else f"{mark.time:.2f} s",
             mark.found.message,
         )
-        if not mark.passed and mark.hint and not found.note:
+        if not mark.passed and mark.hint:
             table.add_row("", "", "", "", Text(mark.hint, "dim"))
     console.print(table)
     for hint in found.hints:

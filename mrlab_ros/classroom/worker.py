@@ -26,6 +26,7 @@ import tempfile
 import traceback
 import zlib
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -57,12 +58,13 @@ from mrlab_ros.classroom.marks.result import (
     MARKED,
     MOST_FINDINGS,
     MOST_PATH,
+    REFUSED,
     TO_REPEAT,
     Result,
     without_marks,
 )
 from mrlab_ros.classroom.marks.similarity import signature
-from mrlab_ros.classroom.rubrics.marking import Marks, mark
+from mrlab_ros.classroom.rubrics.marking import mark
 from mrlab_ros.classroom.setup import Bounds, Setup
 from mrlab_ros.core.base.diagnostic import Diagnostic, plain
 from mrlab_ros.core.base.errors import BadInput, LabError, Misuse
@@ -165,7 +167,7 @@ class Warm:
             signal.setitimer(signal.ITIMER_REAL, 0)
         if setup.pages:
             # what all pages need is imported and packed once, for all forks
-            from mrlab_ros.app.show import check  # noqa: F401
+            from mrlab_ros.app.show import check, motion, refusal  # noqa: F401
             from mrlab_ros.app.show.ingredients import code
 
             packed(code(self.share).script)
@@ -182,12 +184,16 @@ class Warm:
         else:
             found, file, problem = self._first(request["files"], folder)
         if found is None:
-            result = without_marks(self.setup.rubric, MARKED, problem or NO_FILE(), file)
+            why = problem or NO_FILE()
+            result = without_marks(self.setup.rubric, REFUSED, why, file)
         else:
             result = self._result(found, folder / file, request, out)
             if not given.exists():
                 evidence = pickle.dumps((found, file), pickle.HIGHEST_PROTOCOL)
                 (out / EVIDENCE).write_bytes(zlib.compress(evidence, 1))
+        if self.setup.pages:
+            result = replace(result, has_page=True)
+            self._pages(found, result, request, out)
         (out / RESULT).write_bytes(orjson.dumps(result.plain()))
 
     def _first(
@@ -214,12 +220,9 @@ class Warm:
         checked = found.checked
         marks = mark(self.setup.rubric, checked, self.reference, request["late"])
         trajectory, figures = checked.trajectory, checked.figures
-        has_page = self.setup.pages and found.played is not None
         if trajectory is not None:
             with (out / TRAJECTORY).open("wb") as written:
                 written.writelines(formats.chunks(trajectory))
-        if has_page:
-            self._pages(found, marks, request, f"{request['shown']}: {file}", out)
         path: Any = ()
         if figures is not None:
             at = np.linspace(0, len(figures.tool) - 1, MOST_PATH).round().astype(int)
@@ -228,8 +231,8 @@ class Warm:
         sha256 = "" if trajectory is None else hashlib.sha256(source.read_bytes()).hexdigest()
         robot = found.robots[0]
         return Result(
-            MARKED,
-            plain(checked.report.summary),
+            MARKED if marks.note is None else REFUSED,
+            plain(marks.note or checked.report.summary),
             marks.plain(),
             marks.public().plain(),
             file,
@@ -243,23 +246,43 @@ class Warm:
             () if trajectory is None else signature(trajectory.positions).tolist(),
             path,
             trajectory is not None,
-            has_page,
         )
 
     def _pages(
-        self, found: CheckedFile, marks: Marks, request: Mapping[str, Any], title: str, out: Path
+        self, found: CheckedFile | None, result: Result, request: Mapping[str, Any], out: Path
     ) -> None:
         """Write the teacher's page, and the student's where it is another one, with the marks and
         the comment that the teacher gives."""
-        from mrlab_ros.app.show.check import write_page
-
-        pages = {PAGE: marks}
-        if any(one.hidden for one in marks.tests):
-            pages[FEEDBACK] = marks.public()
+        pages = {PAGE: result.marks}
+        if any(one["hidden"] for one in result.marks["tests"]):
+            pages[FEEDBACK] = result.public
+        title = f"{request['shown']}: {result.file}"
         for name, shown in pages.items():
-            stage = self.setting.stage
-            given = changes.marks(shown.plain(), request["changes"], request["comment"])
-            write_page(out / name, found, stage, self.share, given, title=title, with_film=False)
+            given = changes.marks(shown, request["changes"], request["comment"])
+            text = self._page(found, result, title, given)
+            (out / name).write_text(text, encoding="utf-8")
+
+    def _page(
+        self, found: CheckedFile | None, result: Result, title: str, marks: Mapping[str, Any]
+    ) -> str:
+        """Return the page of what was rehearsed; of what was refused that of its matrix, or of
+        its findings alone."""
+        from mrlab_ros.app.show.check import page_of
+        from mrlab_ros.app.show.motion import motion_page
+        from mrlab_ros.app.show.refusal import refusal_page
+
+        stage, share = self.setting.stage, self.share
+        if found is not None and found.played is not None:
+            return page_of(found, stage, share, marks, title=title, with_film=False)
+        if found is not None and found.result is not None:
+            robot = found.robots[0]
+            model, tool = robot.model.id, robot.end_effector or None
+            with contextlib.suppress(BadInput):  # no matrix was found
+                return motion_page(
+                    found.result, model, tool, stage.library, share, marks,
+                    title=title, pictured=False,
+                )  # fmt: skip
+        return refusal_page(title, result.findings or [result.found], marks, share)
 
 
 def confine(bounds: Bounds) -> None:

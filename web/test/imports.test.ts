@@ -17,7 +17,7 @@ const PARTS: Readonly<Record<string, Layers>> = {
     main: 'api app design shell words',
     app: 'api classroom design pages room shell words',
     show: 'design report reports scene words',
-    reports: 'classroom playback report',
+    reports: 'classroom report',
     classroom: 'api design lab link pages playback protocol report room shell words',
     pages: 'api design lab link playback protocol scene shell words',
     room: 'api design lab link playback protocol scene shell words',

@@ -24,19 +24,31 @@ def motion_page(
     end_effector: str | None,
     library: RobotLibrary,
     share: Path,
+    marks: Mapping[str, Any] | None = None,
+    *,
+    title: str = "",
+    pictured: bool = True,
 ) -> str:
     """Return one HTML file that shows what became of a file on a robot.
 
-    share: folder with the built pages. Raises BadInput where there is no motion to show: the file
-    was refused before a matrix was found.
+    share: folder with the built pages. marks: by a rubric, as JSON has them: nobody chooses any
+    more. title: empty: the file's name. pictured: draw a picture for where nothing draws in 3D,
+    which takes a second. Raises BadInput where there is no motion to show: the file was refused
+    before a matrix was found.
     """
     robot = from_library(library, robot_model, end_effector)
     shown = document.of_result(result, robot)
     if shown is None:
         raise BadInput(NOTHING_TO_SHOW(why=result.said))
-    row, positions = _pictured(shown)
-    names = [joint.name for joint in robot.joints]
-    url = poster(library, robot, dict(zip(names, positions, strict=True)))
+    if marks is not None and result.trajectory is None:
+        shown |= {"marks": marks, "verdict": "refused"}
+    shown["title"] = title or shown["title"]
+    pictures = []
+    if pictured:
+        row, positions = _pictured(shown)
+        names = [joint.name for joint in robot.joints]
+        url = poster(library, robot, dict(zip(names, positions, strict=True)))
+        pictures = [Picture(url, f"The robot {robot_model} at row {row}")]
     meshes = ingredients.meshes_of([robot.urdf], library.mesh_path)
     return page(
         f"{shown['title']} on {robot_model}",
@@ -44,7 +56,7 @@ def motion_page(
         shown,
         meshes,
         ingredients.code(share),
-        [Picture(url, f"The robot {robot_model} at row {row}")],
+        pictures,
     )
 
 

@@ -86,7 +86,27 @@ def motion(document: Json) -> str:
             f"{duration:.2f} s, {document['frame_rate']:g} Hz",
         )
     )
-    return report([facts], findings, [_joints(robot["joints"], positions)])
+    tables = [*_marks(document.get("marks")), _joints(robot["joints"], positions)]
+    return report([facts], findings, tables)
+
+
+def refusal(document: Json) -> str:
+    """Return a RefusalDocument as text."""
+    return report([document["title"]], document["findings"], _marks(document["marks"]))
+
+
+def _marks(marks: Json | None) -> list[Table]:
+    """Return the table of marks, none without them; of what could not be marked the tests for
+    which there are points all the same."""
+    if marks is None:
+        return []
+    rows: list[Sequence[str]] = [
+        (f"{test['points']:g} / {test['of']:g}", test["name"], sentence(test["found"]))
+        for test in marks["tests"]
+        if marks["note"] is None or test["points"]
+    ]
+    total = f"{marks['points']:g} of {marks['of']:g} points"
+    return [Table("Marks", (), [(total,), *rows, *((hint,) for hint in marks["hints"])])]
 
 
 def _joints(joints: Sequence[Json], positions: np.ndarray) -> Table:
@@ -136,7 +156,7 @@ def session(document: Json) -> str:
 def check(document: Json) -> str:
     """Return the document of a check as text."""
     told, marks = document["check"], document["check"]["marks"]
-    tables = [
+    tables = _marks(marks) + [
         Table(
             f"Ready for hardware: {robot['name']}",
             (),
@@ -147,13 +167,6 @@ def check(document: Json) -> str:
         )
         for robot in told["robots"]
     ]
-    if marks is not None:
-        rows = [
-            (f"{test['points']:g} / {test['of']:g}", test["name"], sentence(test["found"]))
-            for test in marks["tests"]
-        ]
-        heading = f"Marks: {marks['points']:g} of {marks['of']:g} points"
-        tables.insert(0, Table(heading, (), rows))
     facts = (
         sentence(told["summary"]),
         dotted(robot["model"] for robot in told["robots"]),

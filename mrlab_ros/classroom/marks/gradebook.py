@@ -16,7 +16,7 @@ from mrlab_ros.classroom.marks.diagnostics import (
 )
 from mrlab_ros.classroom.marks.exports import CANVAS_FORM, ILIAS_FORM, MOODLE_FORM
 from mrlab_ros.classroom.marks.graded import Student
-from mrlab_ros.classroom.marks.result import TO_REPEAT, Result
+from mrlab_ros.classroom.marks.result import MARKED, TO_REPEAT, Result
 from mrlab_ros.classroom.rubrics.rubric import Rubric
 from mrlab_ros.core.base.diagnostic import Diagnostic, from_plain
 from mrlab_ros.core.base.errors import BadInput
@@ -135,8 +135,11 @@ def filled(
 
 
 def comment(result: Result) -> str:
-    """Return what a student reads beside the grade: each public test, and hints."""
-    return _lines(result.public["tests"], result.public["hints"])
+    """Return what a student reads beside the grade: each public test, and hints; where nothing
+    could be marked, why."""
+    marked = result.outcome == MARKED
+    lines = _lines(result.public["tests"], result.public["hints"], marked=marked)
+    return lines if marked else f"{text(result.found)}\n{lines}".strip()
 
 
 def words_of(student: Mapping[str, Any]) -> str:
@@ -144,17 +147,19 @@ def words_of(student: Mapping[str, Any]) -> str:
     found = text(student["found"])
     total = f"{number(student['points'])} of {number(student['of'])} points. {found}"
     public = [m for m in student["marks"] if not m["hidden"]]
-    return f"{total}\n\n{_lines(public, student['hints'])}\n"
+    lines = _lines(public, student["hints"], marked=student["outcome"] == MARKED)
+    return f"{total}\n\n{lines}".strip() + "\n"
 
 
-def _lines(tests: Sequence[Mapping[str, Any]], hints: Sequence[str]) -> str:
+def _lines(tests: Sequence[Mapping[str, Any]], hints: Sequence[str], *, marked: bool) -> str:
+    """Return a line for each test, and the hints. marked: False: what a teacher gave alone."""
     lines = [
         f"{m['name']}: {number(m['points'])}"
         + (f" of {number(m['of'])}" if m["of"] else "")
-        + f". {text(m['found'])}"
+        + (f". {text(m['found'])}" if marked else "")
         + (f" {m['hint']}" if m["hint"] and not m["passed"] else "")
         for m in tests
-        if m["of"] or m["points"]
+        if m["points"] or (marked and m["of"])
     ]
     return "\n".join([*lines, *hints])
 

@@ -18,7 +18,8 @@ from mrlab_ros.classroom.rubrics.marking import Marks, unmarked
 from mrlab_ros.classroom.rubrics.rubric import Rubric
 from mrlab_ros.core.base.diagnostic import Diagnostic, plain
 
-MARKED, NO_FILE, FAILED, TO_REPEAT = "marked", "no_file", "failed", "to_repeat"
+MARKED, REFUSED, NO_FILE = "marked", "refused", "no_file"
+FAILED, TO_REPEAT = "failed", "to_repeat"
 MOST_PATH = 64  # points of the tool's way that a picture has
 MOST_FINDINGS = 50
 
@@ -27,10 +28,11 @@ MOST_FINDINGS = 50
 class Result:
     """The result of a submission, as plain values that JSON holds.
 
-    outcome: MARKED, NO_FILE, FAILED: the check did not come to its end, or TO_REPEAT: nor did it,
-    and the machine is the reason, so that there is no mark at all. found: why,
-    or the verdict, as `plain` writes a diagnostic. file: the one that was taken, named as it was
-    handed in. marks, public: as `Marks.plain`; public is what the student may read. findings:
+    outcome: MARKED, REFUSED: no file holds a motion that can be marked, NO_FILE, FAILED: the check
+    did not come to its end, or TO_REPEAT: nor did it, and the machine is the reason, so that there
+    is no mark at all. found: why, or the verdict, as `plain` writes a diagnostic. file: the one
+    that was taken, named as it was handed in. marks, public: as `Marks.plain`; public is what the
+    student may read. findings:
     as `found`. report: the hash of the check. signature: (K, J) deg, see `similarity`. path:
     (N, 3) m of tool0.
     """

@@ -143,9 +143,10 @@ def _without_motion(test: Test) -> Mark:
 
 
 def unmarked(test: Test, why: Diagnostic) -> Mark:
-    """Return the mark of a test for which there is nothing to be marked."""
+    """Return the mark of a test for which there is nothing to be marked; its hint is about a
+    motion."""
     passed = not test.points  # it gives none
-    return Mark(test.name, 0.0, test.points, passed, why, test.hint, test.hidden, bonus=test.bonus)
+    return Mark(test.name, 0.0, test.points, passed, why, "", test.hidden, bonus=test.bonus)
 
 
 def _lost(test: Test, alone: Mapping[str, Mark]) -> bool:

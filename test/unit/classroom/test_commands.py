@@ -1,4 +1,4 @@
-"""`mrlab class` as a whole: five students, two processes, the blocks of docs/class.md."""
+"""`mrlab class` as a whole: seven students, two processes, the blocks of docs/class.md."""
 
 from __future__ import annotations
 
@@ -21,6 +21,7 @@ from mrlab_ros.classroom.grader import Grader
 from mrlab_ros.classroom.rubrics.rubric import Rubric, Test
 from mrlab_ros.classroom.setup import Bounds, MiB, Setup, Task
 from mrlab_ros.cli import make_app
+from mrlab_ros.core.base.diagnostic import from_plain
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.scene.document import SceneDocument
 
@@ -30,8 +31,8 @@ pytestmark = [pytest.mark.slow, pytest.mark.timeout(400)]
 ROOT = Path(__file__).parents[3]
 PICK = ROOT / "examples" / "pick_and_place_ur5e.mat"
 RUBRIC = ROOT / "examples" / "rubrics" / "pick_and_place.yaml"
-SHEET = "Identifier,Full name,Grade,Maximum Grade\n" + "".join(
-    f"Participant {n},X,,15\n" for n in (1, 2, 3, 4, 5)
+SHEET = "Identifier,Full name,Grade,Maximum Grade,Feedback comments\n" + "".join(
+    f"Participant {n},X,,15,\n" for n in (1, 2, 3, 4, 5, 6, 7)
 )
 
 
@@ -41,9 +42,10 @@ def grade(*words):
 
 @pytest.fixture(scope="module")
 def submissions(tmp_path_factory):
-    """Five students: a solution, one that is late at the cube, text, nothing, two files."""
+    """A solution, one that is late at the cube, text, nothing, two files, degrees, and a name that
+    says velocities."""
     folder = tmp_path_factory.mktemp("class") / "submissions"
-    names = ("Änne Groß", "Ben", "Cem", "Dora", "Eva")
+    names = ("Änne Groß", "Ben", "Cem", "Dora", "Eva", "Fay", "Gus")
     places = [folder / f"{n}_{i}_assignsubmission_file_" for i, n in enumerate(names, 1)]
     for place in places:
         place.mkdir(parents=True)
@@ -57,6 +59,9 @@ def submissions(tmp_path_factory):
     (places[3] / "report.pdf").write_bytes(b"%PDF-1.4")
     shutil.copy(PICK, places[4] / "a.mat")
     (places[4] / "b.mat").write_bytes(b"")
+    degrees = np.column_stack([np.degrees(q[:, :6]), closed])
+    scipy.io.savemat(places[5] / "run.mat", {"q": degrees, "fs": content["fs"]})
+    scipy.io.savemat(places[6] / "run.mat", {"qd": q, "fs": content["fs"]})
     return folder
 
 
@@ -72,7 +77,7 @@ def test_a_class_is_marked_kept_and_the_same_however_it_is_run(submissions, tmp_
     out = tmp_path / "marked"
     said = grade(submissions, "--rubric", RUBRIC, "--out", out, "--jobs", 2)
     assert said.exit_code == 0, said.stderr
-    assert "5 students, read as Moodle" in said.stdout
+    assert "7 students, read as Moodle" in said.stdout
     found = json.loads((out / "class.json").read_text())
     rows = {s["name"]: s for s in found["students"]}
     assert [rows[n]["points"] for n in ("Änne Groß", "Cem", "Dora", "Eva")] == [15, 0, 0, 15]
@@ -97,6 +102,22 @@ def test_a_class_is_marked_kept_and_the_same_however_it_is_run(submissions, tmp_
     assert "Keeps away from the bin" not in json.dumps(document_in(feedback))
     assert "Keeps away from the bin" not in feedback.read_text()
 
+    # who has nothing that can be marked is told why, with the matrix where there is one
+    refused = {
+        "Cem": ("refused", "unsupported_format", "mrlab.refusal.1"),
+        "Dora": ("no_file", "no_file_handed_in", "mrlab.refusal.1"),
+        "Fay": ("refused", "degrees", "mrlab.motion.1"),
+        "Gus": ("refused", "ambiguous", "mrlab.motion.1"),
+    }
+    for name, (outcome, code, schema) in refused.items():
+        row = rows[name]
+        assert (row["outcome"], row["found"]["code"], row["points"]) == (outcome, code, 0)
+        for folder in ("pages", "feedback"):
+            page = document_in(out / folder / f"{row['key']}.html")
+            assert (page["schema"], page["findings"][0]["code"]) == (schema, code)
+            assert (page["marks"]["points"], page["marks"]["hints"]) == (0, [])
+        assert shown[row["key"]]["page"] == f"pages/{row['key']}.html"
+
     before = results(out)
     # as after a kill between two files
     (out / "trajectories" / f"{rows['Ben']['key']}.json").unlink()
@@ -109,7 +130,10 @@ def test_a_class_is_marked_kept_and_the_same_however_it_is_run(submissions, tmp_
     assert said.exit_code == 0, said.stderr
     assert results(out) == before
     filled = list(csv.DictReader((tmp_path / "marked-sheet.csv").open()))
-    assert [row["Grade"] for row in filled][::2] == ["15", "0", "15"]
+    assert [row["Grade"] for row in filled][::2] == ["15", "0", "15", "0"]
+    told = {row["Identifier"]: row["Feedback comments"] for row in filled}
+    for place, name in ((3, "Cem"), (4, "Dora"), (6, "Fay"), (7, "Gus")):
+        assert told[f"Participant {place}"] == str(from_plain(rows[name]["found"]))
 
     shared, one = tmp_path / "shared", tmp_path / "one"
     shutil.copytree(next(submissions.glob("Änne*")), one / "Änne Groß_1_assignsubmission_file_")
@@ -146,6 +170,7 @@ def test_a_class_goes_on_where_it_was(tmp_path, monkeypatch):
     assert checked == []
     assert results(out) == before
     # a teacher changes a mark, and a student hands in what cannot be read
+    assert not list((out / "pages").iterdir())
     table = (out / "grades.csv").read_text()
     (out / "grades.csv").write_text(
         table.replace("Anna", "anna").replace("no,15,15", "no,13,15", 1)

@@ -302,10 +302,10 @@ function Linked({ to, children }: { to: string | null; children: preact.Componen
 
 function Row({ result, student }: { result: ClassResult; student: ClassStudent | null }) {
   const w = words.value.report
-  const { marked, path, page } = result
+  const { marked, duration, page } = result
   const notes = student?.notes ?? []
   // a row without a motion says why
-  const why = !marked || (path.length === 0 && page === null) ? [result.said, ...notes] : notes
+  const why = !marked || duration === null ? [result.said, ...notes] : notes
   return (
     <tr data-key={result.key}>
       <th scope="row">

@@ -10,10 +10,10 @@ import { say } from '../words/diagnostic'
 import { number, words } from '../words/words'
 import { Findings, type Picture, Still, Table } from './findings'
 import { Fold } from './fold'
-import { dotted, Page } from './page'
+import { type CheckMarks, Marks, STATES } from './marks'
+import { Page } from './page'
 import { PlayheadContext } from './plot/playhead'
 import { type Plotted, StripPlot } from './plot/strip_plot'
-import { Go } from './run'
 import { Film, useSession } from './session'
 
 /** What a check rehearsed and its result; `mrlab_ros/app/show/check.py` writes it. */
@@ -58,23 +58,6 @@ interface CheckFinding extends Diagnostic {
   readonly other?: string
 }
 
-interface CheckMarks {
-  readonly points: number
-  readonly of: number
-  readonly tests: readonly {
-    readonly name: string
-    readonly points: number
-    readonly of: number
-    readonly passed: boolean
-    readonly hidden: boolean
-    readonly hint: string
-    readonly time: number | null
-    readonly found: Diagnostic
-  }[]
-  readonly hints: readonly string[]
-  readonly note: Diagnostic | null
-}
-
 interface Curve {
   readonly times: PackedArray
   readonly values: PackedArray
@@ -103,11 +86,6 @@ interface CheckedMotion {
 }
 
 const DEGREES = 180 / Math.PI
-const STATES = {
-  ok: ['complete', 'good'],
-  not: ['error', 'bad'],
-  unknown: ['warning', 'part'],
-} as const
 
 /** Return the marks of the findings that are meant, with their numbers. */
 function marksOf(
@@ -337,54 +315,6 @@ function Hardware({ title, rows }: { title: string; rows: readonly Condition[] }
           </tr>
         )
       })}
-    </Table>
-  )
-}
-
-/** The marks by a rubric; lost points lead to their instant. */
-function Marks({ marks }: { marks: CheckMarks }) {
-  const w = words.value
-  return (
-    <Table
-      name="marks"
-      title={dotted([
-        w.grades.marks,
-        w.report.points(number(marks.points), number(marks.of)),
-        marks.note && say(marks.note).message,
-      ])}
-      heads={[w.report.result, w.report.pointsHead, w.report.test, w.report.time, w.report.found]}
-    >
-      {marks.tests.map((test) => {
-        const state = test.passed ? 'ok' : test.points > 0 ? 'unknown' : 'not'
-        const [icon, kind] = STATES[state]
-        return (
-          <tr key={test.name}>
-            <td>
-              <span class={`result result-${kind}`}>
-                <Icon name={icon} />
-                {w.report.results[state]}
-              </span>
-            </td>
-            <td class="figure">{`${number(test.points)} / ${number(test.of)}`}</td>
-            <th scope="row">
-              {test.name}
-              {test.hidden && <small>{w.report.hidden}</small>}
-            </th>
-            <td class="figure">{test.time !== null && <Go time={test.time} />}</td>
-            <td>
-              {say(test.found).message}
-              {test.hint && !test.passed && <small>{test.hint}</small>}
-            </td>
-          </tr>
-        )
-      })}
-      {marks.hints.map((hint) => (
-        <tr key={hint}>
-          <td class="second" colSpan={5}>
-            {hint}
-          </td>
-        </tr>
-      ))}
     </Table>
   )
 }

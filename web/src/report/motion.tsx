@@ -11,12 +11,18 @@ import { say } from '../words/diagnostic'
 import { number, words } from '../words/words'
 import { Findings, type Picture, rowsOf, Still } from './findings'
 import { Fold } from './fold'
+import { type CheckMarks, Marks } from './marks'
 import { Page } from './page'
 import { type Playhead, PlayheadContext } from './plot/playhead'
 import { StripPlot } from './plot/strip_plot'
 
+/** A motion; one that was handed in and refused has the marks of a rubric. */
+export interface MarkedMotion extends MotionDocument {
+  readonly marks?: CheckMarks
+}
+
 interface MotionReportProps {
-  readonly motion: MotionDocument
+  readonly motion: MarkedMotion
   readonly meshes: MeshBytes
   readonly pictures: readonly Picture[]
 }
@@ -76,12 +82,17 @@ export function MotionReport({ motion, meshes, pictures }: MotionReportProps) {
     return () => made.dispose()
   }, [])
 
-  const { robot, source, findings } = motion
+  const { robot, source, findings, marks: points } = motion
   return (
     <PlayheadContext.Provider value={playhead}>
       <Page
         sheet
-        chip={<OutcomeChip outcome={OUTCOMES[motion.verdict]} />}
+        chip={
+          <>
+            <OutcomeChip outcome={OUTCOMES[motion.verdict]} />
+            {points && <span class="second small">{motion.title}</span>}
+          </>
+        }
         title={titleOf(motion)}
         facts={[
           source.file,
@@ -110,6 +121,7 @@ export function MotionReport({ motion, meshes, pictures }: MotionReportProps) {
             onShow={show}
           />
         </div>
+        {points && <Marks marks={points} />}
         <div class="report-folds">
           {channelsOf(motion).map((channel, i) => (
             <Fold

@@ -1450,7 +1450,7 @@ export const diagnostics: Templates = {
     "{student}, {test}: '{found}' ist keine Zahl; es bleibt bei den Punkten des Tests.",
   ],
   changed_mark_out_of_range: [
-    '{student}, {test}: {found:number} liegt nicht zwischen {least:number} und {most:number} Punkten; die Bewertung bleibt, wie sie war.',
+    '{student}, {test}: {found:number} liegt nicht zwischen {least:number} und {most:number}; es bleibt bei den Punkten.',
   ],
   channel_shape: [
     "{channel:choice gripper=Die Greiferzustände|derived=Die abgeleiteten Kanäle} von '{id}' sind {size}; erwartet wird {expected}, mit einer Zeile für jede Zeile der Trajektorie.",

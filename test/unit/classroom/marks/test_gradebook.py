@@ -9,7 +9,7 @@ import json
 import pytest
 from refusals import refused
 
-from mrlab_ros.classroom.marks import gradebook
+from mrlab_ros.classroom.marks import changes, gradebook
 from mrlab_ros.classroom.marks.diagnostics import NO_FILE_HANDED_IN, NO_WORKSHEET
 from mrlab_ros.classroom.marks.exports import Entry, recognise
 from mrlab_ros.classroom.marks.graded import GradedClass, Student
@@ -114,6 +114,18 @@ def test_another_maximum_is_said_and_what_is_no_worksheet_refused():
     assert problems[0].values == {"found": "100", "points": 10.0}
     with refused(NO_WORKSHEET, file="s.csv", columns=["a", "b"]):
         gradebook.filled("a,b\n1,2\n", graded().students, "s.csv")
+
+
+def test_who_could_not_be_marked_is_told_why_once_and_what_a_teacher_gives():
+    student = graded().students[1]
+    why = str(NO_FILE_HANDED_IN())
+    assert gradebook.comment(student.result) == why
+    given = changes.applied(student, {"no collision": 2.0}, "See me")
+    assert gradebook.comment(given.result) == f"{why}\nno collision: 2 of 6\nSee me"
+    shown = GradedClass(RUBRIC, "folder", (given,)).document()["students"][0]
+    assert gradebook.words_of(shown) == (
+        f"2 of 10 points. {why}\n\nno collision: 2 of 6\nSee me\n"
+    )
 
 
 def test_gradescope_hides_what_is_hidden():

@@ -147,7 +147,7 @@ def test_a_file_without_a_motion_gets_nothing_and_is_told_why_once():
     assert (marks.points, marks.of, marks.note) == (0.0, 4.0, finding)
     assert {m.found.code for m in marks.tests} == {NO_MOTION_TO_MARK.code}
     assert all(m.time is None for m in marks.tests)
-    assert json.loads(json.dumps(marks.public().plain()))["hints"] == ["h1"]
+    assert json.loads(json.dumps(marks.public().plain()))["hints"] == []
 
 
 def test_a_bonus_comes_on_top_and_a_lost_one_costs_nothing():
