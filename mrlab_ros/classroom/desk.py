@@ -18,7 +18,7 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 
 from mrlab_ros.adapters.sandbox import python_process
-from mrlab_ros.adapters.workspaces.content import death
+from mrlab_ros.adapters.workspaces.content import cause
 from mrlab_ros.classroom import job
 from mrlab_ros.classroom.diagnostics import (
     CLASS_RUN_ENDED,
@@ -184,7 +184,7 @@ class Desk:
                     run.problem = from_plain(told["problem"])
             status = await process.wait()
             if not ended and run.problem is None and not run.stopped:
-                run.problem = CLASS_RUN_ENDED(why=death(status or 1))
+                run.problem = CLASS_RUN_ENDED(why=cause(status or 1))
             if ended and run.how != job.PROPOSE:
                 did = {job.FINAL: RELEASE, job.BACK: TAKE_BACK}.get(run.how, ADOPT)
                 await asyncio.to_thread(self.act, Entry(time.time(), run.who, did))

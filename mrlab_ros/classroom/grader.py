@@ -27,7 +27,7 @@ import orjson
 import mrlab_ros
 from mrlab_ros.adapters import threads
 from mrlab_ros.adapters.sandbox.warm_process import WarmProcess
-from mrlab_ros.adapters.workspaces.content import death
+from mrlab_ros.adapters.workspaces.content import cause
 from mrlab_ros.classroom import worker
 from mrlab_ros.classroom.diagnostics import (
     BACKEND_NOT_INSTALLED,
@@ -246,7 +246,7 @@ class Grader:
             return TO_REPEAT, SUBMISSION_KILLED()
         if status == -signal.SIGXCPU:
             return FAILED, SUBMISSION_ENDED(limit=bounds.time)
-        return FAILED, SUBMISSION_CRASHED(why=death(status or 1))
+        return FAILED, SUBMISSION_CRASHED(why=cause(status or 1))
 
     def _ask(self, request: Mapping[str, object]) -> int | None:
         """Return the exit status of the process that did a request, None past the time limit."""

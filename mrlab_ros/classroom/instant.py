@@ -21,7 +21,7 @@ from typing import Any
 import orjson
 
 from mrlab_ros.adapters.sandbox import python_process
-from mrlab_ros.adapters.workspaces.content import death
+from mrlab_ros.adapters.workspaces.content import cause
 from mrlab_ros.classroom import job
 from mrlab_ros.classroom.diagnostics import CLASS_RUN_ENDED
 from mrlab_ros.classroom.folder import HELD, SOURCES
@@ -71,7 +71,7 @@ class InstantChecks:
                 status = await process.wait()  # it was idle for too long, or killed: once more
                 if attempt == 2:
                     break
-            return {"problem": plain(CLASS_RUN_ENDED(why=death(status or 1)))}
+            return {"problem": plain(CLASS_RUN_ENDED(why=cause(status or 1)))}
 
     async def close(self) -> None:
         """End the process."""

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from mrlab_ros.adapters.sandbox import python_process
-from mrlab_ros.adapters.workspaces.content import death
+from mrlab_ros.adapters.workspaces.content import cause
 from mrlab_ros.classroom.diagnostics import NO_EXPORT, UNPACKING_ENDED, UNPACKING_NOT_STARTED
 from mrlab_ros.classroom.marks.exports import Entry
 from mrlab_ros.classroom.unpacking import CONTENT, LISTED, MOST_BYTES, OPENS, PROBLEM
@@ -128,8 +128,8 @@ class Export:
                 return self._connection.recv_bytes(most + 1)
         return None
 
-    def _ended(self) -> dict[str, Any]:
-        """End the process; return how it ended, as `death` does."""
+    def _ended(self) -> str:
+        """End the process; return how it ended, as `cause` does."""
         process, self._process = self._process, None
         assert process is not None
         if self._connection is not None:
@@ -138,4 +138,4 @@ class Export:
             process.wait(1.0)
         with contextlib.suppress(ProcessLookupError):
             os.killpg(process.pid, signal.SIGKILL)
-        return death(process.wait() or 1)
+        return cause(process.wait() or 1)

@@ -136,6 +136,17 @@ def death(status: int) -> dict[str, Any]:
         return {"signal": -status}
 
 
+def cause(status: int) -> str:
+    """Return how a process with this exit status ended, in a word of every language: exit 1,
+    SIGSEGV."""
+    if status > 0:
+        return f"exit {status}"
+    try:
+        return signal.Signals(-status).name
+    except ValueError:
+        return f"signal {-status}"
+
+
 def copied(source: int, most: int, name: str) -> int:
     """Copy a file into a memory file and return its descriptor.
 

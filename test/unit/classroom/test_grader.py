@@ -31,6 +31,9 @@ def test_what_ends_a_check_is_the_machines_or_the_submissions_fault(
     grader = Grader(Setup(Rubric("empty", ()), SceneDocument()), str(tmp_path))
     assert grader._lost(status)[0] == outcome
     assert grader._lost(status)[1].code == code
+    if status == -signal.SIGSEGV:
+        assert grader._lost(status)[1].values["why"] == "SIGSEGV"
+        assert grader._lost(1)[1].values["why"] == "exit 1"
     grader.close()
 
 
