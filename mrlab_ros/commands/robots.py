@@ -80,9 +80,11 @@ def list_robots(
                 "joints": len(model.joints),
             }
         )
-    tools = list(library.end_effectors())
+    sound, problems = library.sound_end_effectors()
+    tools = list(sound)
     if as_json:
-        sys.stdout.write(json.dumps({"robots": rows, "end_effectors": tools}, indent=2) + "\n")
+        found = {"robots": rows, "end_effectors": tools, "problems": plain(problems)}
+        sys.stdout.write(json.dumps(found, indent=2) + "\n")
         return
     from rich.table import Table
 
@@ -101,6 +103,7 @@ def list_robots(
     console = output.console()
     console.print(table)
     console.print(f"end effectors: {', '.join(tools)}")
+    print_findings(problems)
 
 
 @app.command()

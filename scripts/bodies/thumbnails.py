@@ -18,7 +18,8 @@ from ray_tracer import Camera, Surface, cut_out
 
 from mrlab_ros.adapters.robots import urdf
 from mrlab_ros.adapters.robots.drawing import Assembly
-from mrlab_ros.adapters.robots.library import END_EFFECTORS, RobotLibrary
+from mrlab_ros.adapters.robots.end_effectors import END_EFFECTORS
+from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.scenes.object_meshes import ObjectMeshes
 from mrlab_ros.adapters.yaml_files import read_yaml
 from mrlab_ros.core.base.geometry import Array
@@ -61,7 +62,7 @@ def pictures(library: RobotLibrary) -> Iterator[tuple[str, Path, Iterator[Surfac
 
 def end_effector(library: RobotLibrary, tool: str) -> Iterator[Surface]:
     """Yield an end effector, open."""
-    root = library.end_effector(tool)
+    root = library.end_effector(tool).root
     body = Assembly(root, tool, library.mesh_path)
     body.move({joint.name: 0.0 for joint in urdf.joints(root, tool) if joint.moves})
     for _, mesh, pose in body.meshes():

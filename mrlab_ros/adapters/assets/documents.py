@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import asdict
 from typing import Any
 
 from mrlab_ros.adapters.assets.diagnostics import MODEL_LEFT_OUT
 from mrlab_ros.adapters.assets.files import PACKAGE, THUMBNAIL, AssetFiles
 from mrlab_ros.adapters.robots import urdf
-from mrlab_ros.adapters.robots.library import END_EFFECTORS, TIP, RobotLibrary
+from mrlab_ros.adapters.robots.end_effectors import END_EFFECTORS, EndEffector
+from mrlab_ros.adapters.robots.library import TIP, RobotLibrary
 from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.bridge.assets import asset_key, key_of_uri
 from mrlab_ros.core.physics.catalogue import Catalogue, ObjectType
@@ -18,10 +20,10 @@ from mrlab_ros.core.robots.model import Joint
 def robots(library: RobotLibrary, files: AssetFiles) -> dict[str, Any]:
     """Return what assets/robots.json says: all models and end effectors.
 
-    A model that cannot be read is left out and named in `problems`.
+    A model or an end effector that cannot be read is left out and named in `problems`.
     """
-    tools = library.end_effectors()
-    found, problems = [], []
+    tools, left_out = library.sound_end_effectors()
+    found, problems = [], list(map(str, left_out))
     for robot_id in library.ids():
         try:
             found.append(_robot(library, files, robot_id, tools))
@@ -30,7 +32,7 @@ def robots(library: RobotLibrary, files: AssetFiles) -> dict[str, Any]:
             problems.append(str(MODEL_LEFT_OUT(robot=robot_id, why=why)))
     return {
         "robots": found,
-        "end_effectors": [_end_effector(library, files, tool) for tool in tools],
+        "end_effectors": [_end_effector(files, tool) for tool in tools.values()],
         "problems": problems,
     }
 
@@ -41,7 +43,7 @@ def objects(catalogue: Catalogue, files: AssetFiles) -> dict[str, Any]:
 
 
 def _robot(
-    library: RobotLibrary, files: AssetFiles, robot_id: str, tools: tuple[str, ...]
+    library: RobotLibrary, files: AssetFiles, robot_id: str, tools: Iterable[str]
 ) -> dict[str, Any]:
     model, facts = library.model(robot_id), library.facts(robot_id)
     origin = f"{robot_id}/robot.urdf"
@@ -66,15 +68,15 @@ def _robot(
     }
 
 
-def _end_effector(library: RobotLibrary, files: AssetFiles, tool: str) -> dict[str, Any]:
-    facts = library.end_effector_facts(tool)
-    joints = urdf.joints(library.end_effector(tool), tool)
+def _end_effector(files: AssetFiles, read: EndEffector) -> dict[str, Any]:
+    facts, tool = read.facts, read.facts.id
+    joints = urdf.joints(read.root, tool)
     return {
         "id": tool,
-        "name": str(facts["name"]),
-        "class": str(facts["class"]),
-        "stroke": float(facts["stroke"]),
-        "force": float(facts["force"]),
+        "name": facts.name,
+        "class": facts.kind,
+        "stroke": facts.stroke,
+        "force": facts.force,
         "joints": [
             {
                 **_joint(joint.limits(tool), joint.kind),

@@ -10,7 +10,8 @@ from pathlib import Path
 from typing import BinaryIO
 
 from mrlab_ros.adapters.diagnostics import FILE_UNREADABLE
-from mrlab_ros.adapters.robots.library import END_EFFECTORS, RobotLibrary
+from mrlab_ros.adapters.robots.end_effectors import END_EFFECTORS
+from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.assets import Described, Span, media_type
 

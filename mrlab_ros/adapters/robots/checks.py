@@ -57,14 +57,18 @@ def check_root(
 ) -> tuple[Diagnostic, ...]:
     """Return the findings on a URDF that was parsed, without its meshes; see check()."""
     joints = urdf.joints(root, origin)
+    arm = tuple(joint for joint in joints if joint.name not in hand)
+    return (*check_parts(root, origin, hand), *_check_count(arm))
+
+
+def check_parts(
+    root: ET.Element, origin: str, hand: frozenset[str] = frozenset()
+) -> tuple[Diagnostic, ...]:
+    """Return the findings on links and joints, however many of them move; as check_root()."""
+    joints = urdf.joints(root, origin)
     _check_numbers(root, origin)
     arm = tuple(joint for joint in joints if joint.name not in hand)
-    return (
-        *check_tree(root, origin),
-        *_check_count(arm),
-        *_check_joints(arm),
-        *_check_inertias(root),
-    )
+    return (*check_tree(root, origin), *_check_joints(arm), *_check_inertias(root))
 
 
 def errors(found: tuple[Diagnostic, ...]) -> tuple[Diagnostic, ...]:

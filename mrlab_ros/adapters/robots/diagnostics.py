@@ -183,6 +183,30 @@ SAME_NAMES = Code(
     "Rename them in one of the two URDFs.",
     meaning="A robot and an end effector have links or joints of the same name.",
 )
+LAB_NAMES = Code(
+    "lab_names",
+    "{file} has {names:list}, which the lab puts between a robot and its end effector.",
+    "Rename them.",
+    meaning="An end effector has a link or a joint with a name of the lab's own.",
+)
+NO_TCP = Code(
+    "no_tcp",
+    "{file} has no frame tcp; its links are {links:list}.",
+    "Add a link tcp, or one that ends in _tcp, by a fixed joint where the tool works.",
+    meaning="An end effector does not say where it works.",
+)
+FINGERS_STILL = Code(
+    "fingers_still",
+    "No joint of {file} moves, but {facts} says that fingers hold.",
+    "Give the fingers joints that move, or write gripper: cup, magnet or none.",
+    meaning="An end effector has a gripper with fingers, and no finger.",
+)
+END_EFFECTOR_LEFT_OUT = Code(
+    "end_effector_left_out",
+    "End effector '{end_effector}' is left out: {why:problem}",
+    severity=Severity.WARNING,
+    meaning="The files of an end effector are damaged; the others are listed.",
+)
 NO_MOTION_LEADS = Code(
     "no_motion_leads",
     "No motion of {robot} leads from {start:list} to {goal:list} rad ({why:problem}).",

@@ -27,17 +27,27 @@ import numpy as np
 from mrlab_ros.adapters.diagnostics import FILE_UNREADABLE
 from mrlab_ros.adapters.robots import urdf
 from mrlab_ros.adapters.robots.diagnostics import (
+    END_EFFECTOR_LEFT_OUT,
     HAND_OF_ITS_OWN,
     HOME_SIZE,
     NO_END_EFFECTOR,
     NO_ROBOT_MODEL,
     ROBOT_MESH_URI,
-    ROOT_LINKS,
     SAME_NAMES,
+)
+from mrlab_ros.adapters.robots.end_effectors import (
+    ABOVE_PLATE,
+    BELOW_PLATE,
+    END_EFFECTORS,
+    FACTS,
+    PLATE,
+    EndEffector,
+    read_folder,
 )
 from mrlab_ros.adapters.share import imported_folder
 from mrlab_ros.adapters.yaml_files import read_yaml
 from mrlab_ros.core.base.checks import bad_value
+from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.diagnostics import FIELD, ONE_OF
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.names import close_to
@@ -46,7 +56,6 @@ from mrlab_ros.core.physics.grasp.kinds import KINDS, Gripper
 from mrlab_ros.core.physics.grasp.load import Tool
 from mrlab_ros.core.robots.model import RobotModel, ShownJoint, ShownRobot
 
-END_EFFECTORS = "end_effectors"
 TIP = "tool0"
 MESH_PREFIX = "package://mrlab_ros/robots/"
 ADAPTER_THICKNESS = 0.012  # m
@@ -72,9 +81,7 @@ class RobotLibrary:
     def end_effectors(self) -> tuple[str, ...]:
         """Return the ids of the end effectors, sorted."""
         places = (folder / END_EFFECTORS for folder in (self.folder, self.imported))
-        return tuple(
-            sorted({i for place in places for i in _folders_with(place, "end_effector.yaml")})
-        )
+        return tuple(sorted({i for place in places for i in _folders_with(place, FACTS)}))
 
     def model(self, robot_id: str) -> RobotModel:
         """Return a robot model; raise BadInput that names the known ids."""
@@ -99,7 +106,7 @@ class RobotLibrary:
         if not end_effector:
             return added(text, beside)
         robot = urdf.parse(text, f"{robot_id}/robot.urdf")
-        tool = self.end_effector(end_effector)
+        tool = self.end_effector(end_effector).root
         if facts.get("hand"):
             raise BadInput(HAND_OF_ITS_OWN(robot=robot_id))
         place = f"{END_EFFECTORS}/{end_effector}"
@@ -122,14 +129,20 @@ class RobotLibrary:
         own = self.folder / place
         return own if own.is_file() else self.imported / place
 
-    def end_effector(self, end_effector: str) -> ET.Element:
-        """Return the URDF of an end effector; raise BadInput that names the known ids."""
-        path = self._end_effector_folder(end_effector) / "end_effector.urdf"
-        return urdf.parse(_read(path), str(path))
+    def end_effector(self, end_effector: str) -> EndEffector:
+        """Return an end effector; raise BadInput that names the known ids, or its mistakes."""
+        return read_folder(self._end_effector_folder(end_effector), self.mesh_path)
 
-    def end_effector_facts(self, end_effector: str) -> dict[str, Any]:
-        """Return the content of end_effector.yaml."""
-        return read_yaml(self._end_effector_folder(end_effector) / "end_effector.yaml")
+    def sound_end_effectors(self) -> tuple[dict[str, EndEffector], list[Diagnostic]]:
+        """Return the end effectors by id, and why others cannot be carried."""
+        sound, problems = {}, []
+        for tool in self.end_effectors():
+            try:
+                sound[tool] = self.end_effector(tool)
+            except BadInput as error:
+                why = error.diagnostic
+                problems.append(END_EFFECTOR_LEFT_OUT(end_effector=tool, why=why))
+        return sound, problems
 
     def gripper(self, robot_id: str, end_effector: str) -> Gripper:
         """Return how an end effector holds; empty: what the robot has of its own, if any.
@@ -137,25 +150,22 @@ class RobotLibrary:
         Raises BadInput for an unknown id, and where a file does not say a way that there is.
         """
         if end_effector:
-            said = self.end_effector_facts(end_effector).get("gripper")
-            file = f"{END_EFFECTORS}/{end_effector}/end_effector.yaml"
-        else:
-            said = self.facts(robot_id).get("gripper", kinds.FINGERS.name)
-            file = f"{robot_id}/robot.yaml"
+            return self.end_effector(end_effector).facts.gripper
+        said = self.facts(robot_id).get("gripper", kinds.FINGERS.name)
         if said not in KINDS:
-            raise bad_value(FIELD(place=file, key="gripper"), said, ONE_OF(choices=[*KINDS]))
+            what = FIELD(place=f"{robot_id}/robot.yaml", key="gripper")
+            raise bad_value(what, said, ONE_OF(choices=[*KINDS]))
         return KINDS[said]
 
     def hand_facts(self, robot_id: str, end_effector: str) -> Tool:
         """Return what is stated of a robot's hand; raise BadInput for an unknown id."""
         robot = self.facts(robot_id)
-        facts = self.end_effector_facts(end_effector) if end_effector else robot
-        return Tool(
-            float(robot.get("payload") or 0.0),
-            float(facts.get("force", 0.0)),
-            float(facts.get("lip_radius", 0.0)),
-            str(robot.get("tip_link", "")),
-        )
+        force, radius = float(robot.get("force", 0.0)), float(robot.get("lip_radius", 0.0))
+        if end_effector:
+            facts = self.end_effector(end_effector).facts
+            force, radius = facts.force, facts.lip_radius
+        payload = float(robot.get("payload") or 0.0)
+        return Tool(payload, force, radius, str(robot.get("tip_link", "")))
 
     def collision_description(self, robot_id: str, end_effector: str | None = None) -> str:
         """Return the URDF without visuals and with mesh paths in place of URIs.
@@ -272,14 +282,12 @@ def _composed(
     if both:
         raise BadInput(SAME_NAMES(robot=facts["id"], end_effector=end_effector, names=both))
     children = {joint.child for joint in urdf.joints(tool, end_effector)}
-    roots = [str(e.get("name")) for e in tool.iterfind("link") if e.get("name") not in children]
-    if len(roots) != 1:
-        raise BadInput(ROOT_LINKS(file=end_effector, links=roots))
+    (root,) = (str(e.get("name")) for e in tool.iterfind("link") if e.get("name") not in children)
     tip = facts.get("tip_link", TIP)
     radius = float(facts.get("flange_diameter", 0.063)) / 2
     robot.append(_adapter_plate(radius))
-    _fixed(robot, "tool0-adapter_plate", tip, "adapter_plate", 0.0)
-    _fixed(robot, "adapter_plate-tool", "adapter_plate", roots[0], ADAPTER_THICKNESS)
+    _fixed(robot, ABOVE_PLATE, tip, PLATE, 0.0)
+    _fixed(robot, BELOW_PLATE, PLATE, root, ADAPTER_THICKNESS)
     for element in tool:
         if element.tag in ("link", "joint"):
             robot.append(element)
@@ -297,7 +305,7 @@ def _fixed(robot: ET.Element, name: str, parent: str, child: str, z: float) -> N
 def _adapter_plate(radius: float) -> ET.Element:
     """Return a link: an aluminium disc of the flange's radius, m, with z out of the flange."""
     thickness = ADAPTER_THICKNESS
-    link = ET.Element("link", name="adapter_plate")
+    link = ET.Element("link", name=PLATE)
     inertial = ET.SubElement(link, "inertial")
     ET.SubElement(inertial, "origin", xyz=f"0 0 {thickness / 2!r}", rpy="0 0 0")
     mass = 2700 * math.pi * radius**2 * thickness

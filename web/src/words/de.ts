@@ -1703,6 +1703,7 @@ export const diagnostics: Templates = {
   empty_upload: ["'{file}' ist leer.", 'Sichere die Datei noch einmal und sende sie.'],
   empty_value: ['{what:problem} ist leer; erwartet: {expected:problem}.'],
   encrypted_file: ['Die Datei ist verschlüsselt; bitte um eine offene.'],
+  end_effector_left_out: ['Der Endeffektor {end_effector} fehlt in der Liste: {why:problem}'],
   ended_early: ['{robot} endete vor seiner letzten Zeile[: {why:problem}].'],
   endless_hold: [
     "nichts sagt, bis wann bei frame {frame:integer} gewartet wird; ergänze wait, etwa 'object cube_1 free', oder after, etwa 'kr6_1.frame 120'",
@@ -1757,6 +1758,10 @@ export const diagnostics: Templates = {
   file_unwritable: ['{file} kann nicht geschrieben werden: {why:problem}.'],
   finger_beyond: [
     'Der Finger {finger} soll auf {position:number}; erwartet wird {low:number} bis {high:number}.',
+  ],
+  fingers_still: [
+    'Kein Gelenk in {file} bewegt sich, aber {facts} sagt, dass Finger greifen.',
+    'Gib den Fingern bewegliche Gelenke, oder schreibe gripper: cup, magnet oder none.',
   ],
   finite_count: ['{count:count endliche Zahl|endliche Zahlen}'],
   finite_numbers: ['Jede Zahl muss endlich sein'],
@@ -2028,6 +2033,10 @@ export const diagnostics: Templates = {
   lab_failed_on_file: [
     "Das Labor konnte '{file}' nicht bearbeiten ({error}); an der Datei liegt es nicht.",
     'Wandle die Datei noch einmal um; wiederholt es sich, prüfe Speicher und Grenzen des Rechners.',
+  ],
+  lab_names: [
+    '{file} enthält {names:list}; so heißt, was das Labor zwischen Roboter und Endeffektor setzt.',
+    'Benenne es um.',
   ],
   lab_unconnected: [
     'Das Gateway hat keine Verbindung zum Labor.',
@@ -2589,6 +2598,10 @@ export const diagnostics: Templates = {
   ],
   no_submissions: [
     '{file} enthält keine Abgabe; erwartet wird ein Export von Moodle, ILIAS, Canvas oder Gradescope, oder ein Ordner oder eine Datei für jede Person.',
+  ],
+  no_tcp: [
+    '{file} hat keinen Frame tcp; seine Links sind {links:list}.',
+    'Füge mit einem festen Gelenk dort, wo das Werkzeug arbeitet, einen Link tcp hinzu, oder einen, der auf _tcp endet.',
   ],
   no_worksheet_given: [
     'Die Bewertungstabelle von Moodle wurde nicht abgegeben; gib sie ab, nimm die Freigabe zurück und gib noch einmal frei.',

@@ -12,9 +12,7 @@ from refusals import refused
 
 from mrlab_ros.adapters.robots.diagnostics import NO_END_EFFECTOR, NO_ROBOT_MODEL
 from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.core.base.diagnostics import ONE_OF
 from mrlab_ros.core.base.errors import BadInput
-from mrlab_ros.core.physics.grasp.kinds import KINDS
 
 ROBOTS = Path(__file__).resolve().parents[4] / "robots"
 LIBRARY = RobotLibrary(ROBOTS, ROBOTS / "none imported")
@@ -91,16 +89,10 @@ def test_unknown_ids_are_answered_with_the_known_ones() -> None:
         LIBRARY.description("ur5e", "vacuum-cups")
 
 
-def test_how_an_end_effector_holds_is_stated_in_its_file(tmp_path: Path) -> None:
+def test_how_an_end_effector_holds_is_stated_in_its_file() -> None:
     held = {tool: LIBRARY.gripper("ur5e", tool).name for tool in LIBRARY.end_effectors()}
     assert held == {
         "centric_gripper": "fingers",
         "parallel_gripper": "fingers",
         "vacuum_cup": "cup",
     }
-    folder = tmp_path / "end_effectors" / "magnet"
-    folder.mkdir(parents=True)
-    for said in ("", "gripper: glue\n"):
-        (folder / "end_effector.yaml").write_text(f"id: magnet\nclass: vacuum magnet\n{said}")
-        with refused(ONE_OF, BadInput, choices=[*KINDS]):
-            RobotLibrary(tmp_path, tmp_path).gripper("ur5e", "magnet")
