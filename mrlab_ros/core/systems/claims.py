@@ -39,6 +39,9 @@ class Claims:
             loads = _other_trajectories(members, before)
             self._take(members, before, loads)
             self._timeline.check_waits()
+            for member in members:
+                if member.robot not in loads and before[member.robot].state is State.COLLISION_HALT:
+                    member.playback_state = State.COLLISION_HALT
         except LabError as error:
             self._undo(robots, {robot: before[robot] for robot in loads}, error)
             raise

@@ -31,12 +31,14 @@ class RobotSystem(SystemExecution):
         self._timeline.check_waits()
 
     def prepare(self) -> None:
-        """Claim and load every member.
+        """Claim and load every member; one that is halted halts the system.
 
         Raises LabError where one cannot be had; every robot is then as it was before.
         """
         self._claims.prepare()
         self._timeline.lay_out()
+        for member in self._timeline:
+            self._return_halted(member.robot, member.playback_state)
 
     def come_back(self, now_ns: int, position: float, rate: float) -> None:
         """Stand PAUSED at `position` (s) after a restart of the coordinator.
@@ -324,9 +326,12 @@ class RobotSystem(SystemExecution):
             at = self.clock.position
             self.message = say.MEMBERS_BACK(robots=self._down, position=at)
             self._down = []
+        self._return_halted(member.robot, state)
+
+    def _return_halted(self, robot: str, state: State) -> None:
         if state is State.COLLISION_HALT and self._machine.can(SystemEvent.RETURN_HALTED):
             self._machine.fire(SystemEvent.RETURN_HALTED)
-            self.message = say.STILL_COLLIDES(robot=member.robot)
+            self.message = say.STILL_COLLIDES(robot=robot)
 
 
 def _stopped_by_itself(member: Member, position: float) -> bool:

@@ -492,6 +492,21 @@ def test_a_member_that_comes_back_in_a_halt_halts_the_system():
     assert world.system.state is SystemState.PAUSED
 
 
+def test_a_system_of_a_robot_that_is_halted_begins_in_the_halt():
+    world = playing(make(TWO), 0.3)
+    world.playbacks["a"].collide(world.now, TOUCHES)
+    world.report()
+    # A member left, which ended the system; it is made again.
+    world.system = RobotSystem("cell", [Member("a"), Member("b")], world)
+    world.system.prepare()
+    assert world.system.state is SystemState.COLLISION_HALT
+    assert said(world) == ("still_collides", {"robot": "a"})
+    world.playbacks["a"].clear(world.now)
+    world.report()
+    assert world.system.state is SystemState.PAUSED
+    world.play_to_the_end()
+
+
 def test_a_stop_that_does_not_reach_a_member_is_repeated_until_it_does():
     world = playing(make(TWO))
     world.frozen = {"b"}
