@@ -140,7 +140,12 @@ def plan_undo(act: Act, present: Present) -> tuple[tuple[Step, ...], tuple[str, 
     # What a robot let go of lies in the scene; all else was taken out of it.
     names, ours = ({robot.name for robot in each} for each in (lost.robots, robots))
     held = tuple(thing for thing in lost.objects if thing.held_by in ours)
-    fallen = tuple(thing for thing in held if present.objects.get(thing.name) == "")
+    # A robot that is away holds nothing, even where physics has not noticed yet.
+    holder = {
+        name: "" if robot in names - present.robots else robot
+        for name, robot in present.objects.items()
+    }
+    fallen = tuple(thing for thing in held if holder.get(thing.name) == "")
     out = tuple(
         thing if thing.held_by in there else replace(thing, held_by="")
         for thing in lost.objects
@@ -148,7 +153,7 @@ def plan_undo(act: Act, present: Present) -> tuple[tuple[Step, ...], tuple[str, 
     )
     back = ours | {s.name for s in systems}
     back |= {thing.name for thing in (*fallen, *out)}
-    back |= {thing.name for thing in held if present.objects.get(thing.name) == thing.held_by}
+    back |= {thing.name for thing in held if holder.get(thing.name) == thing.held_by}
     wanted = [r.name for r in lost.robots] + [thing.name for thing in lost.objects]
     wanted += [s.name for s in lost.systems]
     new = tuple(thing for thing in out if thing.name not in present.objects)

@@ -40,8 +40,9 @@ class Claims:
             self._take(members, before, loads)
             self._timeline.check_waits()
             for member in members:
-                if member.robot not in loads and before[member.robot].state is State.COLLISION_HALT:
-                    member.playback_state = State.COLLISION_HALT
+                found = before[member.robot].state
+                if member.robot not in loads and found is State.COLLISION_HALT:
+                    member.playback_state = found
         except LabError as error:
             self._undo(robots, {robot: before[robot] for robot in loads}, error)
             raise

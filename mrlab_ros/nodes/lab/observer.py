@@ -96,6 +96,11 @@ class Observer:
         with self._lock:
             return None if self._systems is None else tuple(self._systems.systems)
 
+    def manned(self, robots: Collection[str]) -> bool:
+        """Return whether one of the robots is a member of a system."""
+        members = {member.robot for system in self.systems or () for member in system.members}
+        return not members.isdisjoint(robots) and self.published(["/systems"])
+
     def published(self, topics: Collection[str]) -> bool:
         """Return whether somebody publishes one of the topics."""
         return any(map(self._node.count_publishers, topics))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, Protocol
@@ -189,12 +189,18 @@ class LabRestore:
 
     def _remove(self, names: Sequence[str]) -> None:
         self._robots.remove(names)
-        # A robot of the same name must get a new playback and a new arm in physics.
+        self.await_leaving(names)
+
+    def await_leaving(self, names: Collection[str]) -> None:
+        """Wait until playback, physics and systems have let go of robots that were removed.
+
+        A robot of the same name must get a new playback and a new arm in physics.
+        """
         topics = [
             f"/{name}/{topic}" for name in names for topic in ("playback_state", "collision")
         ]
         self._wait_for(
-            lambda: not self._observer.published(topics),
+            lambda: not self._observer.published(topics) and not self._observer.manned(names),
             ARRIVAL_TIMEOUT_S,
             ROBOTS_STAY,
             robots=[*names],

@@ -116,6 +116,7 @@ class Undo:
         """
         with self._lock:
             act = self._acts.find(id, time.monotonic())
+        self._restore.await_leaving({robot.name for robot in act.lost.robots} - self._robots())
         present = scenes.present(self._robots())
         steps, missing = plan_undo(act, present)
         not_back = NOT_BACK(names=[*missing]) if missing else None
