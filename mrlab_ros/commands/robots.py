@@ -378,7 +378,7 @@ def _face(tool: str, lip: str, force: float) -> Face | None:
     pulling = [kind.name for kind in KINDS.values() if kind.pulls]
     if tool not in pulling:
         raise bad_value("--tool", tool, ONE_OF(choices=pulling))
-    return Face(tool, force, metres(lip, "--lip"))
+    return Face(tool, force, metres(lip, "lip"))
 
 
 @app.command()

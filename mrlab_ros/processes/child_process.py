@@ -219,8 +219,8 @@ class Child:
         self._thread.join(max(timeout, 0.0))
         return not self._thread.is_alive()
 
-    def _enter(self, phase: Phase) -> None:
-        self._phase, self._since = phase, time.time()
+    def _enter(self, phase: Phase, since: float | None = None) -> None:
+        self._phase, self._since = phase, time.time() if since is None else since
         self._changed()
 
     def _goes_down(self, phase: Phase) -> None:
@@ -327,6 +327,7 @@ class Child:
         it, and when it runs again.
         """
         changes = os.WSTOPPED | os.WCONTINUED
+        running_since = self._since
         while True:
             found = os.waitid(os.P_PID, pid, os.WEXITED | os.WNOWAIT | changes)
             if found is not None and found.si_code == os.CLD_EXITED:
@@ -336,9 +337,12 @@ class Child:
             # Take this change, or a newer one, so that it is not reported again.
             found = os.waitid(os.P_PID, pid, changes | os.WNOHANG)
             if found is not None and found.si_code == os.CLD_STOPPED:
+                if self._phase is Phase.RUNNING:
+                    running_since = self._since
                 self._goes_down(Phase.FROZEN)
             elif found is not None and found.si_code == os.CLD_CONTINUED:
-                self._enter(Phase.RUNNING)
+                # It has run since its start, not since this freeze.
+                self._enter(Phase.RUNNING, running_since)
 
     def _read(self, stream: IO[bytes]) -> None:
         repeated = RepeatedLines()

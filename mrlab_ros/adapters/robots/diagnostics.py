@@ -325,9 +325,21 @@ XACRO_NO_WALL = Code(
     "Where you trust it, expand it yourself and import what comes out: xacro {file} > {plain}",
     meaning="A xacro from outside is expanded in a confined process only.",
 )
+XACRO_NO_ARGUMENT = Code(
+    "xacro_no_argument",
+    "{file} has no argument {arguments:list}[; it has {known:list}].",
+    "[Did you mean '{close}'?]",
+    meaning="An argument was given that a xacro does not use; the robot would be another one.",
+)
+UNBOUND_PREFIX = Code(
+    "unbound_prefix",
+    "{file} uses the prefix {prefix} in line {line:integer} and does not declare it.",
+    'Write xmlns:{prefix}="{uri}" into its <robot>.',
+    meaning="A prefix of an XML file stands for a namespace that the file must name.",
+)
 XACRO_REFUSED = Code(
     "xacro_refused",
-    "{file}: xacro says: {why:problem}.[ The arguments of the file are {arguments}.]",
+    "{file}: xacro says: {why:problem}.[ The arguments of the file are {arguments:list}.]",
     "{hint:choice package=Give the folder of the package that it names.|folder=A xacro reads what "
     "lies beside it and in its packages; give the folder of the package that it "
     "needs.|argument=Give what it asks for, as NAME:=VALUE.|file=Correct the file.}",

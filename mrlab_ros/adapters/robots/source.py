@@ -8,11 +8,13 @@ import xml.etree.ElementTree as ET
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from xml.parsers.expat import errors
 
 from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
 
 from mrlab_ros.adapters import installed
 from mrlab_ros.adapters.diagnostics import FILE_UNREADABLE, NOT_UTF8
+from mrlab_ros.adapters.robots import urdf
 from mrlab_ros.adapters.robots.diagnostics import (
     BAD_XACRO_ARGUMENT,
     MESH_NO_FILE,
@@ -22,6 +24,7 @@ from mrlab_ros.adapters.robots.diagnostics import (
     NO_XACRO,
     PACKAGE_DESCRIPTIONS,
     PACKAGE_NO_FILE,
+    UNBOUND_PREFIX,
     URDF_TOO_LARGE,
     XACRO_NO_WALL,
 )
@@ -32,6 +35,8 @@ from mrlab_ros.core.base.errors import BadInput
 SUFFIXES = (".urdf", ".xacro")
 XACRO_ELEMENT = "<xacro:"
 MOST_BYTES = 64 << 20  # of a URDF
+XACRO = "http://www.ros.org/wiki/xacro"
+UNBOUND = errors.codes[errors.XML_ERROR_UNBOUND_PREFIX]
 OTHERS = 0o077  # what the mode of a file or folder gives to others than its owner
 
 
@@ -114,6 +119,7 @@ def description_text(
                 raise BadInput(NO_XACRO(file=path.name, arguments=[*arguments]))
             return plain_text
     given = dict(_argument(text) for text in arguments)
+    _check_prefixes(path)
     if not all(restrictions.layers().values()):
         plain = f"{path.stem.removesuffix('.urdf')}.urdf"
         raise BadInput(XACRO_NO_WALL(file=path.name, plain=plain))
@@ -130,6 +136,24 @@ def description_text(
     for name, folder in packages.items():
         text = text.replace(f"{prefix}/share/{name}/", f"{folder.resolve()}/")
     return text
+
+
+def _check_prefixes(path: Path) -> None:
+    """Raise BadInput where a xacro uses a prefix that it does not declare."""
+    try:
+        text = path.read_text(encoding="utf-8")
+        if "<!DOCTYPE" not in text and "<!ENTITY" not in text:
+            ET.fromstring(text)
+    except (OSError, UnicodeDecodeError):
+        pass  # xacro says so
+    except ET.ParseError as error:
+        line = error.position[0]
+        here = urdf.PREFIX.findall(text.splitlines()[line - 1])
+        unbound = [name for name in here if name not in urdf.DECLARED.findall(text)]
+        if error.code == UNBOUND and unbound:
+            uri = XACRO if unbound[0] == "xacro" else unbound[0]
+            found = UNBOUND_PREFIX(file=path.name, prefix=unbound[0], line=line, uri=uri)
+            raise BadInput(found) from None
 
 
 class MeshFinder:

@@ -80,7 +80,10 @@ def _ends_halt(robot: Mapping[str, Any]) -> str:
 def _died_lately(process: Mapping[str, Any]) -> str:
     """Return what is said of a process that froze, or ended a short while ago; empty: nothing."""
     name, age = process["name"], time.time() - process["since"]
-    at = time.strftime("%H:%M:%S", time.localtime(process["down"]))
+    down = process["down"]
+    if process["phase"] == Phase.RUNNING.value:
+        down = min(down, process["since"])  # it froze later, and runs again
+    at = time.strftime("%H:%M:%S", time.localtime(down))
     if process["phase"] == Phase.FROZEN.value:
         return f"{name} does not run since {at}: a signal stopped it"
     how = f" ({process['last_exit']})" if process["last_exit"] else ""

@@ -2699,6 +2699,10 @@ export const diagnostics: Templates = {
   torn_off: [
     '{other} hat {object} aus den geschlossenen Fingern von {robot} gerissen: Es glitt {way:length} gegen {force:number} N, und {other} hält es mit einer Reserve von {margin:share}.',
   ],
+  unbound_prefix: [
+    '{file} benutzt in Zeile {line:integer} das Präfix {prefix}, ohne es zu deklarieren.',
+    'Schreibe xmlns:{prefix}="{uri}" in sein <robot>.',
+  ],
   undone: ['Zurückgenommen: {act:problem}[\n{missing:problem}]'],
   undone_in_part: [
     'Nur zum Teil zurückgenommen: {why:problem}. Nimm es noch einmal zurück.[\nErledigt:{done:problems}][\nNicht versucht:{rest:problems}]',
@@ -4320,12 +4324,16 @@ export const diagnostics: Templates = {
   wrong_value_count: [
     '{what:choice positions=Positionen|velocities=Geschwindigkeiten|accelerations=Beschleunigungen}[ an Punkt {point:integer}]: {found:integer}; erwartet werden {expected:integer}, je Gelenk ein Wert.',
   ],
+  xacro_no_argument: [
+    '{file} hat kein Argument {arguments:list}[; es hat {known:list}].',
+    "[Meintest du '{close}'?]",
+  ],
   xacro_no_wall: [
     '{file} ist eine xacro-Datei, also ein Programm, und der Kernel hier kann sie nicht einsperren (erwartet werden Landlock und seccomp).',
     'Vertraust du ihr, wandle sie selbst um, und importiere das Ergebnis: xacro {file} > {plain}',
   ],
   xacro_refused: [
-    '{file}: xacro meldet: {why:problem}.[ Die Argumente der Datei sind {arguments}.]',
+    '{file}: xacro meldet: {why:problem}.[ Die Argumente der Datei sind {arguments:list}.]',
     '{hint:choice package=Gib den Ordner des Pakets an, das sie nennt.|folder=Eine xacro-Datei liest, was neben ihr und in ihren Paketen liegt; gib den Ordner des Pakets an, das sie braucht.|argument=Gib an, wonach sie fragt, als NAME:=WERT.|file=Berichtige die Datei.}',
   ],
   yaml_alias: [

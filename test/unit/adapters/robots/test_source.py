@@ -10,7 +10,12 @@ from pathlib import Path
 import pytest
 from refusals import refused
 
-from mrlab_ros.adapters.robots.diagnostics import XACRO_NO_WALL, XACRO_REFUSED
+from mrlab_ros.adapters.robots.diagnostics import (
+    UNBOUND_PREFIX,
+    XACRO_NO_ARGUMENT,
+    XACRO_NO_WALL,
+    XACRO_REFUSED,
+)
 from mrlab_ros.adapters.robots.source import description_text
 from mrlab_ros.adapters.sandbox import restrictions
 from mrlab_ros.core.base.errors import BadInput
@@ -36,7 +41,8 @@ def folder(tmp_path: Path) -> Path:
 def expanded(folder: Path, content: str, **packages: Path) -> str:
     path = folder / "r.urdf.xacro"
     path.write_text(XACRO.format(content))
-    return description_text(path, packages, ["word:=given"])
+    arguments = ["word:=given"] * ('name="word"' in content)
+    return description_text(path, packages, arguments)
 
 
 def test_a_xacro_takes_files_beside_it_and_of_its_packages(folder: Path) -> None:
@@ -99,6 +105,38 @@ def test_a_xacro_that_lacks_an_argument_names_those_it_has_with_their_defaults(
 ) -> None:
     with refused(XACRO_REFUSED, BadInput, hint="argument", arguments=["hand:=true"]):
         expanded(folder, '<xacro:arg name="hand" default="true"/><link name="$(arg arm_id)"/>')
+
+
+def test_an_argument_that_a_xacro_does_not_have_is_refused(folder: Path) -> None:
+    (folder / "part.xacro").write_text(
+        XACRO.format('<xacro:arg name="word" default="1"/>' + LINK.format("$(arg word)"))
+    )
+    path = folder / "r.urdf.xacro"
+    path.write_text(
+        XACRO.format(
+            '<xacro:arg name="length" default="1"/><xacro:include filename="part.xacro"/>'
+        )
+    )
+    assert 'name="2"' in description_text(path, {}, ["word:=2", "length:=3"])
+    said = {"arguments": ["lenght"], "known": ["length", "word"], "close": "length"}
+    with refused(XACRO_NO_ARGUMENT, BadInput, **said):
+        description_text(path, {}, ["word:=2", "lenght:=3"])
+
+
+@pytest.mark.parametrize(("prefix", "line"), [("xacro", 2), ("sensor", 3)])
+def test_a_prefix_that_is_not_declared_is_named_with_the_line_that_mends_it(
+    folder: Path, prefix: str, line: int
+) -> None:
+    path = folder / "r.urdf.xacro"
+    path.write_text(f'<robot name="r">{chr(10) * (line - 1)}<{prefix}:a name="b"/></robot>')
+    uri = "http://www.ros.org/wiki/xacro" if prefix == "xacro" else prefix
+    with refused(UNBOUND_PREFIX, BadInput, prefix=prefix, line=line, uri=uri):
+        description_text(path, {})
+
+
+def test_a_package_that_is_not_there_is_named_without_where_it_was_sought(folder: Path) -> None:
+    with refused(XACRO_REFUSED, BadInput, hint="package", why="package 'nobody' not found"):
+        expanded(folder, '<xacro:include filename="$(find nobody)/a.xacro"/>')
 
 
 @pytest.mark.parametrize(

@@ -22,8 +22,11 @@ DOWN = 1_700_000_000.0
 AT = time.strftime("%H:%M:%S", time.localtime(DOWN))
 
 
-def shown(trouble: Diagnostic | None, phase: str) -> str:
-    """Return the overview of a lab whose playback was restarted 3 s ago, and says it or not."""
+def shown(trouble: Diagnostic | None, phase: str, *, down: float = DOWN) -> str:
+    """Return the overview of a lab whose playback was restarted 3 s ago, and says it or not.
+
+    down: when it ended or froze last.
+    """
     process = {
         "name": "playback",
         "pid": 1,
@@ -31,7 +34,7 @@ def shown(trouble: Diagnostic | None, phase: str) -> str:
         "since": time.time() - 3.0,
         "restarts": 1,
         "last_exit": "SIGKILL",
-        "down": DOWN,
+        "down": down,
         "restart_in": 5.0,
     }
     facts = {
@@ -76,6 +79,13 @@ def test_what_else_is_amiss_with_a_process_that_died_before_is_said_too(trouble)
     text = shown(trouble, "running")
     assert f"playback died at {AT} (SIGKILL); running for 3 s" in text
     assert str(trouble) in text
+
+
+def test_a_freeze_after_a_death_is_not_when_it_died():
+    freeze = time.time() + 5000.0
+    text = shown(None, "running", down=freeze)
+    assert text.count("playback died at") == 1
+    assert time.strftime("%H:%M:%S", time.localtime(freeze)) not in text
 
 
 def test_a_process_that_a_signal_stopped_is_named():
