@@ -141,8 +141,8 @@ def marked(request: Request) -> tuple[GradedClass, Path | None, list[Diagnostic]
     """Mark a class and write its folder; return it, the file that says who is who, and what its
     teacher has to know. Raises LabError."""
     rubric = request.setup.rubric
-    folder = ResultsFolder(request.out)
-    with folder.alone(), Export(request.source) as export:
+    # What cannot be read leaves no folder.
+    with Export(request.source) as export, (folder := ResultsFolder(request.out)).alone():
         roster = recognise(
             export.entries,
             (*SUFFIXES, *CELLS),

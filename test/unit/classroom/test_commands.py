@@ -278,6 +278,7 @@ def test_pseudonyms_hide_names_of_damaged_archives_links_and_cells(tmp_path):
 def test_what_cannot_be_marked_ends_with_2_and_a_code(words, code, values):
     with command_refuses(commands, code, **values):
         assert grade(*words).exit_code == 2
+    assert not list(RUBRIC.parent.glob("*-marked"))
 
 
 RUDE = """
