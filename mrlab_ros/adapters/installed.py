@@ -22,7 +22,7 @@ def packages() -> list[Path]:
 
 
 def _places(share: Path) -> set[Path]:
-    """Return a package's share folder, and where its links lead.
+    """Return a package's share folder, and where its links lead, as far as something is there.
 
     Never a source tree as a whole: in it lies what is not installed, such as keys.
     """
@@ -43,7 +43,8 @@ def _places(share: Path) -> set[Path]:
             alone = folder == tree or os.path.isdir(end)
             found.add(Path(end).resolve() if alone else folder)
         found -= {tree, *tree.parents}
-    return found
+    # A file that left the source tree since it was built leaves a link to nothing.
+    return {place for place in found if place.exists()}
 
 
 def _end(path: str) -> str:

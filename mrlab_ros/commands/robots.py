@@ -31,7 +31,7 @@ from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.foreign_text import for_shell
 
 if TYPE_CHECKING:
-    from mrlab_ros.adapters.robots.importing import Face
+    from mrlab_ros.adapters.robots.importing.robot import Face
     from mrlab_ros.adapters.robots.library import RobotLibrary
 
 app = typer.Typer(
@@ -300,10 +300,11 @@ def import_robot(
     The arm and the hand are told apart: the motion's columns are the arm's joints, and one more
     column opens and closes the hand. The sheet that is printed says what was understood.
     """
-    from mrlab_ros.adapters.robots import checks, importing
-    from mrlab_ros.adapters.robots.diagnostics import ARMS_BRANCH
+    from mrlab_ros.adapters.robots import checks
+    from mrlab_ros.adapters.robots.importing.diagnostics import ARMS_BRANCH
+    from mrlab_ros.adapters.robots.importing.robot import import_robot as taken_in
+    from mrlab_ros.adapters.robots.importing.source import find_description
     from mrlab_ros.adapters.robots.sheet import checked_format
-    from mrlab_ros.adapters.robots.source import find_description
 
     if sheet is not None:
         checked_format(sheet)
@@ -311,7 +312,7 @@ def import_robot(
     library = _library()
     wanted = robot_id or path.name.split(".")[0].lower().replace("-", "_")
     try:
-        imported = importing.import_robot(
+        imported = taken_in(
             path,
             wanted,
             library,
@@ -367,7 +368,7 @@ def import_robot(
 
 def _face(tool: str, lip: str, force: float) -> Face | None:
     """Return what --tool, --lip and --force say; None without --tool."""
-    from mrlab_ros.adapters.robots.importing import Face
+    from mrlab_ros.adapters.robots.importing.robot import Face
     from mrlab_ros.commands.check.command import metres
     from mrlab_ros.core.base.checks import bad_value
     from mrlab_ros.core.base.diagnostics import ONE_OF
@@ -446,7 +447,7 @@ def meshes(
     and packed for pages and headsets.
     """
     from mrlab_ros.adapters.robots import checks, vendor_meshes
-    from mrlab_ros.adapters.robots.source import find_description
+    from mrlab_ros.adapters.robots.importing.source import find_description
 
     library = _library()
     if not source:

@@ -28,8 +28,8 @@ SAMPLES: dict[str, Any] = {
     "bytes": 1536000,
     "state": "PLAYING",
 }
-# Rooms whose texts reach a terminal only.
-TERMINAL = "mrlab_ros.commands"
+# Rooms whose texts reach terminals and programs only.
+TERMINAL = ("mrlab_ros.adapters.robots.importing", "mrlab_ros.client", "mrlab_ros.commands")
 
 
 def tables(root: Path) -> dict[str, dict[str, Code]]:

@@ -20,7 +20,7 @@ def lab(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
 
 
 def rod_after_the_hand_over() -> dict[str, Any]:
-    assert "Loaded handover: 2 robots, 1 object," in done("scene", "load", "handover")
+    done("scene", "load", "handover")
     done("system", "create", str(CELL))
     assert "handover: PLAYING" in done("system", "play", "handover")
     (rod,) = json.loads(done("objects", "list", "--json"))

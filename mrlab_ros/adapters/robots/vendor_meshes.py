@@ -22,8 +22,12 @@ from mrlab_ros.adapters.robots.diagnostics import (
     ROBOT_FRAME,
 )
 from mrlab_ros.adapters.robots.drawing import Assembly
+from mrlab_ros.adapters.robots.importing.source import (
+    MeshFinder,
+    description_text,
+    packages_around,
+)
 from mrlab_ros.adapters.robots.library import MESH_PREFIX, RobotLibrary
-from mrlab_ros.adapters.robots.source import MeshFinder, description_text, packages_around
 from mrlab_ros.adapters.robots.vendor_sources import NOTICE, TEXTS, Clone, Pinned
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.errors import BadInput

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from refusals import refused
 
-from mrlab_ros.adapters.robots.diagnostics import ARMS_BRANCH
+from mrlab_ros.adapters.robots.importing.diagnostics import ARMS_BRANCH
 from mrlab_ros.commands import robots
 
 

@@ -1102,14 +1102,6 @@ export const diagnostics: Templates = {
     'sie hat {count:count Element|Elemente} und die Trajektorie {rows:count Zeile|Zeilen}',
   ],
   appeared: ['{name} ist hinzugekommen'],
-  arm_mimics: [
-    "{file}: Das Gelenk '{joint}' des Arms folgt '{other}' (mimic); jedes Gelenk eines Arms braucht eine eigene Spalte der Bewegung.",
-    'Mach es angetrieben oder fest.',
-  ],
-  arms_branch: [
-    "{file}: Am Glied '{link}' beginnen Ketten von {first:integer} und {second:integer} Gelenken; das Labor bewegt nur einen Arm.",
-    'Nenne das letzte Glied des Arms, etwa {tip}.',
-  ],
   array_rate: [
     'fs ist {found} und damit keine Rate.',
     'Erwartet wird eine Zahl von Hz über 0, oder die Zeit jeder der {rows:count Zeile|Zeilen} in s.',
@@ -1164,7 +1156,6 @@ export const diagnostics: Templates = {
     'eine Nachricht ist nicht vom Typ {type} ({problem})',
     'Hole eine Kopie des Bags zurück.',
   ],
-  bad_base_place: ['at ist {found}; erwartet werden x und y in m, etwa (1.0, 0.5).'],
   bad_body: [
     'Ein Körper hat die Masse {mass:mass} und {parts:count Teil|Teile}; erwartet werden eine Masse von mindestens 0 und mindestens ein Teil.',
   ],
@@ -1256,9 +1247,6 @@ export const diagnostics: Templates = {
   bad_request_field: [
     '{field} ist {found}; erwartet wird {expected:choice number=eine Zahl|integer=eine ganze Zahl|boolean=True oder False|text=ein Text}.',
   ],
-  bad_robot_id: [
-    "Die Kennung ist '{robot}'; erwartet werden Kleinbuchstaben, Ziffern und _, etwa my_robot.",
-  ],
   bad_ros_arguments: [
     "ROS nimmt die Befehlszeile nicht an: {why}. Erwartet werden Argumente, wie ROS sie hat, etwa eine Parameterdatei oder ein Parameter lab:robots:='[[ur5e]]'.",
   ],
@@ -1308,9 +1296,6 @@ export const diagnostics: Templates = {
   ],
   bad_wait: [
     "'{wait}' ist keine Wartebedingung; erwartet wird 'frame 0: after kr6_1.frame 120', 'frame 200: object cube_1 held by ur5e_1' oder 'frame 310: object cube_1 free'.",
-  ],
-  bad_xacro_argument: [
-    "Das Argument ist '{argument}'; erwartet wird NAME:=WERT, wie xacro es nimmt.",
   ],
   bad_zenoh_file: [
     'Zenoh nimmt {file} nicht an: {why:problem}.',
@@ -1653,9 +1638,6 @@ export const diagnostics: Templates = {
     '{file} legt einen Dokumenttyp fest, den eine URDF nicht braucht.',
     'Entferne die Zeilen <!DOCTYPE ...> und <!ENTITY ...>.',
   ],
-  does_not_move: [
-    '{robot} hat das Abspielen angenommen, bewegt sich aber auch nach {timeout:time} nicht.',
-  ],
   domain_taken: [
     'In der ROS-Domain {domain:integer} läuft schon ein Labor[ (Prozess {pid:integer})].',
     'Nimm dieses, beende es, oder setze ROS_DOMAIN_ID auf eine andere Zahl.',
@@ -1704,7 +1686,6 @@ export const diagnostics: Templates = {
   empty_value: ['{what:problem} ist leer; erwartet: {expected:problem}.'],
   encrypted_file: ['Die Datei ist verschlüsselt; bitte um eine offene.'],
   end_effector_left_out: ['Der Endeffektor {end_effector} fehlt in der Liste: {why:problem}'],
-  ended_early: ['{robot} endete vor seiner letzten Zeile[: {why:problem}].'],
   endless_hold: [
     "nichts sagt, bis wann bei frame {frame:integer} gewartet wird; ergänze wait, etwa 'object cube_1 free', oder after, etwa 'kr6_1.frame 120'",
   ],
@@ -1873,18 +1854,7 @@ export const diagnostics: Templates = {
     'Die Spalte des Greifers ist durchweg {value:number}; das heißt weder offen noch geschlossen, und der Greifer bleibt offen.',
     'Sichere 0 für offen und 1 für geschlossen. Ist die Spalte ein Gelenk, wähle einen Roboter, der es hat, oder nimm nur die Gelenke.',
   ],
-  halted: [
-    '{robot} wurde durch eine Kollision angehalten[: {why:problem}].',
-    'Stoppe ihn; das bringt den Arm zur ersten Zeile zurück. Damit es nicht wieder geschieht, stell den Roboter anders auf, oder nimm weg, was er berührt. Dann spiele weiter.',
-  ],
   halted_by_contact: ['[{held} in der Hand des Roboters][{link}] berührt {other}'],
-  hand_limits: [
-    "{file}: Das Gelenk '{joint}' der Hand hat die Grenzen {lower:number} bis {upper:number}; erwartet wird ein Bereich zwischen offen und geschlossen.",
-    'Ergänze <limit lower= upper=>, oder mach das Gelenk fest.',
-  ],
-  hand_mimics: [
-    "{file}: Das Gelenk '{joint}' folgt '{other}' (mimic), das zu keinem angetriebenen Gelenk der Hand führt; erwartet wird eines, das selbst keinem folgt.",
-  ],
   handed_in_late: [
     '{days:count Tag|Tage} zu spät abgegeben: {share:share} der Punkte sind abgezogen.',
   ],
@@ -2241,10 +2211,7 @@ export const diagnostics: Templates = {
     'Halte an, ändere dann die Richtung und spiele ab.',
   ],
   members_silent: ['[keine Antwort von {robots:list}; ]Abspielen macht hier weiter'],
-  mesh_no_file: ['{mesh} bezeichnet keine Datei: {why:problem}.'],
-  mesh_no_package: ["Das Paket '{package}' des Netzes {mesh} ist nicht installiert."],
   mesh_no_vertex: ['Die Dreiecke eines Netzes nennen Eckpunkte, die es nicht hat.'],
-  mesh_outside: ['{mesh} ist {path}; das liegt weder neben der Beschreibung noch in einem Paket.'],
   mesh_vertex_nowhere: ['ein Eckpunkt ist nicht endlich'],
   mesh_without_triangles: ['es enthält keine Dreiecke'],
   message_too_large: ['Eine Nachricht auf {topic} ist größer als {limit:bytes}.'],
@@ -2342,10 +2309,6 @@ export const diagnostics: Templates = {
     'Setze ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST für ein Labor auf einem einzigen Rechner, oder erlaube in der Firewall UDP-Multicast an {group}.',
   ],
   multicast_works: ['Multicast: Knoten finden einander darüber'],
-  name_a_robot: [
-    'Welcher Roboter gemeint ist, steht nicht da; das Labor hat {robots:list}.',
-    'Nenne einen davon.',
-  ],
   name_leads_out: ['Der Name führt aus dem Archiv hinaus; die Datei wird nicht gelesen.'],
   name_of_another_model: [
     "'{id}' ist schon eine Trajektorie von {there}, und diese ist für {robot_model}.",
@@ -2427,10 +2390,6 @@ export const diagnostics: Templates = {
     '{service} hat nicht innerhalb von {timeout:time} geantwortet.',
     'Versuche es noch einmal.',
   ],
-  no_arm_there: [
-    "{file}: Bevor sich die Ketten am Glied '{link}' teilen, bewegt sich kein Gelenk, wie bei einem Greifer oder einem Fahrzeug.",
-    'Importiere einen Arm, oder nenne sein letztes Glied.',
-  ],
   no_course: ['Noch ist kein Kurs verbunden.', 'Öffne das Labor als Lehrperson aus dem Kurs.'],
   no_landlock: [
     'Sandbox für fremde Dateien: Der Kernel hat kein Landlock; ein Leser von Bags, Meshes oder Abgaben kann jede Datei dieses Benutzers öffnen, und ein Xacro wird abgelehnt',
@@ -2474,10 +2433,6 @@ export const diagnostics: Templates = {
   ],
   no_column: ['sie ist {size}, wo eine einzelne Spalte erwartet wird'],
   no_coordinator_runs: ['Es läuft kein Koordinator; die Systeme der Szene brauchen ihn.'],
-  no_description: [
-    "'{source}' ist weder eine Datei noch ein installiertes ROS-Paket.",
-    'Gib den Pfad einer URDF oder einer xacro-Datei an.',
-  ],
   no_device: ['So ein Gerät gibt es nicht.', 'Vielleicht hat es sich abgemeldet.'],
   no_device_shows: [
     'Kein Gerät zeigt den Code {shown}.',
@@ -2699,10 +2654,6 @@ export const diagnostics: Templates = {
   torn_off: [
     '{other} hat {object} aus den geschlossenen Fingern von {robot} gerissen: Es glitt {way:length} gegen {force:number} N, und {other} hält es mit einer Reserve von {margin:share}.',
   ],
-  unbound_prefix: [
-    '{file} benutzt in Zeile {line:integer} das Präfix {prefix}, ohne es zu deklarieren.',
-    'Schreibe xmlns:{prefix}="{uri}" in sein <robot>.',
-  ],
   undone: ['Zurückgenommen: {act:problem}[\n{missing:problem}]'],
   undone_in_part: [
     'Nur zum Teil zurückgenommen: {why:problem}. Nimm es noch einmal zurück.[\nErledigt:{done:problems}][\nNicht versucht:{rest:problems}]',
@@ -2819,10 +2770,6 @@ export const diagnostics: Templates = {
     "Kein Glied von {file}, das ein Netz hat[ ({meshed:list})], ist ein Glied von '{robot}' ({links:list}).",
     'Gib eine URDF ohne Präfix an.',
   ],
-  no_single_bag: [
-    '{folder} enthält {found:integer} aufgenommene Dateien; erwartet wird eine.',
-    'Nenne die Datei selbst.',
-  ],
   no_speed: [
     'Die Geschwindigkeit {found:list} von {object} ist keine; erwartet werden Werte in m/s und rad/s.',
   ],
@@ -2908,10 +2855,6 @@ export const diagnostics: Templates = {
   ],
   no_worksheet: [
     '{file} hat {count:count Spalte|Spalten}[: {columns:list}]; erwartet werden die von Moodles Bewertungstabelle (Identifier, Grade), von status.csv aus ILIAS (login, mark) oder von Canvas (ID und eine Aufgabe, oder eine, die wie die Rubrik heißt).',
-  ],
-  no_xacro: [
-    '{file} ist keine xacro-Datei und nimmt keine Argumente.',
-    'Lass {arguments:list} weg.',
   ],
   no_zero: ['Zahlen außer 0'],
   no_zip: [
@@ -3206,16 +3149,9 @@ export const diagnostics: Templates = {
     '{count:count Trajektorie|Trajektorien} von {owner} und alles, was {owner} hochgeladen hat, wurden gelöscht.',
   ],
   own_pages_only: ['Das dürfen nur die eigenen Seiten dieses Gateways anfragen.'],
-  package_descriptions: [
-    "Das Paket '{package}' hat {count:count Beschreibung|Beschreibungen}[: {known:list}].",
-    '[Nenne die gewünschte, etwa {package}/{first}.]',
-  ],
   package_missing: [
     'Das Paket {package} ist hier nicht installiert.',
     'Baue es mit `make`, oder mit colcon auf einem Rechner mit ROS.',
-  ],
-  package_no_file: [
-    "Das Paket '{package}' hat keine Datei {file}[; seine Beschreibungen: {known:list}].",
   ],
   page_silent: ['Von dieser Seite kam {wait:time} lang nichts.'],
   pages_built: ['Seiten: gebaut'],
@@ -3289,10 +3225,6 @@ export const diagnostics: Templates = {
   places_not_known: [
     '{file} nennt Roboter, aber nicht ihre Plätze.',
     'Nenne die Szene, in der sie stehen, oder trage Roboter in die Datei ein.',
-  ],
-  playback_gone: [
-    'Die Wiedergabe von {robot} wurde neu gestartet, oder sie machte Platz für die Wiedergabe eines Bags.',
-    'Sieh nach, wo der Roboter steht, und spiele von dort weiter ab.',
   ],
   playback_restarted: ['ihr Prozess wurde neu gestartet; Abspielen macht hier weiter'],
   playback_silent: [
@@ -3558,7 +3490,6 @@ export const diagnostics: Templates = {
     "Der Körper von '{link}' steht um {smaller:length} aus seinen Hüllen heraus, und sie stehen bis {larger:length} von ihm ab; erlaubt sind 5 und 20 mm.",
     'Mach die Hüllen neu, aus mehr Teilen (CoACD und V-HACD können das).',
   ],
-  robot_id_taken: ["Einen Roboter '{robot}' gibt es schon.", 'Wähle eine andere Kennung.'],
   robot_inertia: [
     "Die Hauptträgheitsmomente von '{link}' sind {least:number}, {middle:number} und {most:number} kg*m^2.",
     'Solche hat kein Körper: Jedes ist positiv, und keines ist größer als die Summe der anderen.',
@@ -3624,15 +3555,10 @@ export const diagnostics: Templates = {
     'Erwartet wird genau ein Wurzelglied; gefunden: {count:integer}[: {roots:list}].',
     'Verbinde die Glieder durch feste Gelenke.',
   ],
-  robot_speed: [
-    "'{joint}' nennt keine größte Geschwindigkeit; Bewegungen werden mit {value:measure} verglichen.",
-    'Schreibe <limit velocity=> aus dem Datenblatt in die URDF, und importiere sie noch einmal.',
-  ],
   robot_stated: [
     "'{source}' sagt '{words}', und gewählt wurde {model}.",
     'Ist die Bewegung trotzdem für {model}? Dann nenne die Matrix; sonst wähle den Roboter, den die Datei nennt.',
   ],
-  robot_still: ["'{joint}' bewegt weder den Arm noch seine Hand; das Labor lässt es auf 0."],
   robot_velocity: [
     "Die Grenze der Geschwindigkeit von '{joint}' ist {value:number}.",
     'Schreibe die größte Geschwindigkeit in rad/s oder m/s, oder gib sie beim Import des Roboters an.',
@@ -3716,9 +3642,6 @@ export const diagnostics: Templates = {
   run_open: ['lief noch[ bei {position:time} von {length:time}], als die Aufnahme endete'],
   run_released: [
     'ließ {object} los[ bei {place:position}][, {distance:length} vom vorgesehenen Ort entfernt]',
-  ],
-  run_silent: [
-    '{robot} bewegte sich und meldet seit {silent:integer} s nichts: Er wurde entfernt, oder sein Teil des Labors ist beendet.',
   ],
   run_stopped: [
     'gestoppt[ nach {halts:count Kollision|Kollisionen}][ bei {position:time} von {length:time}]',
@@ -3853,14 +3776,6 @@ export const diagnostics: Templates = {
   step_failed: ['{step:problem}: gescheitert, {why:problem}.'],
   step_of_zero: ['ein Schritt von 0 führt nirgendwohin'],
   still_collides: ['{robot} ist noch in Kollision'],
-  moves_already: [
-    '{robot} bewegt sich: {why:problem}.',
-    'Halte ihn erst an, dann spiele die andere Bewegung ab.',
-  ],
-  still_halted: [
-    '{robot} ist noch im Kollisionshalt[ ({why:problem})]; der endet, wenn der Arm kurze Zeit frei war.',
-    'Wenn der Arm noch etwas berührt, nimm es weg, oder stelle den Roboter anderswohin. Dann spiele weiter ab.',
-  ],
   still_held: ['{object} wird am Ende noch von {robot} gehalten.'],
   still_moves: ['{object} bewegt sich am Ende noch mit {value:speed}.'],
   still_touches: [
@@ -3999,13 +3914,6 @@ export const diagnostics: Templates = {
   times_of_class: ['ihre Klasse ist {found:problem}'],
   times_swapped: [
     '{first:time} liegt nicht vor {last:time}; erwartet wird die frühere Zeit zuerst.',
-  ],
-  tip_given: ['bis zu dem Glied, das genannt wurde'],
-  tip_of_chain: ['die längste Kette angetriebener Gelenke'],
-  tip_of_group: ["Gruppe '{group}' der SRDF"],
-  tip_unmoved: [
-    "{file}: Kein Gelenk bewegt das Glied '{link}'.",
-    'Wähle ein anderes letztes Glied des Arms.',
   ],
   tls_needs_keys: [
     'Die Bridge soll an {endpoint} erreichbar sein; für {protocol} braucht sie Schlüssel.',
@@ -4214,7 +4122,6 @@ export const diagnostics: Templates = {
   ],
   urdf_joint: ["{file}: Gelenk '{joint}'"],
   urdf_link: ["{file}: Glied '{link}'"],
-  urdf_too_large: ['{file} ist größer als {most:bytes}; erwartet wird eine URDF.'],
   users_unusable: [
     '{path} ist für Personen und Anmeldungen nicht brauchbar: {why:problem}.',
     'Erwartet wird eine Datei, in die dieser Benutzer schreiben kann, oder keine.',
@@ -4323,18 +4230,6 @@ export const diagnostics: Templates = {
   ],
   wrong_value_count: [
     '{what:choice positions=Positionen|velocities=Geschwindigkeiten|accelerations=Beschleunigungen}[ an Punkt {point:integer}]: {found:integer}; erwartet werden {expected:integer}, je Gelenk ein Wert.',
-  ],
-  xacro_no_argument: [
-    '{file} hat kein Argument {arguments:list}[; es hat {known:list}].',
-    "[Meintest du '{close}'?]",
-  ],
-  xacro_no_wall: [
-    '{file} ist eine xacro-Datei, also ein Programm, und der Kernel hier kann sie nicht einsperren (erwartet werden Landlock und seccomp).',
-    'Vertraust du ihr, wandle sie selbst um, und importiere das Ergebnis: xacro {file} > {plain}',
-  ],
-  xacro_refused: [
-    '{file}: xacro meldet: {why:problem}.[ Die Argumente der Datei sind {arguments:list}.]',
-    '{hint:choice package=Gib den Ordner des Pakets an, das sie nennt.|folder=Eine xacro-Datei liest, was neben ihr und in ihren Paketen liegt; gib den Ordner des Pakets an, das sie braucht.|argument=Gib an, wonach sie fragt, als NAME:=WERT.|file=Berichtige die Datei.}',
   ],
   yaml_alias: [
     '*{alias} in Zeile {line:integer} ist ein Alias; ROS liest keine.',

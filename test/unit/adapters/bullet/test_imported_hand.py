@@ -9,7 +9,7 @@ import pytest
 from physics_cell import JOINTS, ROOT, Cell, gantry
 
 from mrlab_ros.adapters.robots import checks
-from mrlab_ros.adapters.robots.importing import Face, import_robot
+from mrlab_ros.adapters.robots.importing.robot import Face, import_robot
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.physics.grasp import kinds

@@ -30,7 +30,7 @@ from mrlab_ros.adapters.robots.diagnostics import (
     TWICE_IN_URDF,
 )
 from mrlab_ros.adapters.robots.drawing import Assembly
-from mrlab_ros.adapters.robots.importing import import_robot
+from mrlab_ros.adapters.robots.importing.robot import import_robot
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.commands.robots import app
 from mrlab_ros.core.base.diagnostic import Code

@@ -11,7 +11,7 @@ import pytest
 import trimesh
 from PIL import Image
 
-from mrlab_ros.adapters.robots.importing import import_robot
+from mrlab_ros.adapters.robots.importing.robot import import_robot
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.core.base.diagnostic import Severity
 

@@ -11,7 +11,7 @@ from refusals import refused
 
 from mrlab_ros.adapters.robots import sheet
 from mrlab_ros.adapters.robots.diagnostics import SHEET_FORMAT
-from mrlab_ros.adapters.robots.importing import import_robot
+from mrlab_ros.adapters.robots.importing.robot import import_robot
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.core.base.errors import BadInput
 

@@ -10,13 +10,13 @@ from pathlib import Path
 import pytest
 from refusals import refused
 
-from mrlab_ros.adapters.robots.diagnostics import (
+from mrlab_ros.adapters.robots.importing.diagnostics import (
     UNBOUND_PREFIX,
     XACRO_NO_ARGUMENT,
     XACRO_NO_WALL,
     XACRO_REFUSED,
 )
-from mrlab_ros.adapters.robots.source import description_text
+from mrlab_ros.adapters.robots.importing.source import description_text
 from mrlab_ros.adapters.sandbox import restrictions
 from mrlab_ros.core.base.errors import BadInput
 

@@ -18,16 +18,20 @@ import yaml
 
 from mrlab_ros.adapters.diagnostics import FILE_UNREADABLE
 from mrlab_ros.adapters.robots import checks, mesh_files, urdf
-from mrlab_ros.adapters.robots.arm_and_hand import Finger, Groups, Split, fingers, split
-from mrlab_ros.adapters.robots.diagnostics import (
+from mrlab_ros.adapters.robots.drawing import Assembly
+from mrlab_ros.adapters.robots.importing.arm_and_hand import Finger, Groups, Split, fingers, split
+from mrlab_ros.adapters.robots.importing.diagnostics import (
     BAD_ROBOT_ID,
     ROBOT_ID_TAKEN,
     ROBOT_SPEED,
     ROBOT_STILL,
 )
-from mrlab_ros.adapters.robots.drawing import Assembly
+from mrlab_ros.adapters.robots.importing.source import (
+    MeshFinder,
+    description_text,
+    packages_around,
+)
 from mrlab_ros.adapters.robots.library import MESH_PREFIX, TIP, RobotLibrary
-from mrlab_ros.adapters.robots.source import MeshFinder, description_text, packages_around
 from mrlab_ros.core.base.diagnostic import Diagnostic, Severity
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.geometry import Array

@@ -10,33 +10,35 @@ import pytest
 from refusals import refused
 
 from mrlab_ros.adapters.robots import urdf
-from mrlab_ros.adapters.robots.arm_and_hand import Finger, Groups, Split, fingers, split
 from mrlab_ros.adapters.robots.diagnostics import (
+    HAND_OF_ITS_OWN,
+    LINK_CIRCLE,
+    NAME_TOO_LONG,
+    NO_LINK_IN_FILE,
+    TOO_MANY_LINKS,
+    TWICE_IN_URDF,
+)
+from mrlab_ros.adapters.robots.importing.arm_and_hand import Finger, Groups, Split, fingers, split
+from mrlab_ros.adapters.robots.importing.diagnostics import (
     ARM_MIMICS,
     ARMS_BRANCH,
     BAD_XACRO_ARGUMENT,
     HAND_LIMITS,
-    HAND_OF_ITS_OWN,
-    LINK_CIRCLE,
-    NAME_TOO_LONG,
     NO_ARM_THERE,
-    NO_LINK_IN_FILE,
     PACKAGE_DESCRIPTIONS,
     TIP_OF_GROUP,
-    TOO_MANY_LINKS,
-    TWICE_IN_URDF,
     XACRO_REFUSED,
 )
-from mrlab_ros.adapters.robots.importing import import_robot
+from mrlab_ros.adapters.robots.importing.robot import import_robot
+from mrlab_ros.adapters.robots.importing.source import find_description
 from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.adapters.robots.source import find_description
 from mrlab_ros.core.base.diagnostic import Code
 from mrlab_ros.core.base.errors import BadInput
 
 # Each file is read by a process of its own.
 pytestmark = pytest.mark.slow
 
-ROBOTS = Path(__file__).resolve().parents[4] / "robots"
+ROBOTS = Path(__file__).resolve().parents[5] / "robots"
 Y = "0 1 0"
 
 

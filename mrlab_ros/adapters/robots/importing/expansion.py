@@ -5,7 +5,7 @@ from __future__ import annotations
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator
 
-from mrlab_ros.adapters.robots.diagnostics import XACRO_NO_ARGUMENT, XACRO_REFUSED
+from mrlab_ros.adapters.robots.importing.diagnostics import XACRO_NO_ARGUMENT, XACRO_REFUSED
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.names import close_to
 

@@ -14,13 +14,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mrlab_ros.adapters.robots import urdf
-from mrlab_ros.adapters.robots.diagnostics import (
+from mrlab_ros.adapters.robots.diagnostics import NO_LINK_IN_FILE
+from mrlab_ros.adapters.robots.importing.diagnostics import (
     ARM_MIMICS,
     ARMS_BRANCH,
     HAND_LIMITS,
     HAND_MIMICS,
     NO_ARM_THERE,
-    NO_LINK_IN_FILE,
     TIP_GIVEN,
     TIP_OF_CHAIN,
     TIP_OF_GROUP,

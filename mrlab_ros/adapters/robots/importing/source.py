@@ -15,7 +15,7 @@ from ament_index_python.packages import PackageNotFoundError, get_package_share_
 from mrlab_ros.adapters import installed
 from mrlab_ros.adapters.diagnostics import FILE_UNREADABLE, NOT_UTF8
 from mrlab_ros.adapters.robots import urdf
-from mrlab_ros.adapters.robots.diagnostics import (
+from mrlab_ros.adapters.robots.importing.diagnostics import (
     BAD_XACRO_ARGUMENT,
     MESH_NO_FILE,
     MESH_NO_PACKAGE,
@@ -28,7 +28,7 @@ from mrlab_ros.adapters.robots.diagnostics import (
     URDF_TOO_LARGE,
     XACRO_NO_WALL,
 )
-from mrlab_ros.adapters.robots.expansion import expand
+from mrlab_ros.adapters.robots.importing.expansion import expand
 from mrlab_ros.adapters.sandbox import calls, restrictions
 from mrlab_ros.core.base.errors import BadInput
 

@@ -12,29 +12,31 @@ from refusals import refused
 
 from mrlab_ros.adapters.robots import checks, urdf
 from mrlab_ros.adapters.robots.diagnostics import (
-    BAD_ROBOT_ID,
     DOCUMENT_TYPE,
     ELEMENT_UNNAMED,
     FINITE_COUNT,
     GEOMETRY_EMPTY,
     GEOMETRY_UNKNOWN,
-    MESH_NO_PACKAGE,
     NAME_UNPRINTABLE,
-    NO_DESCRIPTION,
     NO_SHARED_LINK,
     NO_ZERO,
     NOT_IMPORTED,
     NOT_OF_LIBRARY,
     NOT_XML,
-    ROBOT_ID_TAKEN,
     ROBOT_NO_MESH,
     SHAPE_LACKS,
     SIZES_ABOVE_ZERO,
     URDF_LINK,
 )
-from mrlab_ros.adapters.robots.importing import import_robot
+from mrlab_ros.adapters.robots.importing.diagnostics import (
+    BAD_ROBOT_ID,
+    MESH_NO_PACKAGE,
+    NO_DESCRIPTION,
+    ROBOT_ID_TAKEN,
+)
+from mrlab_ros.adapters.robots.importing.robot import import_robot
+from mrlab_ros.adapters.robots.importing.source import MeshFinder, find_description
 from mrlab_ros.adapters.robots.library import RobotLibrary
-from mrlab_ros.adapters.robots.source import MeshFinder, find_description
 from mrlab_ros.adapters.robots.vendor_meshes import remove, use_meshes
 from mrlab_ros.core.base.diagnostic import Code
 from mrlab_ros.core.base.diagnostics import BAD_VALUE, EMPTY_VALUE
@@ -43,7 +45,7 @@ from mrlab_ros.core.base.errors import BadInput
 # Each file is read by a process of its own.
 pytestmark = pytest.mark.slow
 
-ROBOTS = Path(__file__).resolve().parents[4] / "robots"
+ROBOTS = Path(__file__).resolve().parents[5] / "robots"
 
 KR6 = "kuka_kr6_r900_sixx"
 

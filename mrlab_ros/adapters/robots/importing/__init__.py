@@ -1,0 +1,1 @@
+"""A description of somebody else becomes a robot of the lab."""
