@@ -432,6 +432,8 @@ def test_plus_and_minus_go_through_the_rates(rate, faster, expected):
         (b"\x1b[D\x1b[C\x1bOC", True, "/recorder/seek", {"position": 7.0}),
         (b"+", False, "/recorder/set_rate", {"rate": 2.0}),
         (b"-", False, "/recorder/set_rate", {"rate": 0.5}),
+        (b"n", True, "/recorder/next_stop", {}),
+        (b"p", False, "/recorder/previous_stop", {}),
         (b"q", False, "/recorder/stop", {}),
     ],
 )

@@ -55,12 +55,16 @@ from mrlab_ros.core.recording.diagnostics import (
     LEFT_OUT,
     NO_RECORDING,
     NO_REPLAY,
+    NO_STOP_BEFORE,
     NOTHING_RUNS,
     NOTHING_TO_REPLAY,
     RECORDING_GAP,
     RECORDING_RUNS,
     REPLAY_OVER,
     REPLAY_RUNS,
+    TO_END,
+    TO_STOP,
+    TOUR_STOP,
 )
 from mrlab_ros.core.recording.metadata import QosProfile, Topic
 from mrlab_ros.messages import qos, trajectories
@@ -625,6 +629,58 @@ def test_pause_seek_rate_and_loop_do_what_they_say(graph, recorder, session, sta
     assert len(jumps) > 2
     assert set(jumps[1:]) == {(99, 0)}
     assert events[-1] == 99
+
+
+def test_a_guided_replay_stands_where_somebody_pointed(graph, recorder, states, tmp_path):
+    writer = BagWriter(tmp_path / "lesson", definition)
+    for name, kind in (("/ur5e_1/telemetry", "String"), ("/look_here", "LookHere")):
+        package = "std_msgs" if kind == "String" else "mrlab_msgs"
+        writer.add_topic(Topic(name, f"{package}/msg/{kind}", (QosProfile(),)))
+
+    def write(topic: str, message: Any, number: int) -> None:
+        time_ns = START_NS + number * 10_000_000
+        writer.write(topic, time_ns, serialize_message(message), START_NS)
+
+    for number in range(100):
+        if number in (5, 10, 70):
+            mark = msg.LookHere(name="Anna")
+            mark.point.x = number / 10
+            write("/look_here", mark, number)
+        write("/ur5e_1/telemetry", String(data=f"event {number}"), number)
+    writer.close()
+
+    def stands_at(place: float) -> dict[str, Any]:
+        wait_for(
+            lambda: (
+                states.last().state == State.PAUSED
+                and states.last().position == pytest.approx(place)
+                and states.last().code == TOUR_STOP.code
+            ),
+            f"the stop at {place}",
+        )
+        values = {each.key: json.loads(each.value) for each in states.last().values}
+        assert [event["code"] for event in values["events"]]
+        return values
+
+    ears = Ears(graph)
+    replay(graph, "lesson", rate=0.1)
+    assert graph.call(Trigger, "/recorder/previous_stop").code == NO_STOP_BEFORE.code
+    order(graph, "set_rate", srv.SetRate, rate=2.0)
+    assert order(graph, "next_stop").code == TO_STOP.code
+    first = stands_at(0.2)
+    # Two marks are so near to each other that they are one stop, which shows the first.
+    assert (first["number"], first["count"], first["place"]) == (1, 2, [0.5, 0.0, 0.0])
+    assert len(first["events"]) == 2
+    assert ears.of("/ur5e_1/telemetry")[-1] == "event 20"
+    order(graph, "next_stop")
+    assert stands_at(0.8)["place"] == [7.0, 0.0, 0.0]
+    order(graph, "previous_stop")
+    stands_at(0.2)
+    order(graph, "seek", srv.Seek, position=0.9)
+    wait_for(lambda: states.last().code == "", "what stood there is gone")
+    assert order(graph, "next_stop").code == TO_END.code
+    wait_until_over(states)
+    assert states.last().code == ""
 
 
 def test_the_rate_is_kept(graph, recorder, session, states):

@@ -31,13 +31,14 @@ from mrlab_ros.core.base.clock import SECOND, PlaybackClock
 from mrlab_ros.core.base.diagnostic import INFO, WARNING, Diagnostic, Severity
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.geometry import Pose
-from mrlab_ros.core.recording.diagnostics import ENDING, importing
+from mrlab_ros.core.recording.diagnostics import ENDING, LOOKED_HERE, importing
 from mrlab_ros.core.recording.moves import ObjectTrack, Placed, Target, Targets
 from mrlab_ros.core.recording.report import (
     GRASP_STATES,
     HOLDING,
     Changes,
     Contact,
+    Event,
     Hop,
     ReferenceTrajectory,
     ReportedState,
@@ -51,6 +52,19 @@ from mrlab_ros.core.robots.frames import without_frames
 JOINTS = "sensor_msgs/msg/JointState"
 DESCRIPTION = "/robot_description"
 FINGERS = "/finger_states"
+# What the stops of a guided replay are made from.
+EVENTS = frozenset(
+    f"mrlab_msgs/msg/{name}"
+    for name in (
+        "PlaybackState",
+        "Collision",
+        "Grasp",
+        "GraspTargets",
+        "Robots",
+        "SceneObjects",
+        "LookHere",
+    )
+)
 # s; what physics sends sixty times a second is read thirty times.
 OBJECT_INTERVAL = 1 / 30
 # The values of LatencyHop.hop.
@@ -107,6 +121,15 @@ def read_session(bag: Bag, reference: Reference | None = None) -> SessionReport:
     return report
 
 
+def read_events(bag: Bag) -> SessionReport:
+    """Return the runs of a session, without their figures, and the marks that people set in it."""
+    reader = _Reader(bag, EVENTS)
+    for message in bag.messages(topics=reader.topics):
+        reader.take(message)
+    reader.report.runs = runs_of(reader.report, reader.objects, reader.targets)
+    return reader.report
+
+
 def model_that_played(bag: Bag) -> str:
     """Return the model of the first robot of a bag; raise BadInput where it has none."""
     decode = Decoder(bag.definitions())
@@ -119,13 +142,15 @@ def model_that_played(bag: Bag) -> str:
 
 
 class _Reader:
-    def __init__(self, bag: Bag) -> None:
+    """types: of the messages that are read; empty: all that the report needs."""
+
+    def __init__(self, bag: Bag, types: frozenset[str] = frozenset()) -> None:
         self._bag = bag
         self._decode = Decoder(bag.definitions())
         self.courses: dict[str, ReferenceTrajectory] = {}
         unread = []
         for name in [name for file in bag.files for name in file.attachments]:
-            if not name.startswith("trajectories/"):
+            if types or not name.startswith("trajectories/"):
                 continue
             try:
                 course = _course(bag.attachment(name).data)
@@ -170,12 +195,13 @@ class _Reader:
             "mrlab_msgs/msg/Contacts": self._contacts,
             "mrlab_msgs/msg/Latency": self._latency,
             "mrlab_msgs/msg/SceneObjects": self._objects,
+            "mrlab_msgs/msg/LookHere": self._mark,
         }
-        known = {*self._readers, *self._general, JOINTS}
+        known = types or {*self._readers, *self._general, JOINTS}
         self.topics = {
             topic.name
             for topic in bag.topics.values()
-            if topic.type in known or topic.name.endswith(DESCRIPTION)
+            if topic.type in known or (not types and topic.name.endswith(DESCRIPTION))
         }
 
     def troubles(self) -> list[Diagnostic]:
@@ -267,7 +293,8 @@ class _Reader:
         if collision.colliding:
             contact = collision.contact
             other = f"{contact.other} {contact.other_link}".strip()
-            robot.collisions.append(Contact(time, contact.link, other, contact.frame + 1))
+            place = (contact.point.x, contact.point.y, contact.point.z)
+            robot.collisions.append(Contact(time, contact.link, other, contact.frame + 1, place))
 
     def _grasp(self, time: float, robot: RobotReport, grasp: Any) -> None:
         known = grasp.state < len(GRASP_STATES)
@@ -312,6 +339,10 @@ class _Reader:
     def _contacts(self, time: float, contacts: Any) -> None:
         for contact in contacts.contacts:
             self.report.robot(contact.robot).contacts.append(time)
+
+    def _mark(self, time: float, mark: Any) -> None:
+        place = (mark.point.x, mark.point.y, mark.point.z)
+        self.report.marks.append(Event(time, "", 0, LOOKED_HERE(name=mark.name), place))
 
     def _latency(self, time: float, latency: Any) -> None:
         for hop in latency.hops:

@@ -5,10 +5,14 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable
+from concurrent.futures import Future
+from concurrent.futures import TimeoutError as FutureTimeout
 from dataclasses import replace
 from pathlib import Path
 
+from mrlab_ros.adapters import threads
 from mrlab_ros.adapters.bags.reader import Bag, bags_in, remove_empty
+from mrlab_ros.adapters.bags.session import read_events
 from mrlab_ros.adapters.bags.writer import write_metadata
 from mrlab_ros.adapters.stop_orders import StopOrders
 from mrlab_ros.app.diagnostics import (
@@ -36,10 +40,10 @@ from mrlab_ros.app.recorder.ports import (
     Streams,
 )
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.base.errors import LabError
+from mrlab_ros.core.base.errors import LabError, Misuse
 from mrlab_ros.core.base.state_machine import Machine
 from mrlab_ros.core.recording import recorder as entries
-from mrlab_ros.core.recording.diagnostics import REPLAY_OVER
+from mrlab_ros.core.recording.diagnostics import REPLAY_OVER, STOPS_AWAITED, TO_END, TO_STOP
 from mrlab_ros.core.recording.metadata import Gap
 from mrlab_ros.core.recording.recorder import (
     TABLE,
@@ -48,8 +52,12 @@ from mrlab_ros.core.recording.recorder import (
     RecorderState,
     reason,
 )
+from mrlab_ros.core.recording.stops import Stop, next_stop, stop_before, stops_of
 from mrlab_ros.core.recording.topics import Split, Topics
 from mrlab_ros.core.runtime.watch import RESTART_SHOWN_S
+
+# s: a caller over zenoh gives up after 5 s.
+STOPS_TIMEOUT_S = 3.0
 
 
 class Recorder:
@@ -83,7 +91,11 @@ class Recorder:
         self._recording: RunningRecording | None = None
         self._replay: RunningReplay | None = None
         self._entry: Entry | None = None
+        # Of what is at hand: what is wrong with it, or the stop at which its replay stands.
         self._trouble: Diagnostic | None = None
+        # Of the bag that was asked for last.
+        self._stops: tuple[Bag, Future[list[Stop]]] | None = None
+        self._reading = threads.Pool("stops", 1)
         self._made_at = time.monotonic()
         # Diagnostics of messages that a restart kept from the recording.
         self.lost: list[Diagnostic] = []
@@ -149,6 +161,7 @@ class Recorder:
 
     def close(self) -> None:
         """Close what is written, end what is replayed; a recording continues after a restart."""
+        self._reading.shutdown(wait=False, cancel_futures=True)
         self._end(RecorderEvent.CLOSE)
 
     # recording ------------------------------------------------------------------------------
@@ -284,6 +297,55 @@ class Recorder:
         self._command(RecorderEvent.RESUME, lambda running: running.resume())
         return REPLAY_RESUMED()
 
+    def next_stop(self) -> Diagnostic:
+        """Play on to the next thing that happened in the session, and pause there."""
+        stops, position = self._stops_here()
+        stop = next_stop(stops, position)
+        if stop is None:
+            self.resume()
+            return TO_END()
+
+        def go(running: RunningReplay) -> None:
+            running.resume(stop.time, lambda: self._arrive(running, stop))
+
+        self._command(RecorderEvent.RESUME, go)
+        return TO_STOP(at=stop.time)
+
+    def previous_stop(self) -> Diagnostic:
+        """Go back to the thing that happened before, and pause there."""
+        stop = stop_before(*self._stops_here())
+
+        def go(running: RunningReplay) -> None:
+            running.pause()
+            running.seek(stop.time)
+
+        self._command(RecorderEvent.PAUSE, go, stop.said)
+        return stop.said
+
+    def _stops_here(self) -> tuple[list[Stop], float]:
+        """Return the stops of what is replayed, and the place of the replay, s."""
+        with self._lock:
+            self._machine.check(RecorderEvent.SEEK)
+            running = self._replay
+            assert running is not None
+            bag = running.bag
+            if self._stops is None or self._stops[0] is not bag:
+                self._stops = bag, self._reading.submit(lambda: stops_of(read_events(bag)))
+            reading = self._stops[1]
+        try:
+            return reading.result(STOPS_TIMEOUT_S), running.position
+        except FutureTimeout:
+            raise Misuse(STOPS_AWAITED(bag=str(bag.path))) from None
+
+    def _arrive(self, running: RunningReplay, stop: Stop) -> None:
+        with self._lock:
+            # A command may have come first.
+            if self._replay is not running or not running.standing:
+                return
+            self._machine.fire(RecorderEvent.PAUSE)
+            self._trouble = stop.said
+        self._publish()
+
     def seek(self, position: float) -> Diagnostic:
         self._command(RecorderEvent.SEEK, lambda running: running.seek(position))
         return REPLAY_AT(position=position)
@@ -297,9 +359,15 @@ class Recorder:
         return REPLAY_LOOPS() if loop else REPLAY_ONCE()
 
     def _command(
-        self, event: RecorderEvent, act: Callable[[RunningReplay], None]
+        self,
+        event: RecorderEvent,
+        act: Callable[[RunningReplay], None],
+        stands_at: Diagnostic | None = None,
     ) -> RunningReplay:
-        """Do with the replay what `event` asks for; raise Misuse where there is none."""
+        """Do with the replay what `event` asks for; raise Misuse where there is none.
+
+        stands_at: the stop at which the replay is then.
+        """
         with self._lock:
             self._machine.check(event)
             running = self._replay
@@ -308,6 +376,8 @@ class Recorder:
         with self._lock:
             # Raises where the replay has ended meanwhile.
             self._machine.fire(event)
+            if event not in (RecorderEvent.SET_RATE, RecorderEvent.SET_LOOP) or stands_at:
+                self._trouble = stands_at
         self._publish()
         return running
 

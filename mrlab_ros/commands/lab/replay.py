@@ -37,7 +37,8 @@ LEFT, RIGHT = b"D", b"C"
 # Seek of an arrow key, s, and the rates that + and - go through.
 STEP = 5.0
 RATES = (0.1, 0.2, 0.5, 1.0, 2.0, 4.0, 10.0)
-KEYS = "space pauses, left and right seek 5 s, + and - set the rate, q ends"
+KEYS = "space pauses, left and right seek 5 s, n and p go to stops, + and - set the rate, q ends"
+STOPS = {b"n": "next_stop", b"p": "previous_stop"}
 # The lab's own nodes leave first.
 BEGIN_TIMEOUT_S = 40.0
 BEGUN_TIMEOUT_S = 3.0
@@ -63,7 +64,8 @@ def replay(
     """Replay a bag in the running lab: headset, RViz and Foxglove see the session again.
 
     The lab's own robots stand aside meanwhile, and come back afterwards. Keys, on a terminal:
-    space pauses, arrows seek, + and - set the rate, q ends. Ends with 0 at the bag's end.
+    space pauses, arrows seek, n and p go to the next and the previous event, + and - set the
+    rate, q ends. Ends with 0 at the bag's end.
     """
     path = Path(bag).expanduser()
     if path.exists():
@@ -166,7 +168,7 @@ def _line(state: Any, keyboard: Keyboard | None) -> str:
     what = "paused" if state.state == msg.RecorderState.PAUSED else f"x {state.rate:g}"
     words = f"{position:.1f} of {state.duration:.1f} s  {what}  {state.messages} messages"
     if keyboard is not None:
-        words += f"  {keyboard.said}"
+        words += f"  {keyboard.said or heard(state)}"
     return words
 
 
@@ -217,6 +219,8 @@ class Keyboard:
             elif key in (b"+", b"-"):
                 request = srv.SetRate.Request(rate=next_rate(state.rate, key == b"+"))
                 self._graph.order(srv.SetRate, "/recorder/set_rate", request)
+            elif key in STOPS:
+                self._trigger(STOPS[key])
             elif key in (b"q", b"Q"):
                 _end(self._graph)
 

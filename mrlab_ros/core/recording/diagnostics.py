@@ -74,6 +74,26 @@ RUN_LOST = Code("run_lost", "lost {object}[ at {place:position}]", severity=WARN
 RUN_HANDED_OVER = Code("run_handed_over", "handed {object} to {to}", severity=INFO)
 RUN_MISSED = Code("run_missed", "closed the gripper on nothing", severity=WARNING)
 RUN_HIT = Code("run_hit", "Hit {other} with {link} at row {row:integer}")
+# the stops of a guided replay
+LOOKED_HERE = Code("looked_here", "{name} pointed here", severity=INFO)
+STOP_EVENT = Code("stop_event", "{robot}: {said:problem}", severity=INFO)
+TOUR_STOP = Code(
+    "tour_stop",
+    "Stop {number:integer} of {count:integer}: {events:reasons}",
+    severity=INFO,
+    meaning="A replay stands at something that happened; `place` is where.",
+    data=("place",),
+)
+TO_STOP = Code("to_stop", "plays on to {at:time}", severity=INFO)
+TO_END = Code("to_end", "plays on to the end: no stop follows", severity=INFO)
+NO_STOP_BEFORE = Code("no_stop_before", "no stop comes before this place", severity=INFO)
+STOPS_AWAITED = Code(
+    "stops_awaited",
+    "The events of {bag} are still being read.",
+    "Try again in a moment.",
+    severity=INFO,
+)
+
 # gaps of a recording
 RECORDING_GAP = Code(
     "recording_gap",

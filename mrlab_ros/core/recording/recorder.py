@@ -6,6 +6,7 @@ A replay that loops starts over within its state, by its timeline, so a new roun
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from enum import Enum
@@ -205,31 +206,41 @@ class ReplayTimeline:
         self.loop = loop
         self.rate = checked_replay_rate(rate)
         self._clock = PlaybackClock(position=checked_position(start, duration))
+        # Where it is to stand again.
+        self._until = math.inf
 
     @property
     def standing(self) -> bool:
         return self._clock.rate == 0
 
     def position(self, now_ns: int) -> float:
-        return min(self._clock.at(now_ns), self.duration)
+        return min(self._clock.at(now_ns), self.duration, self._until)
 
     def due_ns(self, position: float) -> int:
         """Return when `position` is due; the timeline must not stand."""
         return self._clock.due(position)
 
-    def play(self, now_ns: int) -> None:
-        self._clock = PlaybackClock(now_ns, self.position(now_ns), self.rate)
+    @property
+    def stop_ns(self) -> int | None:
+        """Return when the place is due at which it is to stand; None: it plays to the end."""
+        return None if math.isinf(self._until) else self.due_ns(self._until)
+
+    def play(self, now_ns: int, until: float = math.inf) -> None:
+        """Play; at `until`, s, the caller is to pause it."""
+        position = self.position(now_ns)
+        self._clock, self._until = PlaybackClock(now_ns, position, self.rate), until
 
     def pause(self, now_ns: int) -> None:
         self._clock = PlaybackClock(now_ns, self.position(now_ns))
+        self._until = math.inf
 
     def seek(self, now_ns: int, position: float) -> None:
         """Go to `position`, playing or standing as before; raise BadInput where it is outside."""
         checked = checked_position(position, self.duration)
-        self._clock = PlaybackClock(now_ns, checked, self._clock.rate)
+        self._clock, self._until = PlaybackClock(now_ns, checked, self._clock.rate), math.inf
 
     def set_rate(self, now_ns: int, rate: float) -> None:
         """Go on at `rate`; raise BadInput where it is out of range."""
         self.rate = checked_replay_rate(rate)
         if not self.standing:
-            self.play(now_ns)
+            self.play(now_ns, self._until)

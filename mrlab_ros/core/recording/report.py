@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from mrlab_ros.core.base.clock import SECOND, PlaybackClock
 from mrlab_ros.core.base.diagnostic import Diagnostic, plain
-from mrlab_ros.core.base.geometry import Pose
+from mrlab_ros.core.base.geometry import Pose, Vector
 from mrlab_ros.core.recording.diagnostics import RUN_BEGAN, RUN_ENDED, SESSION_SUMMARY
 from mrlab_ros.core.recording.runs import Deed, Result, Run, figures_of
 
@@ -163,12 +163,13 @@ def latency_facts(latency: dict[Hop, Series]) -> list[dict[str, Any]]:
 
 @dataclass(frozen=True)
 class Event:
-    """Something in the run `run` of a robot, s of the session."""
+    """Something in the run `run` of a robot, s of the session; place: m, in the frame world."""
 
     time: float
     robot: str
     run: int
     said: Diagnostic
+    place: Vector
 
     def facts(self) -> dict[str, Any]:
         return {**vars(self), "said": plain(self.said)}
@@ -176,12 +177,16 @@ class Event:
 
 @dataclass
 class Contact:
-    """A contact that halted an arm, or would have. row: of the trajectory, from 1."""
+    """A contact that halted an arm, or would have.
+
+    row: of the trajectory, from 1. place: m, in the frame world.
+    """
 
     time: float
     link: str
     other: str
     row: int
+    place: Vector | None = None
 
 
 @dataclass
@@ -274,6 +279,11 @@ class RobotReport:
         number = bisect_right(self.bases, time, key=lambda base: base[0]) - 1
         return self.bases[max(number, 0)][1] if self.bases else Pose()
 
+    def place_of(self, time: float, said: Diagnostic) -> Vector:
+        """Return where something of it happened: of a contact or an object, else its base."""
+        hit = next((each.place for each in self.collisions if each.time == time), None)
+        return said.values.get("place") or hit or self.base_at(time).position
+
     def facts(self, end: float) -> dict[str, Any]:
         """Return everything, ready for JSON."""
         return {
@@ -307,6 +317,8 @@ class SessionReport:
     step: int = 1
     troubles: list[Diagnostic] = field(default_factory=list)
     runs: list[Run] = field(default_factory=list)
+    # Where somebody asked everybody to look; of no robot, in no run.
+    marks: list[Event] = field(default_factory=list)
 
     def robot(self, name: str) -> RobotReport:
         if name not in self.robots:
@@ -333,7 +345,11 @@ class SessionReport:
             began = RUN_BEGAN(trajectory=run.trajectory, robot=run.robot)
             ended = RUN_ENDED(trajectory=run.trajectory, outcome=run.outcome, robot=run.robot)
             told = [(run.start, began), *((a.time, a.said) for a in run.actions), (run.end, ended)]
-            found += [Event(time, run.robot, run.number, said) for time, said in told]
+            robot = self.robot(run.robot)
+            found += [
+                Event(time, run.robot, run.number, said, robot.place_of(time, said))
+                for time, said in told
+            ]
         return sorted(found, key=lambda event: event.time)
 
     def facts(self) -> dict[str, Any]:

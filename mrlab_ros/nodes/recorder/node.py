@@ -117,6 +117,8 @@ class RecorderNode(
             "replay": (srv.Replay, lambda r, _: recorder.replay(r.bag, r.rate, r.start, r.loop)),
             "pause": (Trigger, lambda *_: recorder.pause()),
             "resume": (Trigger, lambda *_: recorder.resume()),
+            "next_stop": (Trigger, lambda *_: recorder.next_stop()),
+            "previous_stop": (Trigger, lambda *_: recorder.previous_stop()),
             "seek": (srv.Seek, lambda request, _: recorder.seek(request.position)),
             "set_rate": (srv.SetRate, lambda request, _: recorder.set_rate(request.rate)),
             "set_loop": (SetLoop, lambda request, _: recorder.set_loop(request.loop)),

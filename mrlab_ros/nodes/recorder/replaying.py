@@ -5,6 +5,7 @@ Answers for the converter while a bag is replayed: the bag's own trajectories.
 
 from __future__ import annotations
 
+import math
 import threading
 import time
 from collections import deque
@@ -116,6 +117,9 @@ class Replaying:
         self._ready: deque[Message] = deque()
         self._feed: Feed | None = None
         self._stopped = False
+        # Called at the place up to which it plays, and once that is reached.
+        self._at_stop: Callable[[], None] | None = None
+        self._arrived: Callable[[], None] | None = None
         self._thread = threads.task("replay", self._run)
         self.messages = 0
 
@@ -181,9 +185,16 @@ class Replaying:
             self._timeline.pause(self._now_ns())
             self._changed.notify()
 
-    def resume(self) -> None:
+    @property
+    def standing(self) -> bool:
         with self._changed:
-            self._timeline.play(self._now_ns())
+            return self._timeline.standing
+
+    def resume(self, until: float = math.inf, arrived: Callable[[], None] | None = None) -> None:
+        """Play on; pause at `until`, s, and call `arrived` in the replay's thread."""
+        with self._changed:
+            self._timeline.play(self._now_ns(), until)
+            self._at_stop = arrived
             self._changed.notify()
 
     def seek(self, position: float) -> None:
@@ -258,9 +269,14 @@ class Replaying:
     def _run(self) -> None:
         trouble = None
         try:
-            with self._changed:
-                while not self._stopped and self._step():
-                    pass
+            going = True
+            while going:
+                with self._changed:
+                    while self._arrived is None and (going := not self._stopped and self._step()):
+                        pass
+                    arrived, self._arrived = self._arrived, None
+                if arrived is not None:
+                    arrived()
         except Exception as error:
             path = str(self._bag.path)
             looking = (Fix(command=f"mrlab bag info {for_shell([path])}"),)
@@ -284,8 +300,15 @@ class Replaying:
             if batch is None:
                 return self._reach_end()
             self._ready.extend(batch)
-        now_ns = self._now_ns()
-        due_ns = self._due_ns(self._ready[0])
+        now_ns, due_ns = self._now_ns(), self._due_ns(self._ready[0])
+        stop_ns = timeline.stop_ns
+        if stop_ns is not None:
+            now_ns = min(now_ns, stop_ns)
+            if now_ns == stop_ns < due_ns:
+                timeline.pause(now_ns)
+                self._arrived = self._at_stop
+                return True
+            due_ns = min(due_ns, stop_ns)
         if due_ns > now_ns:
             self._changed.wait((due_ns - now_ns) / SECOND)
             return True

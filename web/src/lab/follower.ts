@@ -18,7 +18,7 @@ import {
   type Place,
   placeReader,
   playbackStateReader,
-  type RecorderState,
+  RecorderState,
   type Robot,
   type RobotSystem,
   recorderStateReader,
@@ -196,6 +196,12 @@ export class LabFollower {
       this.on('processes', labProcessesReader, (message) => this.takeProcesses(message.processes)),
       this.on('recorder/state', recorderStateReader, (message) => this.takeRecorder(message)),
     ]
+  }
+
+  /** True while a bag is replayed in place of the live lab. */
+  get replays(): boolean {
+    const state = this.recorder.value?.state
+    return state === RecorderState.REPLAYING || state === RecorderState.PAUSED
   }
 
   /** Give the scene the known state; call it when the scene is made. */

@@ -74,6 +74,8 @@ interface SessionEvent {
   /** Number of the run, from 1. */
   readonly run: number
   readonly said: Diagnostic
+  /** m, in the frame world */
+  readonly place: readonly number[]
 }
 
 /** The facts of `SessionReport.facts()` that a page shows, and the curves. */

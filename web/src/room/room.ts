@@ -207,9 +207,7 @@ export class Room {
     const display = `${device}.${randomId(3)}`
     this.people = new People(link, this.stage.world, display, words, repaint)
     this.presence = new OwnPresence(link, this.stage.world, this.people)
-    this.lookHere = new LookHere(link, this.stage.world, words, (who) =>
-      ports.say(words.room.looksHere(named(who)), false),
-    )
+    this.lookHere = new LookHere(link, this.stage.world, words, (text) => ports.say(text, false))
     this.pointing = new Pointing(ports, targets, this.lookHere, repaint)
     const { anchor, panels } = this.stage
     this.touching = new TouchAlignment(this.anchor, anchor, this.scan, panels, ports)
@@ -238,6 +236,10 @@ export class Room {
     this.board.tabs = tabsOf(ports, parts, this)
     this.undo = [
       effect(() => this.anchor.goTo(this.follower.place.value?.id ?? '')),
+      effect(() => {
+        this.lookHere.stand(this.follower.recorder.value)
+        this.stage.invalidate()
+      }),
       pauseNews(link, (who, names) =>
         ports.say(words.room.pausedBy(named(who), names.join(', '))),
       ),
@@ -328,12 +330,15 @@ export class Room {
     if (waits) this.alignment.align(SEATED)
   }
 
-  private setSurfaces(surfaces: readonly ShownSurface[]): void {
+  private setSurfaces(measured: readonly ShownSurface[]): void {
+    // What a headset sees during a replay are its own surfaces, not those of the recorded room.
+    const replayed = this.inside.value && this.follower.replays
+    const surfaces = replayed ? this.scan.surfaces() : measured
     this.supports = supportsOf(surfaces)
     this.walls = wallsOf(surfaces)
     this.surfaces = surfaces.filter(({ vertices }) => vertices.length > 0)
     this.stage.grounds.set(this.surfaces)
-    this.common.keep(surfaces)
+    if (!replayed) this.common.keep(surfaces)
     this.showSurfaces()
     this.board.panel.repaint()
   }

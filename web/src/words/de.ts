@@ -900,6 +900,7 @@ export const words: Words = {
     savedScene: (name: string) => `Gesichert als ${name}.`,
     touchSurface: 'Fläche antippen',
     touchTable: 'Berühre die Mitte eines Tisches und drück.',
+    tourStop: 'Halt',
     looksHere: (name: string) => `${name}: seht hierher`,
     lookHere: 'Hierher sehen',
     pointing: 'Ziel und drück: alle sehen den Punkt.',
@@ -2094,6 +2095,7 @@ export const diagnostics: Templates = {
   loaded_in_part: [
     'Die Szene ist nur zum Teil geladen: {why:problem}. Lade sie noch einmal.[\nErledigt:{done:problems}][\nNicht versucht:{rest:problems}]',
   ],
+  looked_here: ['{name} zeigte hierher'],
   looks_like: [
     "'{variable}' ({size}) wurde nicht als Gelenkwinkel genommen: {why:problem}.",
     'Sichere die Gelenkwinkel, eine Zeile je Messpunkt. Ist es doch das Gewünschte, nenne die Variable beim Namen.',
@@ -2551,6 +2553,7 @@ export const diagnostics: Templates = {
   no_share_of_limits: [
     '{value:share} einer Grenze sind keine Schranke; wähle einen Anteil über 0 % und bis 100 %.',
   ],
+  no_stop_before: ['vor dieser Stelle kommt kein Halt'],
   no_submissions: [
     '{file} enthält keine Abgabe; erwartet wird ein Export von Moodle, ILIAS, Canvas oder Gradescope, oder ein Ordner oder eine Datei für jede Person.',
   ],
@@ -2643,17 +2646,25 @@ export const diagnostics: Templates = {
     'Prüfe, ob zwei Aufnahmen in der Datei sind oder eine Uhr zurückgestellt wurde, und trenne sie dort.',
   ],
   stands_still: ['{robot} bewegt sich nicht.'],
+  stop_event: ['{robot}: {said:problem}'],
   stopped_class: [
     'Abgebrochen: {done:integer} von {all:integer} sind geprüft und bleiben erhalten.',
     'Starte denselben Befehl noch einmal, um fortzufahren.',
+  ],
+  stops_awaited: [
+    'Die Ereignisse von {bag} werden noch gelesen.',
+    'Versuch es gleich noch einmal.',
   ],
   submission_killed: [
     'Die Prüfung wurde von außen beendet; dem Rechner fehlte wohl Speicher.',
     'Starte denselben Befehl mit weniger Prozessen: Er prüft, was zu wiederholen ist.',
   ],
+  to_end: ['spielt weiter bis zum Ende: kein Halt folgt'],
+  to_stop: ['spielt weiter bis {at:time}'],
   torn_off: [
     '{other} hat {object} aus den geschlossenen Fingern von {robot} gerissen: Es glitt {way:length} gegen {force:number} N, und {other} hält es mit einer Reserve von {margin:share}.',
   ],
+  tour_stop: ['Halt {number:integer} von {count:integer}: {events:reasons}'],
   undone: ['Zurückgenommen: {act:problem}[\n{missing:problem}]'],
   undone_in_part: [
     'Nur zum Teil zurückgenommen: {why:problem}. Nimm es noch einmal zurück.[\nErledigt:{done:problems}][\nNicht versucht:{rest:problems}]',

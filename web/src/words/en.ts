@@ -852,6 +852,7 @@ export const en = {
     savedScene: (name: string) => `Saved as ${name}.`,
     touchSurface: 'Touch a surface',
     touchTable: 'Touch the middle of a table with the controller or a finger, and press.',
+    tourStop: 'Stop',
     looksHere: (name: string) => `${name}: look here`,
     lookHere: 'Look here',
     pointing: 'Aim at a point and press: everybody is shown it.',

@@ -10,9 +10,16 @@ import {
   type Vector3,
 } from 'three'
 import type { Link } from '../../link/link'
-import { createLookHere, lookHereReader, lookHereWriter } from '../../protocol/mrlab_msgs'
+import {
+  createLookHere,
+  lookHereReader,
+  lookHereWriter,
+  type RecorderState,
+} from '../../protocol/mrlab_msgs'
 import { Label } from '../../scene/stage/labels'
+import { spoken } from '../../words/diagnostic'
 import type { Words } from '../../words/en'
+import { typed } from '../../words/phrase'
 import { named } from '../../words/words'
 
 const KEY = 'look_here'
@@ -25,8 +32,12 @@ const RADIUS = 0.05
 /** Height of its words, as a part of the distance to them. */
 const WORDS = 0.034
 const COLOUR = 0xffc94d
+/** The code of a replay that stands where something happened. */
+const STOP = 'tour_stop'
+/** Letters of a mark's words. */
+const MOST_LETTERS = 60
 
-/** The mark at the point that somebody asked everybody to look at. */
+/** The mark at the point that somebody asked everybody to look at, or that a guided replay shows. */
 export class LookHere {
   private readonly group = new Group()
   private readonly beam = new MeshBasicMaterial({
@@ -54,21 +65,24 @@ export class LookHere {
   private label: Label | null = null
   /** s, of performance.now(); NaN: nothing is shown. */
   private since = Number.NaN
+  /** Where the replay stands, s of the session; NaN: at no stop. */
+  private stop = Number.NaN
+  /** True while that is shown: it does not fade. */
+  private stands = false
   private readonly undo: () => void
 
-  /** told: called with who asks. */
+  /** told: called with the words of a new mark. */
   constructor(
     private readonly link: Pick<Link, 'subscribe' | 'publish'>,
     world: Object3D,
-    private readonly words: Words,
-    told: (who: string) => void,
+    words: Words,
+    private readonly told: (text: string) => void,
   ) {
     this.group.add(this.light, this.ring)
     this.group.visible = false
     world.add(this.group)
     this.undo = link.subscribe(KEY, lookHereReader, ({ name, point }) => {
-      this.show(name, point)
-      told(name)
+      this.show(words.room.looksHere(named(name)), point)
     })
   }
 
@@ -82,9 +96,23 @@ export class LookHere {
     this.link.publish(KEY, lookHereWriter, { ...createLookHere(), point: { x, y, z } })
   }
 
+  /** Mark where a replay stands, until it goes on. */
+  stand(state: RecorderState | null): void {
+    const stop = state?.code === STOP ? state.position : Number.NaN
+    if (Object.is(stop, this.stop)) return
+    if (this.stands) this.hide()
+    this.stop = stop
+    const place = typed(state?.values.find(({ key }) => key === 'place')?.value)
+    if (state === null || Number.isNaN(stop) || !Array.isArray(place)) return
+    const [x, y, z] = place.map(Number)
+    this.show(spoken(state), { x: x ?? 0, y: y ?? 0, z: z ?? 0 })
+    this.stands = true
+  }
+
   /** Before each picture; now: s. Returns whether it is drawn. */
   update(now: number): boolean {
-    const left = this.since + SHOWN - now
+    const { stands } = this
+    const left = stands ? SHOWN : this.since + SHOWN - now
     if (!(left > 0)) {
       this.hide()
       return false
@@ -92,8 +120,8 @@ export class LookHere {
     const share = Math.min(left / FADES, 1)
     this.beam.opacity = 0.45 * share
     this.ring.material.opacity = share
-    this.ring.scale.setScalar(1 + 0.25 * Math.sin((now - this.since) * 4))
-    return true
+    this.ring.scale.setScalar(stands ? 1 : 1 + 0.25 * Math.sin((now - this.since) * 4))
+    return !stands
   }
 
   dispose(): void {
@@ -105,19 +133,22 @@ export class LookHere {
     this.ring.material.dispose()
   }
 
-  private show(name: string, point: { x: number; y: number; z: number }): void {
+  private show(text: string, point: { x: number; y: number; z: number }): void {
     this.hide()
     this.since = performance.now() / 1000
     this.group.position.set(point.x, point.y, point.z)
     this.group.visible = true
-    this.label = new Label(this.words.room.looksHere(named(name)), WORDS)
+    const short = text.length > MOST_LETTERS ? `${text.slice(0, MOST_LETTERS)}…` : text
+    this.label = new Label(short, WORDS)
     this.label.paint('#1B2129', '#FFE08A')
     this.label.sprite.position.z = HIGH
     this.group.add(this.label.sprite)
+    this.told(text)
   }
 
   private hide(): void {
     this.since = Number.NaN
+    this.stands = false
     this.group.visible = false
     this.label?.dispose()
     this.label = null

@@ -1,4 +1,4 @@
-import { useSignal } from '@preact/signals'
+import { effect, useSignal } from '@preact/signals'
 import { useEffect, useMemo, useRef } from 'preact/hooks'
 import { trajectoryUrl } from '../../api/api'
 import type { Rights } from '../../api/types'
@@ -76,6 +76,7 @@ export function Lab({ link }: { link: Link }) {
   }, [link, catalogue])
   useEffect(() => {
     let here = true
+    let unfollow = () => {}
     import('./view')
       .then(({ LabView }) => {
         if (!here || host.current === null) return
@@ -95,6 +96,7 @@ export function Lab({ link }: { link: Link }) {
           () => follower.pose(),
         )
         follower.attach(view.current.scene)
+        unfollow = effect(() => view.current?.stand(follower.recorder.value))
       })
       .catch((error: unknown) => {
         const noWebGL = error instanceof Error && error.name === 'NoWebGL'
@@ -103,6 +105,7 @@ export function Lab({ link }: { link: Link }) {
       })
     return () => {
       here = false
+      unfollow()
       follower.dispose()
       view.current?.dispose()
       view.current = null

@@ -16,6 +16,7 @@ const MOST = 6
 export function ReplayCard({ follower }: { follower: LabFollower }) {
   const [bag, setBag] = useState('')
   const w = words.value.lab
+  const stop = words.value.room.tourStop
   const lab = useLab()
   const { link, may } = lab
   const state = follower.recorder.value
@@ -27,8 +28,7 @@ export function ReplayCard({ follower }: { follower: LabFollower }) {
     // a name can be typed all the same
     listBagsOf(link).then(setBags, () => setBags([]))
   }, [link, may.replay, doing])
-  const replaying =
-    state?.state === RecorderState.REPLAYING || state?.state === RecorderState.PAUSED
+  const replaying = follower.replays
   if (!may.replay && !replaying && state?.state !== RecorderState.RECORDING) return null
   const replay = (wanted: string) => {
     const request = { bag: wanted, rate: 1, start: 0, loop: false }
@@ -46,7 +46,11 @@ export function ReplayCard({ follower }: { follower: LabFollower }) {
           <p class="small">{w.replaying(state.bag)}</p>
           <Timeline key="timeline" player={follower.replay} rate={100} enabled={may.replay} />
           {may.replay && (
-            <Button onClick={() => trigger(lab, 'recorder/stop')}>{w.endReplay}</Button>
+            <div class="row">
+              <Button onClick={() => trigger(lab, 'recorder/previous_stop')}>‹ {stop}</Button>
+              <Button onClick={() => trigger(lab, 'recorder/next_stop')}>{stop} ›</Button>
+              <Button onClick={() => trigger(lab, 'recorder/stop')}>{w.endReplay}</Button>
+            </div>
           )}
         </>
       ) : (

@@ -2,6 +2,7 @@ import { Plane, Raycaster, Vector3 } from 'three'
 import { LookHere } from '../../lab/people/look_here'
 import { People, type Present } from '../../lab/people/people'
 import type { Link } from '../../link/link'
+import type { RecorderState } from '../../protocol/mrlab_msgs'
 import { LabScene } from '../../scene/lab/lab_scene'
 import { MeshLibrary } from '../../scene/robot/meshes'
 import { Stage } from '../../scene/stage/stage'
@@ -57,6 +58,12 @@ export class LabView {
   /** Ask for a new picture. */
   stir(): void {
     this.stage.invalidate()
+  }
+
+  /** Show where a guided replay stands. */
+  stand(state: RecorderState | null): void {
+    this.lookHere.stand(state)
+    this.stir()
   }
 
   setProjected(on: boolean): void {

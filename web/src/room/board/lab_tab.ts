@@ -1,4 +1,4 @@
-import { listBagsOf, order } from '../../lab/commands'
+import { listBagsOf, order, trigger } from '../../lab/commands'
 import type { LabFollower } from '../../lab/follower'
 import {
   listScenesType,
@@ -8,7 +8,7 @@ import {
   startRecordingType,
   triggerType,
 } from '../../protocol/mrlab_msgs'
-import { sentence } from '../../words/diagnostic'
+import { sentence, spoken } from '../../words/diagnostic'
 import { fixed, named } from '../../words/words'
 import type { Stats } from '../latency'
 import { GAP, HIT, PANEL_THEME, type Pen, TEXT } from '../panels/pen'
@@ -159,6 +159,24 @@ export function labTab(ports: TabPorts, follower: LabFollower, stats: Stats): Ta
     pen.box(RIGHT, track - 4, Math.max(share * COLUMN, 8), 8, PANEL_THEME.colours.accent)
     const time = `${fixed(replay.position(), 1)} / ${fixed(replay.duration, 1)} s`
     pen.text(RIGHT, track + 36, time, TEXT.small, COLUMN, 'ink', 600)
+    const stops = [
+      ['previous_stop', `‹ ${w.tourStop}`, RIGHT],
+      ['next_stop', `${w.tourStop} ›`, RIGHT + half + GAP],
+    ] as const
+    for (const [service, label, x] of stops) {
+      pen.button(
+        service,
+        x,
+        track + 56,
+        half,
+        label,
+        () => void trigger(ports, `recorder/${service}`),
+      )
+    }
+    const stands = follower.recorder.value
+    if (stands?.message) {
+      pen.lines(RIGHT, track + 56 + HIT + 22, spoken(stands), TEXT.small, COLUMN, 'ink', 3)
+    }
     pen.zone({
       id: 'replay_timeline',
       x: RIGHT,
