@@ -110,6 +110,13 @@ ARRAY_RATE = Code(
     "Expected a number of Hz above 0, or the time of each of the {rows:count row|rows} in s.",
     meaning="The rate that comes with an array cannot be one.",
 )
+PANDAS_MISSING = Code(
+    "pandas_missing",
+    "A table needs pandas, which cannot be imported: {problem}.",
+    "Install it: python -m pip install pandas.",
+    meaning="The lab itself does not need pandas.",
+    page=False,
+)
 
 # what is set aside
 SET_ASIDE = Code("set_aside", "It is now called {file}", severity=INFO)

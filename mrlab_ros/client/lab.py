@@ -110,7 +110,7 @@ class Lab:
 
     def trajectories(self) -> list[Motion]:
         """Return what there is to load."""
-        return [motion_of(info) for info in self.graph.catalogue()]
+        return [motion_of(info, self.graph) for info in self.graph.catalogue()]
 
     def convert(
         self,
@@ -156,11 +156,11 @@ class Lab:
 
             raise FileRefused(result_from_response(path.name, answer))
         if not answer.diagnostics:
-            return motion_of(answer.trajectory)
+            return motion_of(answer.trajectory, self.graph)
         from mrlab_ros.messages.trajectories import diagnostic_from_message  # seldom needed
 
         findings = tuple(map(diagnostic_from_message, answer.diagnostics))
-        return replace(motion_of(answer.trajectory), findings=findings)
+        return replace(motion_of(answer.trajectory, self.graph), findings=findings)
 
     def play(
         self,

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import asyncio
 from pathlib import Path
 from types import TracebackType
+from typing import Any
 
 from mrlab_msgs.srv import Trigger
 
@@ -43,6 +45,30 @@ class Recording:
                 raise
             return str(STOP_LEFT(bag=str(self.bag)))
         return str(answer.message)
+
+    def to_dataframe(self) -> Any:
+        """Return a pandas.DataFrame of the joint states that the bag holds so far.
+
+        A column ROBOT/JOINT, rad or m, by the lab's time, s; NaN where a row is another robot's.
+        Raises BadInput where the bag cannot be read here, Misuse without pandas.
+        """
+        from mrlab_ros.adapters.bags.motion import read_motion  # it loads numpy
+        from mrlab_ros.adapters.bags.reader import Bag
+        from mrlab_ros.adapters.data_frame import data_frame
+
+        bag, rows = Bag(self.bag), []
+        for name, robot in read_motion(bag).robots.items():
+            columns = [f"{name}/{joint}" for joint in robot.joints]
+            for time, values in zip(robot.track.times, robot.track.values, strict=True):
+                rows.append((bag.start_ns * 1e-9 + time, dict(zip(columns, values, strict=True))))
+        rows.sort(key=lambda row: row[0])
+        return data_frame([values for _, values in rows], [time for time, _ in rows])
+
+    async def __aenter__(self) -> Recording:
+        return self
+
+    async def __aexit__(self, *_: object) -> None:
+        await asyncio.to_thread(self.stop)
 
     def __enter__(self) -> Recording:
         return self

@@ -25,6 +25,7 @@ from mrlab_ros.core.base.diagnostics import ILLEGAL_EVENT
 from mrlab_ros.core.base.errors import LabError, Misuse
 from mrlab_ros.core.playback.diagnostics import HALTED_BY_CONTACT, OF_ROBOT
 from mrlab_ros.core.playback.states import State
+from mrlab_ros.core.trajectory.diagnostics import NO_TRAJECTORY_OF_NAME
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.time import time_from_message
 from mrlab_ros.ros.calls import NoAnswer
@@ -32,6 +33,8 @@ from mrlab_ros.ros.graph import GraphClient, Request, Said
 
 if TYPE_CHECKING:
     from message_bases import Service
+
+    from mrlab_ros.core.base.geometry import Array
 
 
 @dataclass(frozen=True)
@@ -50,9 +53,36 @@ class Motion:
     warnings: tuple[str, ...] = ()
     version: int = 0
     findings: tuple[Diagnostic, ...] = field(default=(), repr=False)
+    _graph: GraphClient | None = field(default=None, repr=False, compare=False)
+
+    def positions(self) -> tuple[Array, tuple[str, ...]]:
+        """Return the positions, (N, J) rad or m, and the names of the joints.
+
+        Raises Misuse where the lab no longer has it, or where it comes from no lab.
+        """
+        # numpy, which no other call of a motion needs
+        from mrlab_ros.messages.trajectories import trajectory_from_message
+
+        if self._graph is None:
+            raise Misuse(NO_TRAJECTORY_OF_NAME(id=self.id))
+        version = f"@{self.version}" if self.version else ""
+        request = srv.GetTrajectory.Request(id=self.id + version)
+        answer = self._graph.order(srv.GetTrajectory, "/converter/get_any", request)
+        found = trajectory_from_message(answer.trajectory)
+        return found.positions, found.joint_names
+
+    def to_dataframe(self) -> Any:
+        """Return a pandas.DataFrame of the positions, rad or m: a column a joint, by time, s.
+
+        Raises Misuse as positions() does, and without pandas.
+        """
+        from mrlab_ros.adapters.data_frame import data_frame
+
+        rows, names = self.positions()
+        return data_frame(rows, [i / self.frame_rate for i in range(len(rows))], names)
 
 
-def motion_of(info: msg.TrajectoryInfo) -> Motion:
+def motion_of(info: msg.TrajectoryInfo, graph: GraphClient) -> Motion:
     """Return the catalogue's entry."""
     return Motion(
         info.id,
@@ -62,6 +92,7 @@ def motion_of(info: msg.TrajectoryInfo) -> Motion:
         info.duration,
         tuple(warning.message for warning in info.warnings),
         info.version,
+        _graph=graph,
     )
 
 

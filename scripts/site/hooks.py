@@ -1,4 +1,5 @@
-"""What mkdocs calls while it builds the site: pages from outside docs/, links, colours, diagrams.
+"""What mkdocs calls while it builds the site: pages from outside docs/, notebooks, links, colours,
+diagrams.
 
 The pages are written for the repository, where a link may lead to any file and a comment above a
 block says how it is tested. On the site such a file is copied below files/, and the comments go.
@@ -9,6 +10,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import runpy
 from pathlib import Path, PurePosixPath
 from typing import Any
 
@@ -37,6 +39,8 @@ def place(path: str) -> str:
         if path == source:
             return page
     inside = PurePosixPath(path)
+    if inside.match("docs/*.ipynb"):
+        inside = inside.with_suffix(".md")  # made below
     return str(inside.relative_to("docs")) if inside.is_relative_to("docs") else f"files/{path}"
 
 
@@ -102,6 +106,12 @@ def on_files(files: Files, config: MkDocsConfig) -> None:
 
     for page, source in OUTSIDE.items():
         add(page, content=(ROOT / source).read_text())
+    page_of = runpy.run_path(str(ROOT / "scripts" / "docs" / "notebook.py"))["page"]
+    for notebook in sorted((ROOT / "docs").glob("*.ipynb")):
+        text, pictures = page_of(json.loads(notebook.read_text()), f"images/{notebook.stem}")
+        add(f"{notebook.stem}.md", content=text)
+        for uri, content in pictures.items():
+            add(uri, content=content)
     texts = {f"docs/{f.src_uri}": f.content_string for f in files.documentation_pages()}
     texts |= {source: (ROOT / source).read_text() for source in OUTSIDE.values()}
     for source, text in texts.items():

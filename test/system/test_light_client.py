@@ -39,6 +39,12 @@ with Lab(sys.argv[1], token=sys.argv[2]) as lab:
 
     assert asyncio.run(awaited())
     assert len(recording) > 50
+    sys.modules["pandas"] = None
+    for empty in (motion, recording):
+        try:
+            empty.to_dataframe()
+        except LabError as refused:
+            print(refused.code)
     rows, names = motion.positions()
     print(len(names), abs(rows - q).max() < 1e-12)
     try:
@@ -58,4 +64,11 @@ def test_it_checks_plays_and_records(tmp_path: Path) -> None:
             capture_output=True, text=True, timeout=DEADLINE_S, check=False,
         )  # fmt: skip
     assert done.returncode == 0, done.stderr
-    assert done.stdout.split() == ["joint_limit", "array_rate", "6", "True", "bad_position"]
+    assert done.stdout.split() == [
+        "joint_limit",
+        "array_rate",
+        *["pandas_missing"] * 2,
+        "6",
+        "True",
+        "bad_position",
+    ]

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import builtins
+import json
 import re
+import runpy
 import shutil
 import signal
 import subprocess
@@ -135,6 +137,21 @@ def set_robots(models: list[str]) -> None:
     with Lab() as lab:
         for model in models:
             lab.spawn(model)
+
+
+def test_a_notebook_shows_what_it_does(endpoint: str, folder: Path) -> None:
+    set_robots(["ur5e"])
+    notebook = runpy.run_path(str(ROOT / "scripts" / "docs" / "notebook.py"))
+    (file,) = (ROOT / "docs").glob("*.ipynb")
+    kept = json.loads(file.read_text())
+    anew = notebook["executed"](kept)
+
+    def rest(document: dict[str, Any]) -> str:
+        """A document without its numbers and pictures."""
+        text = re.sub(r'"image/png": "[^"]+"', "", notebook["written"](document))
+        return re.sub(r"[-+]?\d+(?:\.\d+)?(?:e-?\d+)?", "0", text)
+
+    assert rest(anew) == rest(kept)
 
 
 def test_people_are_named_where_no_lab_runs(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -6,12 +6,12 @@ import html
 import io
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from mrlab_client.errors import LabError
+from mrlab_client.table import data_frame
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -59,10 +59,8 @@ class Motion:
 
     def to_dataframe(self) -> Any:
         """Return a pandas.DataFrame of the positions: a column a joint, by time, s."""
-        pandas = import_module("pandas")
         rows, names = self.positions()
-        index = pandas.Index(np.arange(len(rows)) / self.frame_rate, name="time")
-        return pandas.DataFrame(rows, index=index, columns=list(names))
+        return data_frame(rows, np.arange(len(rows)) / self.frame_rate, names)
 
 
 @dataclass(frozen=True)

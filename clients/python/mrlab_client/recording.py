@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import threading
-from importlib import import_module
 from typing import Any
 
 from mrlab_client.link import Link
+from mrlab_client.table import data_frame
 
 
 class Recording:
@@ -41,6 +41,12 @@ class Recording:
         """Take no more."""
         self._ends.set()
 
+    async def __aenter__(self) -> Recording:
+        return self
+
+    async def __aexit__(self, *_: object) -> None:
+        self.stop()
+
     def __enter__(self) -> Recording:
         return self
 
@@ -49,7 +55,5 @@ class Recording:
 
     def to_dataframe(self) -> Any:
         """Return a pandas.DataFrame: a column ROBOT/JOINT, rad or m, by the lab's time, s."""
-        pandas = import_module("pandas")
         rows = list(self._rows)
-        index = pandas.Index([time for time, _ in rows], name="time")
-        return pandas.DataFrame([values for _, values in rows], index=index)
+        return data_frame([values for _, values in rows], [time for time, _ in rows])

@@ -7,14 +7,14 @@ import tempfile
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
-from importlib import import_module
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from mrlab_ros.adapters import share
+from mrlab_ros.adapters.data_frame import data_frame
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.trajectories import array_file
 from mrlab_ros.app.check.file import CheckedFile, Setting, check_file, scene_of
@@ -25,6 +25,9 @@ from mrlab_ros.core.base.foreign_text import for_html
 from mrlab_ros.core.base.geometry import Array
 from mrlab_ros.core.conversion.options import Options
 from mrlab_ros.core.trajectory.trajectory import Trajectory
+
+if TYPE_CHECKING:
+    from PIL import Image
 
 WIDTH, HEIGHT = 160, 28  # of a sparkline, px
 MOST_POINTS = 160
@@ -96,6 +99,18 @@ class ArrayCheck:
         """Return the motion as the lab would play it; None where it is refused."""
         return self.checked.checked.trajectory
 
+    def picture(self, time: float = 0.0) -> Image.Image:
+        """Return a picture of the robot at `time` s, the last frame from its end on.
+
+        Raises BadInput where the motion is refused.
+        """
+        from mrlab_ros.app.show.poster import image  # trimesh is slow to import
+
+        motion = self._motion()
+        row = min(max(round(time * motion.frame_rate), 0), motion.frame_count - 1)
+        positions = dict(zip(motion.joint_names, motion.positions[row], strict=True))
+        return image(self._stage.library, motion.robot_model, motion.end_effector or "", positions)
+
     def page(self) -> str:
         """Return the report with 3D and plots as one HTML file; raise BadInput without."""
         from mrlab_ros.app.show.check import page_of  # trimesh is slow to import
@@ -105,15 +120,16 @@ class ArrayCheck:
     def to_dataframe(self) -> Any:
         """Return a pandas.DataFrame of the positions, rad or m: a column a joint, by time, s.
 
-        Raises BadInput where the motion is refused, ImportError without pandas.
+        Raises BadInput where the motion is refused, Misuse without pandas.
         """
-        pandas = import_module("pandas")  # seldom wanted, and no part of the lab
-        motion = self.trajectory
-        if motion is None:
-            raise BadInput(self.checked.why or self.checked.checked.report.summary)
+        motion = self._motion()
         times = np.arange(motion.frame_count) / motion.frame_rate
-        index = pandas.Index(times, name="time")
-        return pandas.DataFrame(motion.positions, index=index, columns=motion.joint_names)
+        return data_frame(motion.positions, times, motion.joint_names)
+
+    def _motion(self) -> Trajectory:
+        if self.trajectory is None:
+            raise BadInput(self.checked.why or self.checked.checked.report.summary)
+        return self.trajectory
 
     def __str__(self) -> str:
         lines = [f"  {each.severity.name.lower()}: {each}" for each in self.findings]
@@ -127,18 +143,26 @@ class ArrayCheck:
             for each in self.findings
         )
         summary = for_html(str(self.checked.checked.report.summary))
-        return f"<p>{summary}</p><table>{self._lines()}</table><table>{rows}</table>"
+        found = _table(("", "joint", "row", "finding", "remedy"), rows)
+        return f"<p>{summary}</p>{self._lines()}{found}"
 
     def _lines(self) -> str:
-        """Return a table row a joint: its name, its course, and its range in rad or m."""
+        """Return a table with a row a joint: its name, its course, and its range in rad or m."""
         motion = self.trajectory
         if motion is None:
             return ""
-        return "".join(
+        rows = "".join(
             f"<tr><td>{for_html(name)}</td><td>{sparkline(course)}</td>"
             f"<td>{course.min():.3f}</td><td>{course.max():.3f}</td></tr>"
             for name, course in zip(motion.joint_names, motion.positions.T, strict=True)
         )
+        return _table(("joint", "course", "least", "most"), rows)
+
+
+def _table(heads: tuple[str, ...], rows: str) -> str:
+    """Return a table of HTML; empty where it has no rows."""
+    line = "".join(f"<th>{head}</th>" for head in heads)
+    return f"<table><tr>{line}</tr>{rows}</table>" if rows else ""
 
 
 def sparkline(course: Array) -> str:

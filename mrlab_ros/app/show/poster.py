@@ -25,10 +25,18 @@ AMBIENT = 0.45
 
 def poster(library: RobotLibrary, robot: ShownRobot, positions: Mapping[str, float]) -> str:
     """Return a picture of a robot at joint positions, rad or m by name, as a data: URL."""
-    parts = drawing.bodies(library, robot.model, robot.end_effector or None, positions)
     content = io.BytesIO()
-    Image.fromarray(picture(parts)).save(content, "WEBP", quality=80)
+    image(library, robot.model, robot.end_effector, positions).save(content, "WEBP", quality=80)
     return "data:image/webp;base64," + base64.b64encode(content.getvalue()).decode("ascii")
+
+
+def image(
+    library: RobotLibrary, model: str, end_effector: str, positions: Mapping[str, float]
+) -> Image.Image:
+    """Return a picture of a robot at joint positions, rad or m by name."""
+    return Image.fromarray(
+        picture(drawing.bodies(library, model, end_effector or None, positions))
+    )
 
 
 def picture(parts: Sequence[trimesh.Trimesh]) -> NDArray[np.uint8]:

@@ -10,7 +10,13 @@ import pytest
 from refusals import refused
 
 import mrlab_ros
-from mrlab_ros.adapters.diagnostics import ARRAY_RATE, ARRAY_SHAPE, NOTHING_TO_SHOW
+from mrlab_ros.adapters.diagnostics import (
+    ARRAY_RATE,
+    ARRAY_SHAPE,
+    NOTHING_TO_SHOW,
+    PANDAS_MISSING,
+)
+from mrlab_ros.core.base.errors import Misuse
 
 TIMES = np.arange(101) / 100
 GOOD = np.column_stack([np.sin(TIMES), *([-1.2 + 0 * TIMES] * 2), *([TIMES / 3] * 3)])
@@ -51,16 +57,28 @@ def test_what_is_no_rate_is_refused(fs: object) -> None:
         mrlab_ros.check(GOOD, fs, robot="ur5e")  # type: ignore[arg-type]
 
 
-def test_a_frame_of_pandas_has_a_column_a_joint(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_table_of_pandas_has_a_column_a_joint(monkeypatch: pytest.MonkeyPatch) -> None:
+    found = mrlab_ros.check(GOOD, 100, robot="ur5e")
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with refused(PANDAS_MISSING, Misuse):
+        found.to_dataframe()
     made = SimpleNamespace(
         DataFrame=lambda values, index, columns: (values, index, columns),
         Index=lambda values, name: values,
     )
     monkeypatch.setitem(sys.modules, "pandas", made)
-    values, index, columns = mrlab_ros.check(GOOD, 100, robot="ur5e").to_dataframe()
+    values, index, columns = found.to_dataframe()
     assert values.shape == (101, 6)
     assert index == pytest.approx(TIMES)
     assert columns[0] == "shoulder_pan_joint"
+
+
+def test_a_picture_shows_the_robot_at_a_time() -> None:
+    found = mrlab_ros.check(GOOD, 100, robot="ur5e")
+    pictures = [np.asarray(found.picture(time)) for time in (0.0, 1.0, 99.0)]
+    assert pictures[0].ndim == 3
+    assert (pictures[0] != pictures[1]).any()
+    assert (pictures[1] == pictures[2]).all()
 
 
 def test_a_page_needs_a_motion() -> None:
