@@ -1,4 +1,5 @@
 # make demo   set up and run the lab on a shipped MATLAB file   (ARGS=--once ends by itself)
+# make setup  set up what is missing or older than its sources, as after git pull
 # make test   set up and run every test, in three processes (ARGS passes options to pytest: ARGS='-m fast'
 #             runs those that need no graph; ARGS='-n 0' runs all in one process, as --pdb needs)
 # make bench  run every benchmark, past one that fails          (ARGS=--quick for a minute each)

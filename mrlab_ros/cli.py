@@ -227,8 +227,17 @@ def hang_up(number: int, frame: FrameType | None) -> None:
 
 
 def fail(found: Diagnostic, code: int = 1) -> None:
-    """Print what is wrong and the commands that mend it; end with `code`."""
+    """Print what is wrong and the commands that mend it; end with `code`.
+
+    What broke may be older than the sources, as after `git pull`.
+    """
     say_problem(found)
+    if code == BROKEN:
+        from mrlab_ros.adapters.set_up import ROOT, outdated
+        from mrlab_ros.core.runtime.diagnostics import SET_UP_OUTDATED
+
+        if steps := outdated():
+            say_problem(SET_UP_OUTDATED(folder=str(ROOT), steps=steps))
     sys.exit(code)
 
 

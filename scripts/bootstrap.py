@@ -147,9 +147,11 @@ def wait(process, begin):
 class Setup:
     """The steps, in order; each is a method that does the work, run only when stale."""
 
-    def __init__(self, dev):
+    def __init__(self, dev, look=False):
+        """look: do nothing, name what would be done, with the Python that made .venv."""
         self.dev = dev
-        self.python = find_python()
+        self.look = look
+        self.python = probe(str(VENV / "bin" / "python")) if look else find_python()
         self.venv_python = VENV / "bin" / "python"
         self.site = VENV / "lib" / ("python" + self.python["version"]) / "site-packages"
 
@@ -157,6 +159,9 @@ class Setup:
         """Do a step unless its stamp has this mark and `made`, what it makes, is there."""
         stamp = STAMPS / name
         if stamp.exists() and stamp.read_text() == mark and made.exists():
+            return
+        if self.look:
+            print(name)
             return
         say(says)
         begin = time.monotonic()
@@ -195,6 +200,7 @@ class Setup:
             fingerprint(locks[0], *python, *filter(Path.is_file, sources)),
             lambda: self.colcon(*MESSAGES),
             "building the ROS messages (about a minute)",
+            INSTALL / MESSAGES[0],
         )
         web = ROOT / "web"
         self.step(
@@ -217,6 +223,7 @@ class Setup:
             fingerprint(ROOT / "setup.py", ROOT / "package.xml", *python, self.data_files()),
             lambda: self.colcon("mrlab_ros"),
             "building the ROS package",
+            INSTALL / "mrlab_ros",
         )
         self.step(
             "environment",
@@ -229,7 +236,10 @@ class Setup:
         """Name the files that setup.py installs as data: a new one means a new install."""
         folders = ("config", "robots", "launch", "examples", "msg_schemas", "web/dist")
         return [
-            str(p.relative_to(ROOT)) for f in folders for p in sorted(ROOT.joinpath(f).rglob("*"))
+            str(p.relative_to(ROOT))
+            for f in folders
+            for p in sorted(ROOT.joinpath(f).rglob("*"))
+            if "__pycache__" not in p.parts
         ]
 
     def make_venv(self):
@@ -458,7 +468,13 @@ def main():
         action="store_true",
         help="also install the system programs that the tests run",
     )
+    parser.add_argument(
+        "--look", action="store_true", help="only name the steps that have to be done again"
+    )
     options = parser.parse_args()
+    if options.look:
+        Setup(options.dev, look=True).all()
+        return
     try:
         require_tools()
         ROOT.joinpath("build").mkdir(exist_ok=True)

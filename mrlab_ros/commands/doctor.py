@@ -68,6 +68,7 @@ def doctor(
 def gather(url: str, certificate: Path | None, state_dir: Path | None) -> Facts:
     """Return the facts of this machine and of the gateway at `url`, else of its own lab."""
     from mrlab_ros.adapters.sandbox import restrictions
+    from mrlab_ros.adapters.set_up import ROOT, outdated, set_up_here
     from mrlab_ros.gateway.pages import pages_folder
     from mrlab_ros.processes.run_file import RunFile
     from mrlab_ros.ros.environment import domain_id
@@ -80,6 +81,7 @@ def gather(url: str, certificate: Path | None, state_dir: Path | None) -> Facts:
     there = next(path for path in (folder, *folder.parents) if path.exists())
     return Facts(
         python=sys.version_info[:2],
+        set_up=(str(ROOT), outdated()) if set_up_here() else None,
         modules={name: _has(name) for name in (*NEEDED, *OPTIONAL)},
         middleware=os.environ.get("RMW_IMPLEMENTATION", ""),
         middlewares=_middlewares(),

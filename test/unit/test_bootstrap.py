@@ -15,19 +15,25 @@ SAYS = "was set up in {} and moved or copied; set it up here: make demo"
 
 
 @pytest.fixture
-def clone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A clone whose `python` prints its arguments."""
+def bootstrap() -> ModuleType:
     spec = importlib.util.spec_from_file_location("bootstrap", SCRIPT)
     assert spec is not None
     assert spec.loader is not None
-    bootstrap: ModuleType = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(bootstrap)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture
+def clone(tmp_path: Path, bootstrap: ModuleType, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A clone whose `python` prints its arguments."""
     root = tmp_path / "a clone"
     (root / ".venv" / "bin").mkdir(parents=True)
     for name, path in {
         "ROOT": root,
         "VENV": root / ".venv",
         "INSTALL": root / "install",
+        "STAMPS": root / ".venv" / ".mrlab",
     }.items():
         monkeypatch.setattr(bootstrap, name, path)
     setup = object.__new__(bootstrap.Setup)
@@ -72,3 +78,17 @@ def test_a_copy_does_not_run_the_original(clone: Path) -> None:
     ):
         assert (done.returncode, done.stdout) == (1, "")
         assert SAYS.format(clone) in done.stderr
+
+
+def test_a_look_names_what_has_to_be_done_again_and_does_nothing(
+    clone: Path, bootstrap: ModuleType, capsys: pytest.CaptureFixture[str]
+) -> None:
+    stamps = clone / ".venv" / ".mrlab"
+    stamps.mkdir()
+    setup = object.__new__(bootstrap.Setup)
+    setup.look = True
+    for name, left in (("pages", "now"), ("messages", "before"), ("web", None)):
+        if left is not None:
+            (stamps / name).write_text(left)
+        setup.step(name, "now", lambda: pytest.fail("done"), "says", clone)
+    assert capsys.readouterr().out.split() == ["messages", "web"]

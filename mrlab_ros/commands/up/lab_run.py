@@ -8,12 +8,14 @@ from dataclasses import dataclass, field
 
 from mrlab_ros.adapters import threads
 from mrlab_ros.adapters.scenes.files import SCENE_FILE
+from mrlab_ros.adapters.set_up import ROOT, outdated
 from mrlab_ros.commands.diagnostics import OPEN_TO_ALL, SCENE_COMES_BACK, WAITS_FOR_CLOCK
 from mrlab_ros.commands.up.keys import follow_keys, keys_changed_at, tell_when_keys_expire
 from mrlab_ros.commands.up.refusals import Refusals
 from mrlab_ros.commands.up.speaker import Speaker
 from mrlab_ros.commands.up.web import run_facts, say_where
 from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.runtime.diagnostics import SET_UP_OUTDATED
 from mrlab_ros.core.runtime.identity import Identity
 from mrlab_ros.core.runtime.process_states import ProcessState
 from mrlab_ros.processes.announcer import Announcer
@@ -109,6 +111,8 @@ class LabRun:
             self.say(SELF, str(OPEN_TO_ALL(endpoint=self.listen)))
         if self._keys is not None:
             tell_when_keys_expire(self._keys, self.say, router=bool(options.connect))
+        if steps := outdated():
+            self.say(SELF, str(SET_UP_OUTDATED(folder=str(ROOT), steps=steps)))
         if self.no_physics:
             self.say(SELF, str(self.no_physics))
         if options.sim_time:

@@ -123,13 +123,21 @@ PYTHON_FITS = Code("python_fits", "Python {version}", severity=INFO)
 PYTHON_UNFIT = Code(
     "python_unfit",
     "Python {version}; expected {first} to {last}",
-    "Install Python 3.11 and set the lab up with it: PYTHON=python3.11 make demo.",
+    "Install Python 3.11 and set the lab up with it: MRLAB_PYTHON=python3.11 make demo.",
 )
 WHEELS_THERE = Code("wheels_there", "wheels: all there", severity=INFO)
 WHEELS_MISSING = Code(
     "wheels_missing",
     "wheels: {modules:list} missing",
     "Run make demo once; in a shell of its own: . .venv/mrlab.sh",
+)
+SET_UP_CURRENT = Code("set_up_current", "set-up: as new as the sources", severity=INFO, page=False)
+SET_UP_OUTDATED = Code(
+    "set_up_outdated",
+    "set-up: {steps:list} older than the sources, or missing",
+    "Run make setup in {folder}.",
+    meaning="The sources have changed since set-up built from them, as after git pull.",
+    page=False,
 )
 MODULE_THERE = Code("module_there", "{module}: there", severity=INFO)
 MODULE_MISSING = Code(

@@ -61,10 +61,13 @@ class Certificate:
 class Facts:
     """Facts of a machine. multicast: why a packet did not come back; None: it did.
 
-    sandbox: the layers of the sandbox of readers of files, and whether the kernel has them.
+    set_up: the folder that set-up works in, and its steps that are to be done again; None: it did
+    not set this up. sandbox: the layers of the sandbox of readers of files, and whether the kernel
+    has them.
     """
 
     python: tuple[int, int]
+    set_up: tuple[str, Sequence[str]] | None
     modules: Mapping[str, bool]
     middleware: str
     middlewares: Sequence[str]
@@ -83,6 +86,10 @@ class Facts:
 def examine(facts: Facts) -> Iterator[Diagnostic]:
     """Yield what is well (INFO) and what is not (ERROR), from the ground up."""
     yield _python(facts)
+    if facts.set_up is not None:
+        folder, steps = facts.set_up
+        outdated = say.SET_UP_OUTDATED(folder=folder, steps=list(steps)) if steps else None
+        yield outdated or say.SET_UP_CURRENT()
     yield from _modules(facts)
     yield _middleware(facts)
     yield (

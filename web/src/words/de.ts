@@ -3346,7 +3346,7 @@ export const diagnostics: Templates = {
   python_fits: ['Python {version} passt'],
   python_unfit: [
     'Python {version}; erwartet: {first} bis {last}',
-    'Installiere Python 3.11, und richte das Labor damit ein: PYTHON=python3.11 make demo.',
+    'Installiere Python 3.11, und richte das Labor damit ein: MRLAB_PYTHON=python3.11 make demo.',
   ],
   quantity: [
     '{quantity:choice length=eine Länge|angle=ein Winkel|time=eine Zeit|speed=eine Geschwindigkeit|share=ein Anteil in Prozent|number=eine Zahl}, etwa {example}[ (Einheiten: {units:list})]',

@@ -13,6 +13,7 @@ DAY = 24 * 3600.0
 URL = "https://lab:8080"
 WELL = Facts(
     python=(3, 11),
+    set_up=("/clone", []),
     modules={**dict.fromkeys(NEEDED, True), "pybullet": True},
     middleware="",
     middlewares=["rmw_fastrtps_cpp"],
@@ -45,6 +46,7 @@ def test_a_machine_that_is_well_has_nothing_to_do():
     [
         ({"python": (3, 14)}, "python_unfit", {"version": "3.14", "last": "3.13"}),
         ({"python": (3, 9)}, "python_unfit", {"version": "3.9", "first": "3.10"}),
+        ({"set_up": ("/clone", ["pages"])}, "set_up_outdated", {"steps": ["pages"]}),
         ({"modules": {**WELL.modules, "zenoh": False}}, "wheels_missing", {"modules": ["zenoh"]}),
         (
             {"modules": {**WELL.modules, "pybullet": False}},
