@@ -169,7 +169,7 @@ def running(
     """
     options = LabOptions(
         parameter_file(None), folder, (MODEL,) * robots, listen=free_endpoint(),
-        lab_id=new_lab_id() if lab_id is None else lab_id,
+        lab_id=new_lab_id() if lab_id is None else lab_id, socket=str(folder / "lab.sock"),
     )  # fmt: skip
     chosen: list[LabProcess] = [
         p for p in processes if p.wanted(options) and (not only or p.name in only)

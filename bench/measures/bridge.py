@@ -1,7 +1,8 @@
 """What the bridge adds, what it carries, and what becomes of motion on a bad link.
 
 Joint states of six joints go from a source process over the bridge to zenoh subscribers in
-processes of their own. The baselines are its two halves alone: DDS from the source to a
+processes of their own; "direct": the source puts them on zenoh itself, by the bridge's socket, as
+a playback does. The baselines are its two halves alone: DDS from the source to a
 subscriber, and zenoh from the source to a subscriber; with --stock also `zenoh-bridge-ros2dds`,
 whose messages have no stamps, so that the parts of its way have no figures. Age: from the stamp,
 just before publishing, to the subscriber's callback. "flat out" publishes as fast as one process
@@ -28,6 +29,7 @@ from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
@@ -55,10 +57,11 @@ HEALED_S = 30.0
 
 
 @contextmanager
-def bridge(stock: str = "") -> Iterator[tuple[str, psutil.Popen]]:
+def bridge(stock: str = "", socket: str = "") -> Iterator[tuple[str, psutil.Popen]]:
     """Run a bridge; yield its endpoint and process. stock: the executable of the stock one."""
     endpoint = free_endpoint()
-    ours = (*HOST, "bridge", "--ros-args", "--log-level", "error", "-p", f"listen:=['{endpoint}']")
+    parameters = ("-p", f"listen:=['{endpoint}']", "-p", f"socket:='{socket}'")
+    ours = (*HOST, "bridge", "--ros-args", "--log-level", "error", *parameters)
     command = (stock, "--no-multicast-scouting", "-l", endpoint) if stock else ours
     environment = os.environ | {"ROS_DISTRO": "jazzy"}
     with program(*command, env=environment, stdout=subprocess.DEVNULL) as process:
@@ -106,7 +109,7 @@ class Journey:
         }
 
 
-COSTS = ("bridge CPU %", "us/message", "RSS MB", "subscr. CPU %")
+COSTS = ("bridge CPU %", "us/message", "RSS MB", "source CPU %", "subscr. CPU %")
 
 
 def alone(way: str, robots: int, seconds: float) -> dict[str, Any]:
@@ -139,17 +142,20 @@ def bridged(
     memory: list[float] | None = None,
     guest: int = 0,
     stock: str = "",
+    direct: bool = False,
 ) -> dict[str, Any]:
     """Measure the whole way; `memory` collects the bridge's, MB, meanwhile.
 
     guest: messages a second that a guest sends all the time on a key that comes in. stock: the
-    executable of the stock bridge, in place of ours.
+    executable of the stock bridge, in place of ours. direct: the source puts them on zenoh itself.
     """
     with ExitStack() as stack:
-        endpoint, carrier = stack.enter_context(bridge(stock))
+        folder = stack.enter_context(TemporaryDirectory())
+        socket = f"{folder}/bridge.sock" if direct else ""
+        endpoint, carrier = stack.enter_context(bridge(stock, socket))
         counts = [SESSIONS] * (subscribers // SESSIONS)
         counts += [subscribers % SESSIONS] if subscribers % SESSIONS else []
-        sender = stack.enter_context(Partner(source, robots, rate, seconds))
+        sender = stack.enter_context(Partner(source, robots, rate, seconds, "", "", socket))
         receivers = [stack.enter_context(Partner(over_zenoh, endpoint, n)) for n in counts]
         if guest:
             stack.enter_context(Partner(flood, endpoint, guest))
@@ -160,7 +166,8 @@ def bridged(
             until(lambda: heard(endpoint) == robots, "the bridge to hear of subscribers")
 
         def used() -> tuple[float, float, float]:
-            return time.monotonic(), cpu_s(carrier), sum(cpu_s(r.pid) for r in receivers)
+            theirs = sum(cpu_s(receiver.pid) for receiver in receivers)
+            return time.monotonic(), cpu_s(carrier), cpu_s(sender.pid), theirs
 
         before = used()
         sender.send()
@@ -168,13 +175,18 @@ def bridged(
             memory.append(carrier.memory_info().rss / 1e6)
             time.sleep(RSS_PERIOD_S)
         sent = sender.receive(seconds + 60.0)
-        took, busy, theirs = (now - then for now, then in zip(used(), before, strict=True))
+        took, busy, source_s, theirs = (
+            now - then for now, then in zip(used(), before, strict=True)
+        )
         time.sleep(1.0)
         said = [receiver.ask() for receiver in receivers]
         carried = max(1, min(sent, said[0]["count"] // counts[0]))
         costs = (100 * busy / took, 1e6 * busy / carried, carrier.memory_info().rss / 1e6)
-        figures = dict(zip(COSTS, (*costs, 100 * theirs / took), strict=True))
-    way = "stock bridge" if stock else f"bridge, {guest:,}/s from a guest" if guest else "bridge"
+        figures = dict(
+            zip(COSTS, (*costs, 100 * source_s / took, 100 * theirs / took), strict=True)
+        )
+    way = "stock bridge" if stock else "direct" if direct else "bridge"
+    way += f", {guest:,}/s from a guest" if guest else ""
     journey = Journey(way, robots, rate, sent, said, subscribers)
     return journey.row(figures, parts=not stock)
 
@@ -185,7 +197,10 @@ def journeys(size: Size) -> list[dict[str, Any]]:
 
     def bridges(robots: int, rate: float) -> list[dict[str, Any]]:
         stocks = ("", size.stock) if size.stock else ("",)
-        return [bridged(robots, rate, seconds, stock=stock) for stock in stocks]
+        return [
+            *(bridged(robots, rate, seconds, stock=stock) for stock in stocks),
+            bridged(robots, rate, seconds, direct=True),
+        ]
 
     rows = [alone("DDS", robots, seconds), alone("zenoh", robots, seconds), *bridges(1, RATE)]
     if size.name == "touch":
@@ -201,7 +216,8 @@ def journeys(size: Size) -> list[dict[str, Any]]:
 
 def many(size: Size) -> list[dict[str, Any]]:
     robots, seconds = size.of(1, 13, 13), size.of(0.5, 4.0, 30.0)
-    return [bridged(robots, RATE, seconds, count) for count in size.some((1, MANY))]
+    ways = [(count, direct) for count in size.some((1, MANY)) for direct in (False, True)]
+    return [bridged(robots, RATE, seconds, count, direct=direct) for count, direct in ways]
 
 
 def soak(size: Size) -> list[dict[str, Any]]:

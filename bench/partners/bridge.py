@@ -27,6 +27,7 @@ from mrlab_ros.adapters.zenoh.session import ZenohSession
 from mrlab_ros.core.bridge.latency import attachment
 from mrlab_ros.core.bridge.rules import Congestion, TopicRule
 from mrlab_ros.messages import qos
+from mrlab_ros.nodes.playback.direct import Direct, Stream
 from mrlab_ros.ros.arrivals import Arrivals
 
 # All topics are matched long before; what discovery still does must not be measured, s.
@@ -54,13 +55,32 @@ def enter(namespace: str) -> None:
 
 
 @contextmanager
-def dds(topics: list[str]) -> Iterator[list[Callable[[bytes], None]]]:
-    """Yield what publishes on each topic."""
+def dds(topics: list[str], socket: str = "") -> Iterator[list[Callable[[bytes], None]]]:
+    """Yield what publishes on each topic; socket: and puts it on zenoh, as a playback does."""
     rclpy.init()
     node = rclpy.create_node("bench_source")
     publishers = [node.create_publisher(JointState, topic, qos.STREAM) for topic in topics]
-    until(lambda: all(p.get_subscription_count() for p in publishers), "a subscription a topic")
-    yield [publisher.publish for publisher in publishers]
+    if not socket:
+        until(
+            lambda: all(p.get_subscription_count() for p in publishers), "a subscription a topic"
+        )
+        yield [publisher.publish for publisher in publishers]
+        return
+    direct = Direct(socket, "")
+    streams = [direct.stream(topic) for topic in topics]
+    for stream in streams:
+        until(stream.newly_heard, "a subscriber a key")
+
+    def both(publisher: Any, stream: Stream) -> Callable[[bytes], None]:
+        def publish(payload: bytes) -> None:
+            now = time.time_ns()
+            publisher.publish(payload)
+            stream.put(payload, now)
+
+        return publish
+
+    yield [both(*each) for each in zip(publishers, streams, strict=True)]
+    direct.close()
 
 
 @contextmanager
@@ -83,19 +103,26 @@ def zenoh_alone(topics: list[str], endpoint: str) -> Iterator[list[Callable[[byt
 
 
 def source(
-    pipe: Any, robots: int, rate: float, seconds: float, endpoint: str = "", namespace: str = ""
+    pipe: Any,
+    robots: int,
+    rate: float,
+    seconds: float,
+    endpoint: str = "",
+    namespace: str = "",
+    socket: str = "",
 ) -> None:
     """Publish joint states of six joints over DDS, or over zenoh at an endpoint.
 
-    rate: Hz; 0: flat out. Sends "ready" when all topics are matched, begins when it is told, sends
-    how many it sent. The stamp in a message is taken just before it is published.
+    socket: of a bridge, to which they go over zenoh, too. rate: Hz; 0: flat out. Sends "ready"
+    when all topics are matched, begins when it is told, sends how many it sent. The stamp in a
+    message is taken just before it is published.
     """
     enter(namespace)
     state = JointState(name=[f"joint_{i}" for i in range(6)], position=[0.5] * 6)
     state.velocity = [0.1] * 6
     message = bytearray(serialize_message(state))
     topics = [f"/bench_{i}/joint_states" for i in range(robots)]
-    with zenoh_alone(topics, endpoint) if endpoint else dds(topics) as publishers:
+    with zenoh_alone(topics, endpoint) if endpoint else dds(topics, socket) as publishers:
         time.sleep(SETTLE_S)
         pipe.send("ready")
         pipe.recv()

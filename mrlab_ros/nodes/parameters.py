@@ -145,6 +145,15 @@ class PlaybackParameters:
     robots: tuple[str, ...] = field(
         ROBOTS, "Names of the robots that this process plays; empty: all.", ()
     )
+    direct: bool = field(
+        FLAG,
+        "Put joint states on zenoh itself where the bridge grants it, not through the bridge.",
+        True,
+    )
+    socket: str = field(
+        TEXT, "The bridge's Unix socket, to which they go; empty: through the bridge.", ""
+    )
+    prefix: str = field(PREFIX, "What every key begins with, as the bridge has it.", "")
     velocity_share: float = field(
         Number(above(0, 1)),
         "Share of each joint's velocity limit in the motion to a trajectory's first frame.",

@@ -80,6 +80,15 @@ def _lab_parameters(options: LabOptions) -> Parameters:
     return found
 
 
+def _playback_parameters(options: LabOptions) -> Parameters:
+    if not options.socket or options.connect:
+        return {}
+    from mrlab_ros.processes.parameter_file import parameter
+
+    prefix = parameter(options.config, "bridge", "prefix")
+    return {"playback_host:socket": options.socket, "playback_host:prefix": prefix or ""}
+
+
 def _bridge_parameters(options: LabOptions) -> Parameters:
     found: Parameters = {}
     if options.connect:
@@ -143,7 +152,7 @@ class LabProcess:
 
 PROCESSES: tuple[LabProcess | GatewayProcess, ...] = (
     LabProcess("lab", ("converter", "lab", "coordinator"), _lab_parameters),
-    LabProcess("playback", ("playback",)),
+    LabProcess("playback", ("playback",), _playback_parameters),
     LabProcess("recorder", ("recorder",)),
     LabProcess("physics", ("physics",), wanted=lambda options: options.physics),
     LabProcess("frames", ("frames",), wanted=lambda options: options.frames),

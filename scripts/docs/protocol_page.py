@@ -50,16 +50,16 @@ Every message that goes out has an attachment of 24 bytes; later versions may ad
 
 | bytes | type | what it is |
 |---|---|---|
-| 0-7 | int64, little-endian | sequence number: 1 for the key's first message from this bridge |
+| 0-7 | int64, little-endian | sequence number: 1 for the key's first message |
 | 8-15 | int64, little-endian | when it was published in the graph, ns since 1970 |
 | 16-23 | int64, little-endian | when the bridge put it, ns since 1970 |
 
-A gap in the numbers: messages were lost on the link. A smaller number: the bridge was started
-again. The publishing time is by the clock of the publisher's machine, the other by that of the
-bridge's. A `get` on `@mrlab/bridge/clock` answers 16 bytes, two int64: when the question came and
-when it was answered, by the bridge's clock. With its own times t0 (asked) and t3 (answered) a
-client has the offset ((t1 - t0) + (t2 - t3)) / 2, wrong by at most half of the round trip. What it
-then measures it puts on `latency/clients` as a `mrlab_msgs/msg/Latency`.
+A gap in the numbers: messages were lost on the link. A smaller number: the bridge, or what puts
+the key, was started again. The publishing time is by the clock of the publisher's machine, the
+other by that of the bridge's. A `get` on `@mrlab/bridge/clock` answers 16 bytes, two int64: when
+the question came and when it was answered, by the bridge's clock. With its own times t0 (asked)
+and t3 (answered) a client has the offset ((t1 - t0) + (t2 - t3)) / 2, wrong by at most half of the
+round trip. What it then measures it puts on `latency/clients` as a `mrlab_msgs/msg/Latency`.
 """
 
 

@@ -331,6 +331,9 @@ class StuckSession:
     def subscriber(self, key, admit, on_payload, late):
         return self.Publisher(self, False)
 
+    def follow_tokens(self, key, on_token):
+        return self.Publisher(self, False)
+
     def close(self):
         pass
 

@@ -101,6 +101,13 @@ class Session(Protocol):
         """Declare a liveliness token."""
         ...
 
+    def follow_tokens(self, key: str, on_token: Callable[[str, bool], None]) -> Declared:
+        """Call `on_token` with the key of every token of `key` that comes (True) or goes (False).
+
+        `on_token` must not wait.
+        """
+        ...
+
     def follow_links(self, on_link: Callable[[Link, bool], None]) -> Declared:
         """Call `on_link` with every link that is opened (True) or closed (False)."""
         ...

@@ -101,6 +101,14 @@ class ZenohSession:
     def token(self, key: str) -> Declared:
         return self._session.liveliness().declare_token(key)
 
+    def follow_tokens(self, key: str, on_token: Callable[[str, bool], None]) -> Declared:
+        def on_sample(sample: zenoh.Sample) -> None:
+            on_token(str(sample.key_expr), sample.kind == zenoh.SampleKind.PUT)
+
+        return self._session.liveliness().declare_subscriber(
+            key, zenoh.handlers.Callback(on_sample, indirect=False), history=True
+        )
+
     def follow_links(self, on_link: Callable[[Link, bool], None]) -> Declared:
         def on_event(event: zenoh.LinkEvent) -> None:
             link = event.link

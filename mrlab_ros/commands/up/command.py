@@ -8,7 +8,12 @@ from typing import Annotated
 import typer
 
 from mrlab_ros.adapters.store.objects import open_store
-from mrlab_ros.commands.up.keys import checked_listen, checked_router, free_endpoint
+from mrlab_ros.commands.up.keys import (
+    asks_for_passwords,
+    checked_listen,
+    checked_router,
+    free_endpoint,
+)
 from mrlab_ros.commands.up.lab_run import LabRun
 from mrlab_ros.commands.up.surroundings import (
     folder_for_state,
@@ -181,7 +186,7 @@ def up(
                 keys=keys,
                 insecure=insecure,
                 store=checked_store(store),
-                socket=run_file.socket if bridge else "",
+                socket=run_file.socket if bridge and not asks_for_passwords(keys) else "",
                 web=pages,
                 sim_time=sim_time,
             )

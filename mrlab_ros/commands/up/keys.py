@@ -40,6 +40,13 @@ def checked_listen(chosen: str, keys: Path | None, insecure: bool) -> str:
     return listen
 
 
+def asks_for_passwords(keys: Path | None) -> bool:
+    """Return whether nobody gets in without a password, not even through the lab's socket."""
+    from mrlab_ros.adapters.keys.folder import Keys
+
+    return keys is not None and Keys(keys).login.by_password
+
+
 def free_endpoint(endpoint: str, option: str = "--zenoh-listen ") -> str:
     """Return a zenoh endpoint with a free port in place of 0, so that others can be told of it.
 

@@ -7,6 +7,8 @@ no client subscribes to is not received at all.
 Limits the rates of topics: a message that comes too early waits until it is due.
 
 Sends to clients in a separate thread, so that a slow client delays no other work.
+
+Grants streams to publishers that put them on zenoh themselves (core.bridge.direct).
 """
 
 from __future__ import annotations
@@ -24,7 +26,7 @@ from rclpy.subscription import Subscription
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from mrlab_ros.adapters.zenoh.port import Declared, Publisher
-from mrlab_ros.core.bridge import rules
+from mrlab_ros.core.bridge import direct, rules
 from mrlab_ros.core.bridge.latency import Ledger, attachment
 from mrlab_ros.core.bridge.rules import (
     SECOND,
@@ -124,6 +126,76 @@ class RateCaps:
                     del self._waiting[cap]
 
 
+class Direct:
+    """The offers of publishers that put their topics on zenoh themselves, and the grants.
+
+    settle() and withdraw() are for one thread. on_offer: called in any thread when an offer has
+    come or gone.
+    """
+
+    def __init__(
+        self, bridge: BridgeContext, ledger: Ledger, on_offer: Callable[[], None]
+    ) -> None:
+        self._bridge = bridge
+        self._ledger = ledger
+        self._on_change = on_offer
+        self._offers = bridge.key(direct.OFFERS)
+        self._offered: set[str] = set()
+        self._grants: dict[str, Declared] = {}
+        session = bridge.session
+        self._declared = [
+            session.follow_tokens(f"{self._offers}/**", self._on_offer),
+            session.subscriber(
+                bridge.key(direct.REPORTS), self._admits, self._on_report, late=False
+            ),
+        ]
+
+    def stop(self) -> None:
+        """Take no further offers and reports."""
+        for declared in self._declared:
+            declared.undeclare()
+
+    def settle(self, name: str, rule: TopicRule | None) -> bool:
+        """Grant a topic by its rule where it is offered; return whether it is granted now.
+
+        rule: None where it may not be.
+        """
+        if rule is None or name not in self._offered:
+            self.withdraw(name)
+        elif name not in self._grants:
+            token = self._bridge.key(direct.grant(name, rule))
+            self._grants[name] = self._bridge.session.token(token)
+        return name in self._grants
+
+    def withdraw(self, name: str) -> None:
+        """Take the grant of a topic back, if there is one."""
+        grant = self._grants.pop(name, None)
+        if grant is not None:
+            grant.undeclare()
+
+    def _on_offer(self, key: str, there: bool) -> None:
+        (self._offered.add if there else self._offered.discard)(key.removeprefix(self._offers))
+        self._on_change()
+
+    def _admits(self, size: int) -> bool:
+        return size <= direct.LARGEST_REPORT
+
+    def _on_report(self, payload: bytes) -> None:
+        try:
+            carried = direct.reported(payload)
+        except (TypeError, ValueError) as error:
+            self._bridge.warn_of_loss(error)
+            return
+        count = self._bridge.counts.get(self._bridge.key(carried.name))
+        if count is None or carried.name not in self._grants:  # closed meanwhile
+            return
+        count.messages += len(carried.delays_ns)
+        count.bytes += carried.bytes
+        note = self._ledger.window(carried.name).add
+        for delay_ns in carried.delays_ns:
+            note(delay_ns)
+
+
 # How long a stream is received on after its last zenoh subscriber has gone, s: a page that is
 # loaded again finds it running.
 LINGER_S = 5.0
@@ -134,13 +206,17 @@ class OutRoute(Route):
     """ends: the topic's publishers.
 
     subscribe: opens its subscription. always: it is received without a zenoh subscriber, too.
-    unheard_since: when its last zenoh subscriber had gone, s.
+    grantable: the rule by which its publisher may put it itself; None: it may not. direct: it
+    does, so that it is not received here. unheard_since: when its last zenoh subscriber had gone,
+    s.
     """
 
     publisher: Publisher
     token: Declared
     subscribe: Callable[[], Subscription]
     always: bool
+    grantable: TopicRule | None
+    direct: bool = False
     subscription: Subscription | None = None
     unheard_since: float | None = None
 
@@ -148,11 +224,10 @@ class OutRoute(Route):
         """Return whether messages go from the graph to a zenoh subscriber now."""
         subscription = self.subscription
         try:
-            return (
-                subscription is not None
-                and self.publisher.has_subscriber()
-                and subscription.get_publisher_count() > 0
+            matched = self.direct or (
+                subscription is not None and subscription.get_publisher_count() > 0
             )
+            return matched and self.publisher.has_subscriber()
         except Exception:  # closed meanwhile, or the context is shut down
             return False
 
@@ -171,6 +246,7 @@ class Outward(TopicRoutes[OutRoute]):
         self._ledger = ledger
         self._lab = lab
         self._on_match = on_match
+        self._direct = Direct(bridge, ledger, on_match)
         self._caps = RateCaps()
         self._must_arrive = Sender("bridge_sender", bridge.warn_once)
         # No executor spins this node: its subscriptions have a thread that does nothing else.
@@ -179,6 +255,7 @@ class Outward(TopicRoutes[OutRoute]):
 
     def stop(self) -> None:
         """Stop receiving, publish what waits, close all routes."""
+        self._direct.stop()
         for route in self._routes.values():
             self._unsubscribe(route)
         self._arrivals.close()
@@ -192,10 +269,16 @@ class Outward(TopicRoutes[OutRoute]):
         return {self._bridge.key(n): route.heard() for n, route in list(self._routes.items())}
 
     def match(self) -> None:
-        """Receive the streams with a zenoh subscriber, and those that had one a moment ago."""
+        """Receive the streams with a zenoh subscriber, and those that had one a moment ago.
+
+        What its only publisher puts on zenoh itself is not received.
+        """
         now = time.monotonic()
-        for route in self._routes.values():
-            if route.always or route.publisher.has_subscriber():
+        for name, route in self._routes.items():
+            route.direct = self._direct.settle(name, route.grantable if route.ends == 1 else None)
+            if route.direct:
+                self._unsubscribe(route)
+            elif route.always or route.publisher.has_subscriber():
                 route.unheard_since = None
                 if route.subscription is None:
                     route.subscription = route.subscribe()
@@ -252,13 +335,21 @@ class Outward(TopicRoutes[OutRoute]):
             return subscription
 
         self._routes[name] = OutRoute(
-            type_name, qos, route.ends, publisher, token, subscribe, always
+            type_name,
+            qos,
+            route.ends,
+            publisher,
+            token,
+            subscribe,
+            always,
+            rule if not always and direct.grantable(rule) else None,
         )
         self.match()
 
     def _close(self, name: str) -> None:
         route = self._routes.pop(name)
         self._unsubscribe(route)
+        self._direct.withdraw(name)
         route.token.undeclare()
         route.publisher.undeclare()
         self._ledger.forget(name)

@@ -34,6 +34,7 @@ from mrlab_ros.messages.time import time_to_message
 from mrlab_ros.nodes import parameters
 from mrlab_ros.nodes.converter.catalogue import CatalogueClient
 from mrlab_ros.nodes.parameters import PlaybackParameters
+from mrlab_ros.nodes.playback.direct import Direct
 from mrlab_ros.nodes.playback.node import PlaybackNode
 from mrlab_ros.ros.clock import LabClock, every
 from mrlab_ros.ros.deadlines import REALTIME, Scheduler, take_precedence
@@ -56,6 +57,8 @@ STATE_PERIOD_S = 1.0
 STATE_TURNS = 10
 # How often the claims of robot systems are checked, s.
 LEASE_CHECK_S = 0.5
+# Period of what the bridge is told of joint states that it did not forward itself, s.
+DIRECT_PERIOD_S = 1.0
 
 
 class Fetches:
@@ -120,6 +123,10 @@ class PlaybackHostNode(
         # Diagnostics of state that could not be brought back.
         self.lost: list[Diagnostic] = []
         self._leases = Leases()
+        self._direct: Direct | None = None
+        if self.parameters.direct and self.parameters.socket:
+            self._direct = Direct(self.parameters.socket, self.parameters.prefix)
+            every(self, DIRECT_PERIOD_S, self._direct.report)
         orders = self.hidden_node("orders", remapped=True)
         subscribe(self, msg.Robots, "/robots", self._on_robots, qos.LATCHED)
         # Named by the lab too: the coordinator of another one on the same domain must not drive
@@ -174,6 +181,8 @@ class PlaybackHostNode(
         self.scheduler.stop()
         for robot in list(self.nodes):
             self._remove(robot)
+        if self._direct is not None:
+            self._direct.close()
         self._safety.close()
         super().destroy_node()
 
@@ -296,6 +305,7 @@ class PlaybackHostNode(
             pose_file=pose_file,
             keep=self._write_journal,
             warn=self.get_logger().warning,
+            direct=self._direct,
             context=self.context,
         )
         with self.scheduler.command(node.player):

@@ -37,6 +37,7 @@ from mrlab_ros.messages.playback import (
 )
 from mrlab_ros.nodes.playback.commanders import Commanders
 from mrlab_ros.nodes.playback.controller import Controller
+from mrlab_ros.nodes.playback.direct import Direct, Stream
 from mrlab_ros.ros.calls import NoAnswer
 from mrlab_ros.ros.deadlines import Command, Player, Scheduler
 from mrlab_ros.ros.decoding import subscribe
@@ -71,6 +72,7 @@ class PlaybackNode(LeanNode):
         pose_file: PoseFile | None = None,
         keep: Callable[[], object] = lambda: None,
         warn: Callable[[str], None] = lambda said: None,
+        direct: Direct | None = None,
         context: Context | None = None,
     ) -> None:
         """Make the node; the scheduler serves its playback from now on.
@@ -78,7 +80,8 @@ class PlaybackNode(LeanNode):
         host, lab: the node that plays the robot, and the id of its lab. warn: takes a sentence of
         what was refused where nobody can be answered. kept: what the robot had
         before the process was restarted; come_back() loads it. pose_file: gets each pose that is
-        sent. keep: journals what was loaded, before that is answered.
+        sent. keep: journals what was loaded, before that is answered. direct: puts its joint
+        states on zenoh; None: only the bridge does.
         """
         # A lab of fifty robots has fifty of these nodes: each does without rosout and the
         # services for parameters, of which it has none. It is hidden: `ros2 param list` waits 5 s
@@ -109,6 +112,8 @@ class PlaybackNode(LeanNode):
         self._announced = True
         self._commanders: Commanders | None = None
         self._controller: Controller | None = None
+        self._direct = direct
+        self._stream: Stream | None = None
         try:
             self._offer(warn)
         except BaseException:
@@ -123,6 +128,8 @@ class PlaybackNode(LeanNode):
         self._joint_states = self.create_publisher(JointState, "joint_states", qos.STREAM)
         self._publish_joint_state = raw_publish(self._joint_states)
         self._subscribers = 0
+        if self._direct is not None:
+            self._stream = self._direct.stream(self._joint_states.topic_name)
         self._state = self.create_publisher(
             msg.PlaybackState, "playback_state", qos.LATCHED_EVENTS
         )
@@ -230,6 +237,8 @@ class PlaybackNode(LeanNode):
         if self._commanders is not None:
             self._commanders.close()
         self._scheduler.remove(self.player)
+        if self._direct is not None and self._stream is not None:
+            self._direct.remove(self._stream)
         if self._pose_file is not None:
             self._pose_file.close()
         self.destroy_node()
@@ -272,11 +281,12 @@ class PlaybackNode(LeanNode):
                 self._announce(now_ns, self.playback.status())
 
     def _send(self, sample: Sample) -> None:
-        self._publish_joint_state(
-            self._encoder.encode(
-                self._scheduler.clock.stamp(sample.due_ns), sample.positions, sample.velocities
-            )
-        )
+        stamp_ns = self._scheduler.clock.stamp(sample.due_ns)
+        payload = self._encoder.encode(stamp_ns, sample.positions, sample.velocities)
+        published_ns = time.time_ns()
+        self._publish_joint_state(payload)
+        if self._stream is not None:
+            self._stream.put(payload, published_ns)
         if self._pose_file is not None:
             self._pose_file.put(self.playback.stream.position, sample.positions.tolist())
 
@@ -413,7 +423,8 @@ class PlaybackNode(LeanNode):
         The count is looked at: a LeanNode handles no events.
         """
         before, self._subscribers = self._subscribers, self._joint_states.get_subscription_count()
-        if self._subscribers > before:
+        heard = self._stream is not None and self._stream.newly_heard()
+        if heard or self._subscribers > before:
             with self._command() as now_ns:
                 self.playback.repeat(now_ns)
 

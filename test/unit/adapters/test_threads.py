@@ -34,6 +34,7 @@ THREADS = {
     "nodes/coordinator/node.py": ["Worker"],
     "nodes/frames/markers.py": ["Worker"],
     "nodes/lab/restore.py": ["task"],
+    "nodes/playback/direct.py": ["Worker"],
     "nodes/playback/node.py": ["Worker"],
     "nodes/recorder/attachments.py": ["Worker"],
     "nodes/recorder/replaying.py": ["Pool", "task"],
