@@ -7,6 +7,7 @@ import math
 import os
 import sys
 import tempfile
+from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -31,6 +32,7 @@ from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.foreign_text import for_shell
 
 if TYPE_CHECKING:
+    from mrlab_ros.adapters.robots.importing.arm_and_hand import Finger
     from mrlab_ros.adapters.robots.importing.robot import Face
     from mrlab_ros.adapters.robots.library import RobotLibrary
 
@@ -281,6 +283,9 @@ def import_robot(
     force: Annotated[
         float, typer.Option(min=0.1, help="With --tool: N with which it holds.")
     ] = 45.0,
+    as_tool: Annotated[
+        bool, typer.Option("--as-tool", help="A hand alone: an end effector that robots carry.")
+    ] = False,
     sheet: Annotated[
         Path | None,
         typer.Option(help="A .png or .html for the sheet with picture, axes, limits and hand."),
@@ -311,6 +316,12 @@ def import_robot(
     path = find_description(source[0])
     library = _library()
     wanted = robot_id or path.name.split(".")[0].lower().replace("-", "_")
+    if as_tool:
+        _import_tool(
+            path, wanted, library, _folders(package), source[1:], speed, force,
+            _face(tool, lip, force), as_json,
+        )  # fmt: skip
+        return
     try:
         imported = taken_in(
             path,
@@ -352,18 +363,52 @@ def import_robot(
         return
     _print_sheet(library, wanted)
     print(f"the arm: {imported.split.why}; its tip is {imported.split.tip} (--tip changes it)")
-    for finger in imported.fingers:
+    _print_fingers(imported.fingers)
+    print(f"{wanted} is a robot of the lab; its files: {library.imported / wanted}")
+    if sheet is None:
+        print(f"with a picture of it: mrlab robots sheet {wanted} --out {wanted}.html")
+    else:
+        print(sheet.resolve())
+
+
+def _print_fingers(fingers: Iterable[Finger]) -> None:
+    for finger in fingers:
         follows = f", follows {finger.mimics}" if finger.mimics else ""
         turned = ", axis turned round" if finger.flipped else ""
         print(
             f"the hand: {finger.name}, open at {finger.lower:g}, closed at "
             f"{finger.upper:g}{follows}{turned}"
         )
-    print(f"{wanted} is a robot of the lab; its files: {library.imported / wanted}")
-    if sheet is None:
-        print(f"with a picture of it: mrlab robots sheet {wanted} --out {wanted}.html")
+
+
+def _import_tool(
+    path: Path,
+    wanted: str,
+    library: RobotLibrary,
+    packages: dict[str, Path],
+    arguments: list[str],
+    speed: float,
+    force: float,
+    face: Face | None,
+    as_json: bool,
+) -> None:
+    from mrlab_ros.adapters.robots import checks
+    from mrlab_ros.adapters.robots.importing.end_effector import import_end_effector
+
+    done = import_end_effector(
+        path, wanted, library, packages, arguments=arguments, speed=speed, force=force, face=face
+    )
+    wrong = checks.errors(done.findings)
+    if as_json:
+        hand = [finger.name for finger in done.fingers]
+        print(json.dumps({"id": wanted, "findings": plain(done.findings), "hand": hand}))
     else:
-        print(sheet.resolve())
+        print_findings(done.findings)
+    if wrong:
+        raise BadInput(ROBOT_NOT_IMPORTED(file=path.name, count=len(wrong)))
+    if not as_json:
+        _print_fingers(done.fingers)
+        print(f"{wanted} is an end effector of the lab: mrlab tool ROBOT {wanted}")
 
 
 def _face(tool: str, lip: str, force: float) -> Face | None:

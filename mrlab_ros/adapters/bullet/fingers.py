@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Container, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -28,11 +28,14 @@ from mrlab_ros.core.base.geometry import (
 )
 from mrlab_ros.core.physics.engine import Arm, FingerState, LinkPairs
 
-FAR = 1.0  # m, over which fingers are looked for
 COUPLED = 1e-7  # m or rad; coupled fingers that are nearer to their places are left there
 # Limit of the finger force, N or N*m: what they hold is fixed to the gripper, and a light object
 # between strong fingers would jitter.
 PRESS = 15.0
+# Share of the largest effect below which a change takes nothing out of what is pressed on.
+LEAST_EFFECT = 0.1
+# Share of its speed below which a coupled finger is stopped.
+MOVES = 0.5
 # Force that holds a finger where it is to stand, N or N*m.
 LOCK = 1e4
 
@@ -49,55 +52,18 @@ class Fingers:
     def find_closing(
         self, arm: LoadedArm, description: Description, joint_index: dict[str, int]
     ) -> None:
-        """Find which way each finger of a loaded arm closes; leave them open.
+        """Note which way each finger of a loaded arm closes, and open it.
 
-        joint_index: Bullet's number of each joint.
+        A leader closes at its upper limit, and a follower as that moves it. joint_index: Bullet's
+        number of each joint.
         """
-        closes = self._closes(arm, description)
-        arm.facts = description.facts(closes)
-        arm.ways = _ways(arm, description, joint_index, closes)
-
-    def _closes(self, arm: LoadedArm, description: Description) -> list[float]:
-        """Return of each finger whether its upper (1) or its lower limit (-1) is closed: where it
-        is nearer to the other fingers. A follower closes as its leader does."""
-        led = {c.follower: c for c in arm.couplings}
-        roots = {
-            index: description.chain(link)[0]
-            for link, index in arm.index.items()
-            if link in description.finger_of
-        }
         closes = [1.0] * len(arm.fingers)
-        pairs = [(a, b) for a in roots for b in roots if a < b and roots[a] != roots[b]]
-
-        def spread(finger: int, position: float) -> float:
-            for i, facts in enumerate(description.fingers):
-                at = position if i == finger else (facts.lower + facts.upper) / 2
-                c = led.get(i)
-                if c is not None and c.leader == finger:
-                    at = c.multiplier * position + c.offset
-                self._call(pybullet.resetJointState, arm.body, arm.fingers[i], at)
-            found = (
-                self._call(
-                    pybullet.getClosestPoints,
-                    arm.body,
-                    arm.body,
-                    FAR,
-                    linkIndexA=a,
-                    linkIndexB=b,
-                )
-                for a, b in pairs
-            )
-            return min((p[8] for points in found for p in points), default=FAR)
-
-        for i, facts in enumerate(description.fingers):
-            if i not in led:
-                closes[i] = 1.0 if spread(i, facts.upper) <= spread(i, facts.lower) else -1.0
         for c in arm.couplings:
-            closes[c.follower] = math.copysign(1.0, closes[c.leader] * c.multiplier)
-        for index, facts, way in zip(arm.fingers, description.fingers, closes, strict=True):
-            opened = replace(facts, closes=way).opened
-            self._call(pybullet.resetJointState, arm.body, index, opened)
-        return closes
+            closes[c.follower] = math.copysign(1.0, c.multiplier)
+        arm.facts = description.facts(closes)
+        for index, finger in zip(arm.fingers, arm.facts.fingers, strict=True):
+            self._call(pybullet.resetJointState, arm.body, index, finger.opened)
+        arm.ways = _ways(arm, description, joint_index, closes)
 
     def drive(self, name: str, arm: LoadedArm, velocities: Sequence[float]) -> None:
         """Drive fingers at `velocities`, m/s or rad/s; raise BadInput where they do not fit."""
@@ -177,12 +143,22 @@ class Fingers:
 
     def couple(self, arm: LoadedArm) -> None:
         """Keep fingers in their ranges; place each leader at the mean of what its followers'
-        positions mean for it, and them; call it after every step."""
+        positions mean for it, and them; call it after every step. Where fingers are stopped on two
+        sides, all are placed as the last of them: those that touch nothing push no others on."""
         states = pybullet.getJointStates(arm.body, arm.fingers, self._client)
         positions, pushed = [state[0] for state in states], set()
         for leader, members in arm.groups:
             finger = arm.facts.fingers[leader]
-            mean = sum([(positions[i] - o) / m for i, m, o in members]) / len(members)
+            means = [(positions[i] - o) / m for i, m, o in members]
+            mean = sum(means) / len(members)
+            drive = arm.driven[leader]
+            stopped = {
+                arm.ways[arm.fingers[i]][0].index
+                for i, m, _ in members
+                if drive and states[i][1] / m / drive < MOVES
+            }
+            if len(stopped) > 1:
+                mean = min(means) if drive > 0 else max(means)
             position = min(max(mean, finger.lower), finger.upper)
             if all(abs(positions[i] - m * position - o) < COUPLED for i, m, o in members):
                 continue
@@ -218,7 +194,13 @@ class Fingers:
             for way in arm.ways.get(index, ()):
                 row[3 + way.group] += dot(self._carried(arm, way, p[5]), p[7])
         depths = [p[8] for p in deepest.values()]
-        x, y, z, *ways = np.linalg.lstsq(changes, np.array(depths), rcond=None)[0].tolist()
+        # In metres at the contacts, so that a finger's angle counts as a way does. What the links
+        # nearly contradict each other in is left: it would throw the thing away.
+        sizes = np.ones(changes.shape[1])
+        sizes[3:] = np.abs(changes[:, 3:]).max(axis=0)
+        sizes[sizes == 0] = 1.0
+        found = np.linalg.lstsq(changes / sizes, np.array(depths), rcond=LEAST_EFFECT)[0]
+        x, y, z, *ways = (found / sizes).tolist()
         self._open(arm, ways)
         return (x, y, z)
 

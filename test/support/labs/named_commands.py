@@ -242,6 +242,7 @@ ELSEWHERE = {
     "class --scheduler": "needs machines; bench/run.py classroom has it with dask",
     "robots check": "seconds for each robot; test/unit/adapters/robots/test_hulls.py",
     "robots import": "seconds for the hulls; test/unit/adapters/robots/importing/test_robot.py",
+    "robots import --as-tool": "test/unit/adapters/bullet/test_imported_hand.py",
     "robots import --id": "as robots import",
     "robots import --lip": "of an arm with a cup; test/unit/adapters/bullet/test_imported_hand.py",
     "robots import --speed": "as robots import",

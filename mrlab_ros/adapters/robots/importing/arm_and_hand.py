@@ -5,10 +5,9 @@ Finds which end of each finger's range is open, and turns all to one convention.
 
 from __future__ import annotations
 
-import itertools
 import re
 import xml.etree.ElementTree as ET
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -31,8 +30,12 @@ from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.geometry import Array
 from mrlab_ros.core.robots.model import KinematicChain
 
-# A hand whose fingers come apart by less over their range, m, tells nothing of open and closed.
+# A finger that comes nearer by less, m, tells nothing of open and closed.
 LEAST_STROKE = 1e-6
+# A range is even about 0 where its middle is off by less than this share of it.
+UNEVEN = 0.05
+# Cosine between two axes below which one is across the other.
+ACROSS = 0.5
 
 
 @dataclass(frozen=True)
@@ -58,24 +61,35 @@ def fingers(
 ) -> tuple[Finger, ...]:
     """Return the moving joints below an arm so that every one closes from `lower` to `upper`.
 
-    A hand is open where its fingers are further apart. below: all joints below the arm, parents
-    first. centres: of each link's shapes, (3,) m in the link's frame; a link without shapes may
-    be missing. Raises BadInput where a driven joint has no range, or mimics none of the hand.
+    A hand closes on a place half way between its palm and the ends of its fingers, these amid
+    their ranges: nearer to it is closed. below: all joints below the arm, parents first. centres:
+    of each link's shapes, (3,) m in the link's frame; a link without shapes may be missing. Raises
+    BadInput where a driven joint has no range, or mimics none of the hand.
     """
     by_name = {joint.name: joint for joint in below if joint.moves}
     driven = [joint for joint in by_name.values() if joint.mimic is None]
     ranges = {joint.name: _range(joint, origin) for joint in driven}
     followed = {joint.name: _followed(joint, by_name, origin) for joint in by_name.values()}
+    palm, last = palm_and_ends(below)
+    amid = {name: (lower + upper) / 2 for name, (lower, upper) in ranges.items()}
 
-    def spread(end: int, turned: str = "") -> float:
-        ends = {name: pair[end if name != turned else 1 - end] for name, pair in ranges.items()}
-        return _spread(below, centres, {n: m * ends[d] + o for n, (d, m, o) in followed.items()})
+    def middles(positions: Mapping[str, float]) -> Array:
+        at = {n: m * positions[d] + o for n, (d, m, o) in followed.items()}
+        return middles_of(below, centres, at, (palm, *last))
+
+    half_closed = middles(amid)
+    target = (half_closed[0] + half_closed[1:].mean(axis=0)) / 2
+
+    def away(name: str, share: float) -> float:
+        lower, upper = ranges[name]
+        ends = middles(amid | {name: lower + share * (upper - lower)})[1:]
+        return float(np.linalg.norm(ends - target, axis=1).mean())
 
     found: dict[str, Finger] = {}
     for joint in driven:
         lower, upper = ranges[joint.name]
-        # Each driven joint alone: two that open in opposite directions must not cancel.
-        flipped = spread(0, joint.name) > spread(0) + LEAST_STROKE
+        # Not at its ends: there a finger may be past the place.
+        flipped = away(joint.name, 0.75) > away(joint.name, 0.25) + LEAST_STROKE
         velocity = (joint.limit or {}).get("velocity", 0.0)
         ends = (0.0 - upper, 0.0 - lower) if flipped else (lower, upper)
         found[joint.name] = Finger(joint.name, *ends, velocity, flipped)
@@ -92,6 +106,49 @@ def fingers(
         velocity = multiplier * first.velocity
         found[name] = Finger(name, *ends, velocity, flipped, leader, multiplier, offset)
     return tuple(found[name] for name in by_name)
+
+
+def closing_only(
+    below: Sequence[urdf.UrdfJoint],
+) -> tuple[tuple[urdf.UrdfJoint, ...], tuple[urdf.UrdfJoint, ...]]:
+    """Return the joints below an arm, parents first, with those of the hand that close nothing as
+    fixed ones, and these: what turns endlessly beside fingers, a wrist that carries them all, and
+    what swings a finger of three or more to both sides alike, across the way it bends."""
+    driven = [joint for joint in below if joint.moves and joint.mimic is None]
+    if not driven:
+        return tuple(below), ()
+    palm, last = palm_and_ends(below)
+    followed = {joint.mimic.joint for joint in below if joint.mimic is not None}
+    wrist = {joint.name for joint in urdf.path_to(palm, tuple(below))[1]}
+    kept = [
+        joint
+        for joint in driven
+        if joint.name not in followed
+        and (
+            joint.kind == "continuous"
+            or (len(last) > 1 and joint.name in wrist)
+            or (len(last) > 2 and _sways(joint, below))
+        )
+    ]
+    if len(kept) == len(driven):
+        kept = []
+    return tuple(replace(j, kind="fixed") if j in kept else j for j in below), tuple(kept)
+
+
+def _sways(joint: urdf.UrdfJoint, below: Sequence[urdf.UrdfJoint]) -> bool:
+    """Return whether a joint turns to both sides alike, and the next one across it."""
+    limit = joint.limit or {}
+    lower, upper = limit.get("lower", 0.0), limit.get("upper", 0.0)
+    if joint.kind != "revolute" or abs(lower + upper) > UNEVEN * (upper - lower):
+        return False
+    axes = {joint.child: np.array(joint.unit_axis)}  # in the frames of links that it carries
+    for after in below:
+        if after.parent in axes:
+            axis = after.segment().T_parent_joint[:3, :3].T @ axes[after.parent]
+            if after.moves:
+                return bool(abs(axis @ np.array(after.unit_axis)) < ACROSS)
+            axes[after.child] = axis
+    return False
 
 
 def _range(joint: urdf.UrdfJoint, origin: str) -> tuple[float, float]:
@@ -120,25 +177,33 @@ def _followed(
     raise BadInput(HAND_MIMICS(file=origin, joint=joint.name, other=at.mimic.joint))
 
 
-def _spread(
-    below: tuple[urdf.UrdfJoint, ...],
+def palm_and_ends(below: Sequence[urdf.UrdfJoint]) -> tuple[str, list[str]]:
+    """Return the link where the ways to the fingers part, and the last link that each moves."""
+    above = {joint.child: joint.parent for joint in below}
+
+    def way(link: str) -> list[str]:
+        return [*way(above[link]), link] if link in above else [link]
+
+    ways = {joint.child: way(joint.parent) for joint in below if joint.moves}
+    inner = {link for links in ways.values() for link in links}
+    last = [link for link in ways if link not in inner]
+    common = [link for link in ways[last[0]] if all(link in ways[other] for other in last)]
+    return common[-1], last
+
+
+def middles_of(
+    below: Sequence[urdf.UrdfJoint],
     centres: Mapping[str, Array],
     positions: Mapping[str, float],
-) -> float:
-    """Return the mean distance, m, between the last links of the fingers at these positions."""
+    links: Sequence[str],
+) -> Array:
+    """Return the middles of links, (N, 3) m, with the hand's joints at these positions."""
     places: dict[str, Array] = {below[0].parent: np.eye(4)}
     for joint in below:
         at = np.array([positions[joint.name]] if joint.moves else [])
         step = KinematicChain(joint.parent, (joint.segment(),)).tool0(at)
         places[joint.child] = places[joint.parent] @ step
-    moving = [joint for joint in below if joint.moves]
-    inner = {joint.parent for joint in moving}
-    last = [joint.child for joint in moving if joint.child not in inner]
-    if len(last) < 2:  # one jaw: against the other, which is part of the palm
-        last += [joint.parent for joint in moving]
-    points = [(places[x] @ np.append(centres.get(x, np.zeros(3)), 1.0))[:3] for x in last]
-    pairs = [float(np.linalg.norm(a - b)) for a, b in itertools.combinations(points, 2)]
-    return float(np.mean(pairs))
+    return np.array([(places[x] @ np.append(centres.get(x, np.zeros(3)), 1.0))[:3] for x in links])
 
 
 # Names of joints and links that belong to a hand.
@@ -220,17 +285,8 @@ class _Tree:
         below = tuple(self.below(arm[-1].child))
         used = {joint.name for joint in (*arm, *below)}
         still = [joint for joint in self.joints if joint.moves and joint.name not in used]
-        endless = self._endless(below)
-        still += endless
-        below = tuple(replace(j, kind="fixed") if j in endless else j for j in below)
-        return Split(arm, tip, below, tuple(still), why)
-
-    def _endless(self, below: tuple[urdf.UrdfJoint, ...]) -> list[urdf.UrdfJoint]:
-        """Return what turns endlessly in a hand beside its fingers: a gear that is shown."""
-        followed = {joint.mimic.joint for joint in below if joint.mimic is not None}
-        driven = [joint for joint in below if joint.moves and joint.mimic is None]
-        endless = [j for j in driven if j.kind == "continuous" and j.name not in followed]
-        return endless if len(endless) < len(driven) else []
+        below, kept = closing_only(below)
+        return Split(arm, tip, below, (*still, *kept), why)
 
     def depth(self, joint: urdf.UrdfJoint) -> int:
         """Return the most driven joints on a way down that begins with `joint`."""

@@ -13,9 +13,9 @@ ROBOT_SPEED = Code(
 )
 ROBOT_STILL = Code(
     "robot_still",
-    "'{joint}' moves neither the arm nor its hand; the lab keeps it at 0.",
+    "'{joint}' neither moves the arm nor closes its hand; the lab keeps it at 0.",
     severity=Severity.INFO,
-    meaning="A joint moves neither the arm nor the hand.",
+    meaning="A joint neither moves the arm nor closes the hand.",
 )
 BAD_ROBOT_ID = Code(
     "bad_robot_id",
@@ -24,7 +24,7 @@ BAD_ROBOT_ID = Code(
 )
 ROBOT_ID_TAKEN = Code(
     "robot_id_taken",
-    "There is a robot '{robot}' already.",
+    "'{robot}' is the id of a robot or an end effector already.",
     "Choose another id.",
     meaning="The id of an imported robot is taken.",
 )
@@ -143,7 +143,7 @@ NO_ARM_THERE = Code(
     "no_arm_there",
     "{file}: no joint moves before the chains branch at link '{link}', as in a gripper or a "
     "vehicle.",
-    "Import an arm, or name its last link.",
+    "Import an arm, or name its last link; a hand alone comes in with --as-tool.",
     meaning="A description has no arm.",
 )
 HAND_LIMITS = Code(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import shutil
 import xml.etree.ElementTree as ET
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from math import degrees
@@ -101,7 +101,7 @@ def import_robot(
     if not root.get("name"):
         # Bullet loads no robot without one.
         root.set("name", robot_id)
-    _drop_nothing(root)
+    drop_nothing(root)
     tree = checks.check_tree(root, source.name)
     if checks.errors(tree):
         return Imported(tree)
@@ -112,9 +112,9 @@ def import_robot(
         ET.SubElement(frame, "parent", link=parts.tip)
         ET.SubElement(frame, "child", link=TIP)
         parts = replace(parts, tip=TIP)
-    assumed = _keep_still(root, parts) + _state_speeds(root, parts, speed)
+    assumed = keep_still(root, parts.still) + _state_speeds(root, parts, speed)
     hand = frozenset(joint.name for joint in parts.hand)
-    with _new_folder(library.imported / robot_id) as folder:
+    with new_folder(library.imported / robot_id) as folder:
         files, missing = checks.find_meshes(root, find)
         taken = mesh_files.take(root, files, find.folders, folder / "meshes")
         found = (
@@ -126,9 +126,9 @@ def import_robot(
         if checks.errors(found):
             return Imported(found)
         mesh_files.name_copies(root, taken, f"{MESH_PREFIX}{robot_id}/meshes")
-        centres = _centres(root, hand, lambda uri: folder / "meshes" / Path(uri).name)
-        closing = fingers(parts.below, centres, source.name) if hand else ()
-        _turn_fingers(root, closing)
+        middles = centres(root, hand, lambda uri: folder / "meshes" / Path(uri).name)
+        closing = fingers(parts.below, middles, source.name) if hand else ()
+        turn_fingers(root, closing)
         ET.indent(root)
         body = ET.tostring(root, encoding="unicode")
         (folder / "robot.urdf").write_text(f'<?xml version="1.0"?>\n{body}\n', encoding="utf-8")
@@ -142,7 +142,7 @@ def import_robot(
     return Imported(found, parts, closing)
 
 
-def _drop_nothing(root: ET.Element) -> None:
+def drop_nothing(root: ET.Element) -> None:
     """Drop shapes of no size at all, which exporters write for links without a shape."""
     for link in root.iterfind("link"):
         for shape in (*link.findall("visual"), *link.findall("collision")):
@@ -156,14 +156,14 @@ def _drop_nothing(root: ET.Element) -> None:
 
 
 @contextmanager
-def _new_folder(folder: Path) -> Iterator[Path]:
-    """Yield a folder that takes its name where its last file, robot.yaml, was written."""
+def new_folder(folder: Path, last: str = "robot.yaml") -> Iterator[Path]:
+    """Yield a folder that takes its name where its last file was written."""
     aside = folder.with_name(f".{folder.name}.new")
     shutil.rmtree(aside, ignore_errors=True)
     (aside / "meshes").mkdir(parents=True)
     try:
         yield aside
-        if (aside / "robot.yaml").is_file():
+        if (aside / last).is_file():
             aside.rename(folder)
     finally:
         shutil.rmtree(aside, ignore_errors=True)
@@ -193,18 +193,18 @@ def _elements(root: ET.Element) -> dict[str, ET.Element]:
     return {str(element.get("name")): element for element in root.iterfind("joint")}
 
 
-def _keep_still(root: ET.Element, parts: Split) -> tuple[Diagnostic, ...]:
-    """Fix the joints that move neither the arm nor the hand."""
+def keep_still(root: ET.Element, still: Iterable[urdf.UrdfJoint]) -> tuple[Diagnostic, ...]:
+    """Fix joints that move neither the arm nor the hand."""
     elements = _elements(root)
-    for joint in parts.still:
+    found = []
+    for joint in still:
+        found.append(ROBOT_STILL(where=f"joint {joint.name}", joint=joint.name))
         element = elements[joint.name]
         element.set("type", "fixed")
         for tag in ("axis", "limit", "mimic", "dynamics", "safety_controller", "calibration"):
             for child in element.findall(tag):
                 element.remove(child)
-    return tuple(
-        ROBOT_STILL(where=f"joint {joint.name}", joint=joint.name) for joint in parts.still
-    )
+    return tuple(found)
 
 
 def _state_speeds(root: ET.Element, parts: Split, speed: float) -> tuple[Diagnostic, ...]:
@@ -229,7 +229,7 @@ def _state_speeds(root: ET.Element, parts: Split, speed: float) -> tuple[Diagnos
     return tuple(found)
 
 
-def _centres(root: ET.Element, hand: frozenset[str], find: checks.Resolve) -> dict[str, Array]:
+def centres(root: ET.Element, hand: frozenset[str], find: checks.Resolve) -> dict[str, Array]:
     """Return the middle of the shapes of the links at the hand's joints, m, in the link's frame.
 
     With all joints at 0 a link's frame is where the tree puts it.
@@ -250,7 +250,7 @@ def _centres(root: ET.Element, hand: frozenset[str], find: checks.Resolve) -> di
     return found
 
 
-def _turn_fingers(root: ET.Element, closing: Sequence[Finger]) -> None:
+def turn_fingers(root: ET.Element, closing: Sequence[Finger]) -> None:
     """Write the hand's joints as the lab has them: closing from the lower to the upper limit."""
     elements = _elements(root)
     for finger in closing:

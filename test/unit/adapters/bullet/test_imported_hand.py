@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+import json
 import math
 from pathlib import Path
 
 import pytest
+from in_process import mrlab
 from physics_cell import JOINTS, ROOT, Cell, gantry
+from refusals import refused
 
 from mrlab_ros.adapters.robots import checks
+from mrlab_ros.adapters.robots.importing.diagnostics import NO_ARM_THERE, ROBOT_ID_TAKEN
+from mrlab_ros.adapters.robots.importing.end_effector import import_end_effector
 from mrlab_ros.adapters.robots.importing.robot import Face, import_robot
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.geometry import Pose
 from mrlab_ros.core.physics.grasp import kinds
 from mrlab_ros.core.physics.grasp.states import Grasp
@@ -147,4 +153,89 @@ def test_an_imported_hand_picks_a_cube_and_sets_it_down(tmp_path: Path):
     cell.go("a", reach(0.4, 0.3, 0.15), 0.5)
     assert not cell.hits()
     assert cell.place(cube) == pytest.approx((0.4, 0.3, 0.025), abs=0.004)
+    cell.engine.close()
+
+
+PINCH = """<robot name="pinch">
+  <link name="base_link">{inertial}<collision><origin xyz="0 0 0.03"/>
+    <geometry><box size="0.04 0.12 0.06"/></geometry></collision></link>
+  <link name="left">{inertial}<collision><origin xyz="0 0 0.03"/>
+    <geometry><box size="0.02 0.01 0.06"/></geometry></collision></link>
+  <link name="right">{inertial}<collision><origin xyz="0 0 0.03"/>
+    <geometry><box size="0.02 0.01 0.06"/></geometry></collision></link>
+  <joint name="slide" type="prismatic"><parent link="base_link"/><child link="left"/>
+    <origin xyz="0 0.005 0.065"/><axis xyz="0 1 0"/>
+    <limit lower="0" upper="0.045" velocity="0.1" effort="40"/></joint>
+  <joint name="follow" type="prismatic"><parent link="base_link"/><child link="right"/>
+    <origin xyz="0 -0.005 0.065"/><axis xyz="0 -1 0"/>
+    <limit lower="0" upper="0.045" velocity="0.1" effort="40"/><mimic joint="slide"/></joint>
+</robot>""".format(
+    inertial='<inertial><mass value="0.1"/><inertia ixx="0.0001" ixy="0" ixz="0" iyy="0.0001" '
+    'iyz="0" izz="0.0001"/></inertial>'
+)
+
+
+def test_a_hand_alone_is_imported_by_a_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setenv("MRLAB_ROBOTS", str(tmp_path))
+    source = tmp_path / "pinch.urdf"
+    source.write_text(PINCH)
+    done = mrlab("robots", "import", source, "--as-tool", "--json")
+    assert json.loads(done.stdout)["hand"] == ["pinch_slide", "pinch_follow"]
+    assert RobotLibrary(ROOT / "robots").gripper("ur5e", "pinch") is kinds.FINGERS
+
+
+def test_a_hand_alone_comes_in_as_an_end_effector_and_picks_a_cube(tmp_path: Path):
+    source = tmp_path / "pinch.urdf"
+    source.write_text(PINCH)
+    library = gantry(tmp_path)
+    with refused(NO_ARM_THERE, BadInput):
+        import_robot(source, "pinch", library, {})
+    done = import_end_effector(source, "pinch", library, {})
+    assert not checks.errors(done.findings)
+    # It opens to its upper limit: turned round.
+    assert [(f.name, f.lower, f.upper, f.flipped) for f in done.fingers] == [
+        ("pinch_slide", -0.045, 0.0, True),
+        ("pinch_follow", -0.045, 0.0, True),
+    ]
+    assert library.gripper("gantry", "pinch") is kinds.FINGERS
+    # The robot has a link of the same name as the hand.
+    assert "pinch_base_link" in library.description("ur5e", "pinch")
+    with refused(ROBOT_ID_TAKEN, BadInput, robot="pinch"):
+        import_end_effector(source, "pinch", library, {})
+    cell = Cell(library)
+    cube = cell.put("cube", (0.0, 0.0, 0.025))
+    # The ends of its fingers stay a centimetre above the floor.
+    pads = 0.012 + 0.065 + 0.045
+    cell.add("a", "pinch", at=(0.0, 0.0, 0.025 + pads + 0.15))
+    cell.go("a", (0.0, 0.0, 0.025 + pads), 0.5)
+    cell.close("a", 0.9)
+    cell.go("a", (0.0, 0.0, 0.025 + pads + 0.15), 0.5)
+    assert cell.grasps("a") == [Grasp.OPEN, Grasp.CLOSING, Grasp.HOLDING]
+    assert cell.place(cube)[2] == pytest.approx(0.175, abs=0.002)
+    assert not cell.hits()
+
+
+IDLE = """<link name="{name}"/><joint name="{name}" type="prismatic"><parent link="base_link"/>
+  <child link="{name}"/><axis xyz="0 1 0"/><origin xyz="0.1 0 0"/>
+  <limit lower="0" upper="0.045" velocity="0.1" effort="40"/><mimic joint="slide"/></joint>"""
+
+
+def test_joints_of_a_linkage_that_touch_nothing_push_no_finger_into_what_it_holds(tmp_path: Path):
+    source = tmp_path / "linkage.urdf"
+    idle = "".join(IDLE.format(name=f"idle_{i}") for i in range(4))
+    source.write_text(PINCH.replace("</robot>", f"{idle}</robot>"))
+    library = gantry(tmp_path)
+    import_end_effector(source, "linkage", library, {})
+    cell = Cell(library)
+    cube = cell.put("cube", (0.0, 0.002, 0.025))
+    cell.add("a", "linkage", at=(0.0, 0.0, 0.147))
+    cell.close("a", 0.0)
+    furthest = -0.045
+    for _ in range(150):
+        cell.wait(0.01)
+        furthest = max(furthest, *cell.world.fingers("a").values())
+    assert cell.grasps("a")[-1] is Grasp.HOLDING
+    # The cube is 50 mm wide.
+    assert furthest == pytest.approx(-0.025, abs=0.001)
+    assert cell.place(cube) == pytest.approx((0.0, 0.0, 0.025), abs=0.002)
     cell.engine.close()

@@ -221,6 +221,36 @@ def test_fingers_that_close_upwards_stay_as_they_are() -> None:
     assert [(f.lower, f.upper) for f in found.values()] == [(0.0, 0.04)] * 2
 
 
+def test_fingers_side_by_side_close_towards_the_palm_and_the_thumb() -> None:
+    """Bending one of them alone takes its end away from those of the others."""
+    sway = '<axis xyz="1 0 0"/><limit lower="-0.5" upper="0.5" velocity="3" effort="4"/>'
+    bends = '<axis xyz="{}"/><limit lower="{}" upper="{}" velocity="3" effort="4"/>'
+
+    def finger(name: str, x: float, y: float, *bent: object) -> list[str]:
+        bend = bends.format(*bent)
+        made = (
+            joint(f"{name}_sway", "palm", f"{name}_1", more=sway),
+            joint(f"{name}_root", f"{name}_1", f"{name}_2", more=bend),
+            joint(f"{name}_bend", f"{name}_2", f"{name}_end", more=bend),
+            joint(f"{name}_nail", f"{name}_end", f"{name}_nail", "fixed"),
+        )
+        return [made[0].replace("0 0 0.2", f"{x} {y} 0.1"), *made[1:]]
+
+    inwards, backwards, thumb = (Y, -0.3, 1.6), ("0 -1 0", -1.6, 0.3), ("0 -1 0", -0.3, 1.6)
+    row = [*finger("a", -0.2, -0.1, *inwards), *finger("b", -0.2, 0.0, *inwards)]
+    row += [*finger("c", -0.2, 0.1, *backwards), *finger("d", 0.2, 0, *thumb)]
+    palm = robot(*arm(6), *row)
+    parts = split(palm, "tried")
+    assert [j.name for j in parts.still] == [f"{name}_sway" for name in "abcd"]
+    centres = {f"{name}_end": np.array([0.0, 0.0, 0.1]) for name in "abcd"}
+    found = {f.name: f.flipped for f in fingers(parts.below, centres, "tried")}
+    assert found == {
+        **dict.fromkeys(["a_root", "a_bend", "b_root", "b_bend"], False),
+        **dict.fromkeys(["c_root", "c_bend"], True),
+        **dict.fromkeys(["d_root", "d_bend"], False),
+    }
+
+
 def test_multiplier_and_offset_of_a_chain_of_mimics() -> None:
     """third = -0.5 * (2 * finger_1 + 0.01) = -finger_1 - 0.005, which turned round rises."""
     found = hand_of(
