@@ -61,6 +61,7 @@ OWN = {
     "demo": "demo.command:demo",
     "convert": "convert.command:convert",
     "show": "show:show",
+    "export": "export:export",
     "check": "check.command:check",
     "capture": "compare:capture",
     "compare": "compare:compare",

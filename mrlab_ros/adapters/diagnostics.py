@@ -117,6 +117,13 @@ PANDAS_MISSING = Code(
     meaning="The lab itself does not need pandas.",
     page=False,
 )
+RERUN_MISSING = Code(
+    "rerun_missing",
+    "Files for Rerun need its SDK, which cannot be imported: {problem}.",
+    "Install it, some 800 MB: python -m pip install rerun-sdk.",
+    meaning="The lab itself does not need Rerun.",
+    page=False,
+)
 
 # what is set aside
 SET_ASIDE = Code("set_aside", "It is now called {file}", severity=INFO)

@@ -39,10 +39,15 @@ OWN = (
 
 
 def check(folder: Path) -> None:
-    """Raise BadInput where a folder holds what is not of a class; an empty or a new one is one."""
+    """Raise BadInput where a folder holds what is not of a class, or cannot be made.
+
+    An empty or a new one is one.
+    """
     try:
         strange = [p.name for p in folder.iterdir() if p.name not in OWN]
-    except FileNotFoundError:
+    except FileNotFoundError as error:
+        if not folder.absolute().parent.is_dir():
+            raise BadInput(NOT_WRITABLE(file=str(folder), why=error.strerror)) from None
         return
     except OSError as error:
         raise BadInput(NOT_WRITABLE(file=str(folder), why=error.strerror)) from None

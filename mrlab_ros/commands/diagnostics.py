@@ -128,6 +128,11 @@ EXTRACTED = Code(
     severity=INFO,
     data=("names",),
 )
+EXPORTED = Code(
+    "exported",
+    "{file} ({size:bytes}) has {robots:list}; rerun {file:problem} shows it.",
+    severity=INFO,
+)
 
 # users
 NO_USERS_HERE = Code(

@@ -105,10 +105,9 @@ def _page(
 def _recorded(file: Path) -> str | None:
     """Return the page of a session, or None: it is another file, or a bag of a mere trajectory."""
     from mrlab_ros.commands import sandboxed
-    from mrlab_ros.commands.bag import path_of
 
-    path = _bag_of_report(file) or path_of(str(file))
-    if not path.is_dir() and path.suffix not in (".mcap", ".db3"):
+    path = bag_at(file)
+    if path is None:
         return None
     with tempfile.TemporaryDirectory(prefix="mrlab-") as folder:
         page = Path(folder, "page.html")
@@ -130,6 +129,14 @@ def session_of(bag: str, page: str) -> bool:
         return False
     Path(page).write_text(session_page(found, share.directory()), encoding="utf-8")
     return True
+
+
+def bag_at(file: Path) -> Path | None:
+    """Return where a bag lies that is named by itself or by its report; None: no bag."""
+    from mrlab_ros.commands.bag import path_of
+
+    path = _bag_of_report(file) or path_of(str(file))
+    return path if path.is_dir() or path.suffix in (".mcap", ".db3") else None
 
 
 def _bag_of_report(file: Path) -> Path | None:

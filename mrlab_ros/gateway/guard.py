@@ -13,17 +13,15 @@ import re
 import socket
 from collections.abc import Callable, Collection
 from dataclasses import dataclass
-from urllib.parse import urlsplit
 
 from starlette.datastructures import Headers, MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from mrlab_ros.adapters.keys import certificates
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.base.errors import BadInput
-from mrlab_ros.gateway.diagnostics import BAD_PUBLIC_URL, WRONG_CSRF, WRONG_HOST, WRONG_ORIGIN
+from mrlab_ros.gateway.diagnostics import WRONG_CSRF, WRONG_HOST, WRONG_ORIGIN
 from mrlab_ros.gateway.errors import problem
-from mrlab_ros.gateway.settings import Settings, is_loopback
+from mrlab_ros.gateway.settings import Settings, is_loopback, site_of
 
 
 @dataclass(frozen=True)
@@ -43,10 +41,8 @@ class Hosts:
         """Return the names by which this gateway may be opened; raises BadInput for a bad URL."""
         names, origin = {"localhost"}, ""
         if settings.public_url:
-            url = urlsplit(settings.public_url)
-            if url.scheme not in ("http", "https") or not url.hostname or url.path.strip("/"):
-                raise BadInput(BAD_PUBLIC_URL(url=settings.public_url))
-            names.add(url.hostname)
+            url = site_of(settings.public_url)
+            names.add(url.hostname or "")
             origin = f"{url.scheme}://{url.netloc}"
         if settings.https:
             found = certificates.read_certificate(settings.certificate_file)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ipaddress
 from dataclasses import dataclass, field
 from pathlib import Path
+from urllib.parse import SplitResult, urlsplit
 
 from mrlab_ros.adapters.keys import people
 from mrlab_ros.core.base.diagnostic import Fix
@@ -12,6 +13,7 @@ from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.extensions import extensions
 from mrlab_ros.gateway.diagnostics import (
     BAD_ADDRESS,
+    BAD_PUBLIC_URL,
     CERTIFICATE_WITHOUT_KEY,
     INSECURE_WITH_KEYS,
     NO_HTTPS_FILE,
@@ -84,6 +86,8 @@ class Settings:
         """Raise BadInput where a gateway may not, or cannot, be run with these settings."""
         if self.insecure and (self.https or self.public_url):
             raise BadInput(INSECURE_WITH_KEYS())
+        if self.public_url:
+            site_of(self.public_url)
         if (self.certificate is None) != (self.certificate_key is None):
             raise BadInput(CERTIFICATE_WITHOUT_KEY())
         if not (self.https or self.insecure or is_loopback(self.host)):
@@ -98,6 +102,18 @@ class Settings:
                     make = Fix(command="mrlab keys init")
                     raise BadInput(NO_HTTPS_FILE(path=str(file), fixes=(make,)))
             people.check(self.certificate_key_file)
+
+
+def site_of(url: str) -> SplitResult:
+    """Return the parts of a site's address; raise BadInput for another text."""
+    try:
+        site = urlsplit(url)
+        rest = site.path.strip("/") + site.query + site.fragment + (site.username or "")
+        if site.scheme in ("http", "https") and site.hostname and site.port != 0 and not rest:
+            return site
+    except ValueError:  # a port that is no number
+        pass
+    raise BadInput(BAD_PUBLIC_URL(url=url))
 
 
 def parsed_address(text: str) -> tuple[str, int]:

@@ -12,6 +12,7 @@ from refusals import refused
 from mrlab_ros.adapters.keys import certificates
 from mrlab_ros.adapters.keys.diagnostics import KEY_FILE_OPEN
 from mrlab_ros.adapters.keys.folder import Keys, now
+from mrlab_ros.classroom.diagnostics import NOT_WRITABLE
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.access import Login
 from mrlab_ros.gateway.diagnostics import (
@@ -64,10 +65,20 @@ def test_a_gateway_is_called_what_its_certificate_names(keys: Keys) -> None:
     assert not wild.allows("uni.example")
 
 
-@pytest.mark.parametrize("url", ["lab.example.org", "ftp://lab", "https://", "https://lab/pages"])
+@pytest.mark.parametrize(
+    "url",
+    ["foo", "lab.example.org", "ftp://lab", "https://", "https://lab/pages", "https://lab:port",
+     "https://[lab", "https://lab?a=b", "https://lab:0"],
+)  # fmt: skip
 def test_a_public_address_must_be_one_of_a_site(url: str) -> None:
     with refused(BAD_PUBLIC_URL, BadInput, url=url):
-        Hosts.of(Settings(state_dir=Path(), public_url=url))
+        Settings(state_dir=Path(), public_url=url).check()
+
+
+def test_a_class_may_be_new_where_it_can_be_made(tmp_path: Path) -> None:
+    Settings(state_dir=tmp_path, classroom=tmp_path / "new").check()
+    with refused(NOT_WRITABLE, BadInput, file=str(tmp_path / "gone" / "new")):
+        Settings(state_dir=tmp_path, classroom=tmp_path / "gone" / "new").check()
 
 
 def test_beyond_this_machine_there_is_https_or_nothing(keys: Keys, tmp_path: Path) -> None:
