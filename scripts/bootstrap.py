@@ -13,6 +13,7 @@ import json
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -113,16 +114,30 @@ def fingerprint(*inputs):
     return digest.hexdigest()
 
 
+# What set-up holds while it runs, inherited by its commands: those of one that was killed go on.
+HELD = []
+
+
 def run(command, **kwargs):
-    """Run a command quietly; show what it printed only when it fails."""
+    """Run a command quietly; show what it printed only when it fails.
+
+    Where set-up is ended the command ends too, with all that it has started.
+    """
     log = STAMPS / "last-command.log"
     with log.open("wb") as out:
         begin = time.monotonic()
-        process = subprocess.Popen(command, stdout=out, stderr=subprocess.STDOUT, **kwargs)
+        process = subprocess.Popen(
+            command,
+            stdout=out,
+            stderr=subprocess.STDOUT,
+            start_new_session=True,
+            pass_fds=[each.fileno() for each in HELD],
+            **kwargs,
+        )
         try:
             code = wait(process, begin)
         except BaseException:
-            process.terminate()
+            os.killpg(process.pid, signal.SIGTERM)
             process.wait()
             raise
     if code:
@@ -165,6 +180,9 @@ class Setup:
             return
         say(says)
         begin = time.monotonic()
+        # What is cut off has no stamp, not even that of an earlier state of its inputs.
+        if stamp.exists():
+            stamp.unlink()
         action()
         STAMPS.mkdir(parents=True, exist_ok=True)
         stamp.write_text(mark)
@@ -308,6 +326,24 @@ class Setup:
                 path.write_text(new)
 
     def colcon(self, *packages):
+        """Build packages; all of them anew where the last build was cut off.
+
+        A file that was half written then would count as made.
+        """
+        begun = STAMPS / "begun-{}".format(packages[0])
+        if begun.exists():
+            for made in (base / name for base in (ROOT / "build", INSTALL) for name in packages):
+                shutil.rmtree(str(made), ignore_errors=True)
+        begun.touch()
+        try:
+            self.build(*packages)
+        except SetupError:
+            # It ended by itself.
+            begun.unlink()
+            raise
+        begun.unlink()
+
+    def build(self, *packages):
         run(
             [
                 str(VENV / "bin" / "colcon"),
@@ -475,6 +511,9 @@ def main():
     if options.look:
         Setup(options.dev, look=True).all()
         return
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        # Ended by an exception, it ends what it has started.
+        signal.signal(number, lambda number, _: sys.exit(128 + number))
     try:
         require_tools()
         ROOT.joinpath("build").mkdir(exist_ok=True)
@@ -484,6 +523,7 @@ def main():
             except OSError:
                 say("another set-up runs in this clone; waiting for it")
                 fcntl.flock(lock, fcntl.LOCK_EX)
+            HELD.append(lock)
             Setup(options.dev).all()
             if options.test_tools:
                 install_test_tools()

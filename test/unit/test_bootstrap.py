@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import importlib.util
+import os
 import shutil
 import subprocess
 from pathlib import Path
@@ -92,3 +94,51 @@ def test_a_look_names_what_has_to_be_done_again_and_does_nothing(
             (stamps / name).write_text(left)
         setup.step(name, "now", lambda: pytest.fail("done"), "says", clone)
     assert capsys.readouterr().out.split() == ["messages", "web"]
+
+
+def test_what_is_cut_off_leaves_no_stamp_and_is_built_anew(
+    clone: Path, bootstrap: ModuleType
+) -> None:
+    stamps = clone / ".venv" / ".mrlab"
+    stamps.mkdir()
+    # Its inputs were others meanwhile, and are again what they were.
+    (stamps / "messages").write_text("now")
+    half = clone / "build" / "mrlab_msgs" / "half_written.py"
+    half.parent.mkdir(parents=True)
+    setup = object.__new__(bootstrap.Setup)
+    setup.look = False
+    ways = []
+
+    def cut_off(*packages: str) -> None:
+        half.touch()
+        raise KeyboardInterrupt
+
+    def built(*packages: str) -> None:
+        ways.append(half.exists())
+
+    for build, mark in ((cut_off, "other"), (built, "now"), (built, "now")):
+        setup.build = build
+        with contextlib.suppress(KeyboardInterrupt):
+            setup.step("messages", mark, lambda: setup.colcon("mrlab_msgs"), "says", clone)
+    assert ways == [False]
+    assert (stamps / "messages").read_text() == "now"
+
+
+def test_a_set_up_that_is_ended_ends_what_it_started(
+    clone: Path, bootstrap: ModuleType, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (clone / ".venv" / ".mrlab").mkdir()
+    read, write = os.pipe()
+
+    def ended(process: subprocess.Popen[bytes], _: float) -> int:
+        # The child of the command has begun.
+        assert os.read(read, 1)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(bootstrap, "wait", ended)
+    monkeypatch.setattr(bootstrap, "HELD", [os.fdopen(write, "wb")])
+    with pytest.raises(KeyboardInterrupt):
+        bootstrap.run(["sh", "-c", f"(echo > /dev/fd/{write}; exec sleep 60) & wait"])
+    bootstrap.HELD[0].close()
+    assert os.read(read, 1) == b"", "nobody holds the other end any more"
+    os.close(read)
