@@ -33,6 +33,14 @@ export default defineConfig({
     // Which file imports which: the budgets of bytes are held from it.
     manifest: true,
     reportCompressedSize: true,
+    rolldownOptions: {
+      output: {
+        // One file for what every page begins with: each further one costs a phone a round trip.
+        codeSplitting: {
+          groups: [{ name: 'shell', test: /(preact|src\/(api|design|shell|words))\/(?!de|plot)/ }],
+        },
+      },
+    },
     // The notices of the packages in the pages, as their licences ask for.
     license: { fileName: 'licences.md' },
   },

@@ -11,9 +11,10 @@ from mrlab_msgs.msg import Latency, LatencyHop
 from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.base.diagnostic import Diagnostic, Severity, to_texts
 from mrlab_ros.core.bridge.latency import Delays
+from mrlab_ros.core.recording.stops import Stop
 from mrlab_ros.core.runtime.process_states import Phase, ProcessState
 from mrlab_ros.core.runtime.watch import Sign, silence
-from mrlab_ros.messages.texts import told
+from mrlab_ros.messages.texts import told, values_to_message
 from mrlab_ros.messages.time import make_header, time_from_message, time_to_message
 
 # Prefix of the names of the lab's processes on /diagnostics.
@@ -24,6 +25,13 @@ RESTARTS = "restarts"
 RESTARTED = "restarted"
 # The code of what is amiss; the values of its text by name stand beside it.
 CODE = "code"
+# The instant of a stop of a replay, s of the session.
+INSTANT = "session_time"
+LEVELS = {
+    Severity.INFO: DiagnosticStatus.OK,
+    Severity.WARNING: DiagnosticStatus.WARN,
+    Severity.ERROR: DiagnosticStatus.ERROR,
+}
 
 
 def signs_to_message(
@@ -192,6 +200,26 @@ def recorder_state_to_message(
         rate=rate,
         messages=messages,
         bytes=size,
+    )
+
+
+def stops_to_message(now_ns: int, stops: Iterable[Stop]) -> DiagnosticArray:
+    """Return the stops of a replay: as name the code of what is said, its values, and INSTANT."""
+    return DiagnosticArray(
+        header=make_header(now_ns),
+        status=[
+            DiagnosticStatus(
+                level=LEVELS[stop.severity],
+                name=stop.said.code,
+                message=str(stop.said),
+                hardware_id="mrlab",
+                values=[
+                    KeyValue(key=INSTANT, value=f"{stop.time:.3f}"),
+                    *values_to_message(stop.said.values),
+                ],
+            )
+            for stop in stops
+        ],
     )
 
 

@@ -19,6 +19,7 @@ from typing import Any
 import pytest
 import small_lab
 from child_process import HOST, start_child
+from diagnostic_msgs.msg import DiagnosticArray
 from graph import Graph, Inbox, wait_for
 from mcap.reader import NonSeekingReader
 from mrlab_msgs import msg, srv
@@ -69,6 +70,7 @@ from mrlab_ros.core.recording.diagnostics import (
 from mrlab_ros.core.recording.metadata import QosProfile, Topic
 from mrlab_ros.messages import qos, trajectories
 from mrlab_ros.messages.definitions import definition
+from mrlab_ros.messages.status import INSTANT
 from mrlab_ros.nodes.recorder import recording, replaying
 from mrlab_ros.nodes.recorder.diagnostics import (
     OTHERS_PUBLISH,
@@ -86,7 +88,7 @@ START_NS = 1_700_000_000_000_000_000
 def recorder(graph: Graph, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> RecorderNode:
     # No bridge here that first has to find the topics.
     monkeypatch.setattr(replaying, "SETTLE_TIME_S", 0.0)
-    return graph.add(RecorderNode, bag_dir=str(tmp_path))
+    return graph.add(RecorderNode, bag_dir=str(tmp_path), lab_id="lab")
 
 
 @pytest.fixture
@@ -582,6 +584,22 @@ def test_a_replay_says_the_same_in_the_same_order(graph, recorder, session, stat
     assert words(session, "/ur5e_1/telemetry") == [f"event {n}" for n in range(100)]
 
 
+def test_a_bag_of_another_lab_is_replayed_as_of_this_one(graph, recorder, tmp_path):
+    writer = BagWriter(tmp_path / "theirs", definition)
+    latched = QosProfile(durability="transient_local")
+    writer.add_topic(Topic("/robots", "mrlab_msgs/msg/Robots", (latched,)))
+    message = msg.Robots(lab="another", robots=[msg.Robot(name="ur5e_1")])
+    for number in range(2):
+        time_ns = START_NS + number * 1_000_000_000
+        writer.write("/robots", time_ns, serialize_message(message), START_NS)
+    writer.close()
+    robots = graph.listen(msg.Robots, "/robots", qos.LATCHED_EVENTS)
+    replay(graph, "theirs", rate=0.1)
+    wait_for(lambda: len(robots), "the robots of the bag")
+    assert (robots.last().lab, robots.last().robots[0].name) == ("lab", "ur5e_1")
+    order(graph, "stop")
+
+
 def test_a_sqlite3_bag_is_replayed_as_it_is(graph, recorder, session, states, tmp_path):
     as_sqlite(Bag(session), tmp_path / "other")
     ears = Ears(graph)
@@ -663,6 +681,7 @@ def test_a_guided_replay_stands_where_somebody_pointed(graph, recorder, states, 
         return values
 
     ears = Ears(graph)
+    all_stops = graph.listen(DiagnosticArray, "/recorder/stops", qos.LATCHED_EVENTS)
     replay(graph, "lesson", rate=0.1)
     assert graph.call(Trigger, "/recorder/previous_stop").code == NO_STOP_BEFORE.code
     order(graph, "set_rate", srv.SetRate, rate=2.0)
@@ -681,6 +700,10 @@ def test_a_guided_replay_stands_where_somebody_pointed(graph, recorder, states, 
     assert order(graph, "next_stop").code == TO_END.code
     wait_until_over(states)
     assert states.last().code == ""
+    told = next(each.status for each in all_stops if each.status)
+    instants = [value.value for each in told for value in each.values if value.key == INSTANT]
+    assert instants == ["0.200", "0.800"]
+    assert all_stops.last().status == []
 
 
 def test_the_rate_is_kept(graph, recorder, session, states):

@@ -1,11 +1,11 @@
-import type { ComponentType } from 'preact'
 import { useEffect, useErrorBoundary, useState } from 'preact/hooks'
 import type { Api } from './api/api'
+import type { Session } from './api/types'
 import { Button, ButtonLink } from './design/button'
 import { Notice } from './design/notice'
 import { Toasts } from './design/toast'
 import { Header } from './shell/header'
-import { lazy } from './shell/lazy'
+import { type LazyPage, lazy } from './shell/lazy'
 import { path } from './shell/router'
 import { ApiProvider, checkSignIn, session } from './shell/session'
 import { sentence } from './words/diagnostic'
@@ -13,7 +13,7 @@ import { words } from './words/words'
 
 interface Route {
   readonly path: RegExp
-  readonly page: ComponentType
+  readonly page: LazyPage
   /** Shown to people who have signed in only. */
   readonly members: boolean
   /** The page has the whole window below the header. */
@@ -110,19 +110,23 @@ function Page() {
   return <Shown />
 }
 
-/** The whole of the pages: header, page, toasts. */
-export function App({ api }: { api: Api }) {
+/** Begin to load the code of the page at a path. */
+export function loadPage(at: string): void {
+  ROUTES.find((each) => each.path.test(at))?.page.load()
+}
+
+/** The whole of the pages: header, page, toasts. asked: the session, where it was asked for. */
+export function App({ api, asked }: { api: Api; asked?: Promise<Session> }) {
   const [error, setError] = useState('')
-  const load = () => {
+  const load = (answer: Promise<Session>) => {
     setError('')
-    api
-      .session()
-      .then((answer) => {
-        session.value = answer
+    answer
+      .then((found) => {
+        session.value = found
       })
       .catch((problem: unknown) => setError(sentence(problem)))
   }
-  useEffect(load, [])
+  useEffect(() => load(asked ?? api.session()), [])
   useEffect(() => {
     const look = () => {
       if (session.value?.user) void checkSignIn(api)
@@ -141,7 +145,7 @@ export function App({ api }: { api: Api }) {
         {error ? (
           <Notice severity="error">
             <p>{error}</p>
-            <Button onClick={load}>{words.value.retry}</Button>
+            <Button onClick={() => load(api.session())}>{words.value.retry}</Button>
           </Notice>
         ) : (
           session.value && <Page key={path.value.split('/')[1]} />

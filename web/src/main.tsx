@@ -3,9 +3,9 @@ import './design/styles'
 import './shell/shell.css'
 import type { Api } from './api/api'
 import { HttpApi } from './api/http'
-import { App } from './app'
+import { App, loadPage } from './app'
 import { followTheme } from './design/theme'
-import { followLinks } from './shell/router'
+import { followLinks, path } from './shell/router'
 import { leaveSignedOut } from './shell/session'
 import { preferredLanguage, setLanguage, words } from './words/words'
 
@@ -19,6 +19,11 @@ async function connect(): Promise<Api> {
 
 followTheme()
 followLinks()
-const [api] = await Promise.all([connect(), setLanguage(preferredLanguage(), false)])
+const api = await connect()
+// What the first picture waits for is asked for at once: who is signed in, the page's code, words.
+const asked = api.session()
+asked.catch(() => {})
+loadPage(path.value)
+await setLanguage(preferredLanguage(), false)
 const page = document.getElementById('page')
-if (page !== null) render(<App api={api} />, page)
+if (page !== null) render(<App api={api} asked={asked} />, page)

@@ -121,10 +121,15 @@ def read_session(bag: Bag, reference: Reference | None = None) -> SessionReport:
     return report
 
 
-def read_events(bag: Bag) -> SessionReport:
-    """Return the runs of a session, without their figures, and the marks that people set in it."""
+def read_events(bag: Bag, wanted: Callable[[], bool]) -> SessionReport:
+    """Return the runs of a session, without their figures, and the marks that people set in it.
+
+    wanted: asked between messages; where it is False, the rest is not read.
+    """
     reader = _Reader(bag, EVENTS)
     for message in bag.messages(topics=reader.topics):
+        if not wanted():
+            break
         reader.take(message)
     reader.report.runs = runs_of(reader.report, reader.objects, reader.targets)
     return reader.report

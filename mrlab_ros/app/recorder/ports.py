@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol
@@ -13,6 +13,7 @@ from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.recording.metadata import BagFacts, Gap
 from mrlab_ros.core.recording.recorder import RecorderState
+from mrlab_ros.core.recording.stops import Stop
 from mrlab_ros.core.recording.topics import Split, Topics
 
 
@@ -105,6 +106,9 @@ class Streams(Protocol):
 
     def publish(self, status: Status) -> None:
         """Publish what the recorder does."""
+
+    def publish_stops(self, stops: Sequence[Stop]) -> None:
+        """Publish the stops of what is replayed."""
 
 
 class Journal(Protocol):

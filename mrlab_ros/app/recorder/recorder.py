@@ -5,14 +5,10 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable
-from concurrent.futures import Future
-from concurrent.futures import TimeoutError as FutureTimeout
 from dataclasses import replace
 from pathlib import Path
 
-from mrlab_ros.adapters import threads
 from mrlab_ros.adapters.bags.reader import Bag, bags_in, remove_empty
-from mrlab_ros.adapters.bags.session import read_events
 from mrlab_ros.adapters.bags.writer import write_metadata
 from mrlab_ros.adapters.stop_orders import StopOrders
 from mrlab_ros.app.diagnostics import (
@@ -39,11 +35,12 @@ from mrlab_ros.app.recorder.ports import (
     Status,
     Streams,
 )
+from mrlab_ros.app.recorder.stops import ReplayStops
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.base.errors import LabError, Misuse
+from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.base.state_machine import Machine
 from mrlab_ros.core.recording import recorder as entries
-from mrlab_ros.core.recording.diagnostics import REPLAY_OVER, STOPS_AWAITED, TO_END, TO_STOP
+from mrlab_ros.core.recording.diagnostics import REPLAY_OVER, TO_END, TO_STOP
 from mrlab_ros.core.recording.metadata import Gap
 from mrlab_ros.core.recording.recorder import (
     TABLE,
@@ -52,12 +49,9 @@ from mrlab_ros.core.recording.recorder import (
     RecorderState,
     reason,
 )
-from mrlab_ros.core.recording.stops import Stop, next_stop, stop_before, stops_of
+from mrlab_ros.core.recording.stops import Stop, next_stop, stop_before
 from mrlab_ros.core.recording.topics import Split, Topics
 from mrlab_ros.core.runtime.watch import RESTART_SHOWN_S
-
-# s: a caller over zenoh gives up after 5 s.
-STOPS_TIMEOUT_S = 3.0
 
 
 class Recorder:
@@ -93,9 +87,7 @@ class Recorder:
         self._entry: Entry | None = None
         # Of what is at hand: what is wrong with it, or the stop at which its replay stands.
         self._trouble: Diagnostic | None = None
-        # Of the bag that was asked for last.
-        self._stops: tuple[Bag, Future[list[Stop]]] | None = None
-        self._reading = threads.Pool("stops", 1)
+        self._stops = ReplayStops(streams.publish_stops)
         self._made_at = time.monotonic()
         # Diagnostics of messages that a restart kept from the recording.
         self.lost: list[Diagnostic] = []
@@ -161,7 +153,7 @@ class Recorder:
 
     def close(self) -> None:
         """Close what is written, end what is replayed; a recording continues after a restart."""
-        self._reading.shutdown(wait=False, cancel_futures=True)
+        self._stops.close()
         self._end(RecorderEvent.CLOSE)
 
     # recording ------------------------------------------------------------------------------
@@ -270,6 +262,7 @@ class Recorder:
         # The lab's own nodes leave the graph as soon as they receive this.
         self._publish()
         try:
+            self._stops.read(running.bag)
             running.prepare()
             # Before it starts: a short one may be over at once.
             with self._lock:
@@ -279,6 +272,7 @@ class Recorder:
             with self._lock:
                 self._machine.fire(RecorderEvent.FAIL)
                 self._replay = None
+            self._stops.forget()
             running.close()
             raise
         finally:
@@ -327,15 +321,8 @@ class Recorder:
         with self._lock:
             self._machine.check(RecorderEvent.SEEK)
             running = self._replay
-            assert running is not None
-            bag = running.bag
-            if self._stops is None or self._stops[0] is not bag:
-                self._stops = bag, self._reading.submit(lambda: stops_of(read_events(bag)))
-            reading = self._stops[1]
-        try:
-            return reading.result(STOPS_TIMEOUT_S), running.position
-        except FutureTimeout:
-            raise Misuse(STOPS_AWAITED(bag=str(bag.path))) from None
+        assert running is not None
+        return self._stops.known(running.bag), running.position
 
     def _arrive(self, running: RunningReplay, stop: Stop) -> None:
         with self._lock:
@@ -388,6 +375,7 @@ class Recorder:
         if running is None:
             # Another thread ended it in the same moment.
             return
+        self._stops.forget()
         # Its topics leave the graph before the live nodes return.
         running.close()
         with self._lock:
@@ -423,6 +411,7 @@ class Recorder:
             if recording is not None:
                 recording.close()
             if running is not None:
+                self._stops.forget()
                 running.close()
         except LabError as error:
             with self._lock:

@@ -6,7 +6,7 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.base.diagnostic import INFO, Diagnostic, Severity
 from mrlab_ros.core.base.errors import Misuse
 from mrlab_ros.core.base.geometry import Vector
 from mrlab_ros.core.recording.diagnostics import NO_STOP_BEFORE, STOP_EVENT, TOUR_STOP
@@ -24,10 +24,14 @@ BEFORE_END = 0.01
 
 @dataclass(frozen=True)
 class Stop:
-    """Where a replay stands: time, s of the session; said: what happened, with the place, m."""
+    """Where a replay stands: time, s of the session; said: what happened, with the place, m.
+
+    severity: the gravest of what happened.
+    """
 
     time: float
     said: Diagnostic
+    severity: Severity = INFO
 
 
 def stops_of(report: SessionReport) -> list[Stop]:
@@ -51,6 +55,7 @@ def stops_of(report: SessionReport) -> list[Stop]:
                 ],
                 place=_place(group),
             ),
+            max(each.said.severity for each in group),
         )
         for number, group in enumerate(groups, 1)
     ]

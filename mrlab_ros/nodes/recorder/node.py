@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from diagnostic_msgs.msg import DiagnosticArray
 from mrlab_msgs import msg, srv
 from mrlab_msgs.srv import ListBags, SetLoop, Trigger
 
@@ -22,10 +23,11 @@ from mrlab_ros.core.base.diagnostic import Diagnostic, Severity
 from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.recording.metadata import GAP, BagFacts, Gap
 from mrlab_ros.core.recording.recorder import ReplayTimeline
+from mrlab_ros.core.recording.stops import Stop
 from mrlab_ros.core.recording.topics import Split, Topics
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.definitions import definition
-from mrlab_ros.messages.status import recorder_state_to_message
+from mrlab_ros.messages.status import recorder_state_to_message, stops_to_message
 from mrlab_ros.nodes import parameters
 from mrlab_ros.nodes.parameters import RecorderParameters
 from mrlab_ros.nodes.recorder.attachments import versions
@@ -56,6 +58,7 @@ class RecorderNode(
         self._streams = self.hidden_node("streams")
         self._caller = Caller(self)
         self._state = self.create_publisher(msg.RecorderState, "~/state", qos.LATCHED)
+        self._stops = self.create_publisher(DiagnosticArray, "~/stops", qos.LATCHED)
         state_dir = self.parameters.state_dir
         self._journal = Journal.of(state_dir, self.get_name(), self.get_logger().error)
         self.recorder = Recorder(
@@ -175,7 +178,7 @@ class RecorderNode(
         """Open a bag: app.recorder.Streams."""
         bag = open_bag(path, definition)
         timeline = ReplayTimeline(bag.duration, rate, start, loop)
-        return Replaying(self, self._streams, bag, timeline, on_end)
+        return Replaying(self, self._streams, bag, timeline, on_end, lab=self.parameters.lab_id)
 
     def publish(self, status: Status) -> None:
         """Publish what the recorder does: app.recorder.Streams."""
@@ -184,8 +187,15 @@ class RecorderNode(
         message = recorder_state_to_message(
             time.time_ns(), state.announced.value, trouble, **facts
         )
+        self._send(self._state, message)
+
+    def publish_stops(self, stops: Sequence[Stop]) -> None:
+        """Publish the stops of what is replayed: app.recorder.Streams."""
+        self._send(self._stops, stops_to_message(time.time_ns(), stops))
+
+    def _send(self, publisher: Any, message: Any) -> None:
         try:
-            self._state.publish(message)
+            publisher.publish(message)
         except Exception:
             # A replay may end while the lab is shutting down.
             if self.context.ok():

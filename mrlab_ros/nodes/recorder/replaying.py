@@ -17,6 +17,7 @@ from mrlab_msgs import srv
 from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.publisher import Publisher
+from rclpy.serialization import deserialize_message, serialize_message
 
 from mrlab_ros.adapters import threads
 from mrlab_ros.adapters.bags.mcap_file import Message
@@ -79,7 +80,8 @@ class Replaying:
     """Publishes `bag` through `streams`, a node that no executor spins, in a thread of its own.
 
     `node` offers the trajectories of the bag meanwhile. `on_end` is called in that thread at the
-    end, with what ended the replay, or None.
+    end, with what ended the replay, or None. `lab`: the id of the lab, which messages of a bag of
+    another one get in place of its own: the bridge forwards nothing of other labs.
     """
 
     def __init__(
@@ -89,6 +91,7 @@ class Replaying:
         bag: Bag,
         timeline: ReplayTimeline,
         on_end: Callable[[Diagnostic | None], None],
+        lab: str = "",
         now_ns: Callable[[], int] = time.monotonic_ns,
     ) -> None:
         self._node = node
@@ -97,6 +100,7 @@ class Replaying:
         self._bag = bag
         self._timeline = timeline
         self._on_end = on_end
+        self._lab = lab
         self._now_ns = now_ns
         present = Topics(OF_THE_PRESENT)
         # Diagnostics of topics that are not replayed.
@@ -132,6 +136,8 @@ class Replaying:
             self.left_out.append(LEFT_OUT(topic=topic.name, why=error))
             return
         self._kinds[topic.name] = kind
+        if self._lab and "lab" in kind.get_fields_and_field_types():
+            convert = _of_lab(self._lab, kind, convert)
         if convert is not None:
             self._converts[topic.name] = convert
 
@@ -336,6 +342,21 @@ class Replaying:
         data = message.data if convert is None else convert(message.data)
         self._publishers[message.topic].publish(data)
         self.messages += 1
+
+
+def _of_lab(lab: str, kind: Any, convert: Convert | None) -> Convert:
+    """Return what gives a message of type `kind` the id of a lab, where it has another's."""
+
+    def change(data: bytes) -> bytes:
+        data = data if convert is None else convert(data)
+        message = deserialize_message(data, kind)
+        if message.lab in ("", lab):
+            return data
+        message.lab = lab
+        changed: bytes = serialize_message(message)
+        return changed
+
+    return change
 
 
 class ReplayedTrajectories:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -12,6 +12,7 @@ from mrlab_ros.app.recorder.ports import Status
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.recording.metadata import GAP, BagFacts, Gap, Topic
+from mrlab_ros.core.recording.stops import Stop
 from mrlab_ros.core.recording.topics import Split, Topics
 
 TOPIC = "/counted"
@@ -109,6 +110,7 @@ class FakeStreams:
 
     def __init__(self) -> None:
         self.published: list[Status] = []
+        self.stops: list[Stop] = []
         self.recording: FakeRecording | None = None
         self.running: FakeReplay | None = None
         self.preparing: Callable[[], None] = lambda: None
@@ -141,6 +143,9 @@ class FakeStreams:
 
     def publish(self, status: Status) -> None:
         self.published.append(status)
+
+    def publish_stops(self, stops: Sequence[Stop]) -> None:
+        self.stops = list(stops)
 
 
 class FakeJournal:

@@ -50,13 +50,33 @@ export async function listBagsOf(link: Link): Promise<readonly string[]> {
   return answer.bags
 }
 
+/** Return a function that sends a value at once, or, while an answer is awaited, the newest of the
+ * values since then: what a timeline's thumb passes is no queue. */
+function newest<T>(send: (value: T) => Promise<unknown>): (value: T) => void {
+  let next: { readonly value: T } | null = null
+  let busy = false
+  const run = async () => {
+    busy = true
+    while (next !== null) {
+      const { value } = next
+      next = null
+      await send(value)
+    }
+    busy = false
+  }
+  return (value) => {
+    next = { value }
+    if (!busy) void run()
+  }
+}
+
 /** Return the commands of a robot, of a robot system or of the recorder's replay. */
 export function commandsOf(lab: Lab, name: string): Commands {
   const play = name === 'recorder' ? 'resume' : 'play'
   return {
     play: () => void trigger(lab, `${name}/${play}`),
     pause: () => void trigger(lab, `${name}/pause`),
-    seek: (position) => void order(lab, `${name}/seek`, seekType, { position }),
+    seek: newest((position: number) => order(lab, `${name}/seek`, seekType, { position })),
     setRate: (rate) => void order(lab, `${name}/set_rate`, setRateType, { rate }),
   }
 }

@@ -5,6 +5,7 @@ import type { PoseSource } from '../playback/clocked_arm'
 import type { Course } from '../playback/course'
 import type { Commands } from '../playback/player'
 import { RemotePlayer } from '../playback/player'
+import { diagnosticArrayReader } from '../protocol/diagnostic_msgs'
 import type { MessageReader } from '../protocol/message_type'
 import {
   collisionReader,
@@ -42,6 +43,7 @@ import {
   setJoints,
 } from './followed_robot'
 import { backUntil, holds, type Outage, outagesOf } from './outages'
+import { type SessionStop, stopsOf } from './stops'
 import { Undoing } from './undoing'
 
 /** s: contacts are published at 50 Hz, and not at all while there are none. */
@@ -97,6 +99,8 @@ export class LabFollower {
   /** Processes of the lab that do not run, or run again since a short while. */
   readonly outages = signal<readonly Outage[]>([])
   readonly replay: RemotePlayer
+  /** What happened in the session that is replayed; none until the recorder has read it. */
+  readonly stops = signal<readonly SessionStop[]>([])
   /** The place in which the robots stand; null: the lab has not said. */
   readonly place = signal<Place | null>(null)
   readonly undoing: Undoing
@@ -194,6 +198,9 @@ export class LabFollower {
       }),
       this.on('systems', robotSystemsReader, (message) => this.takeSystems(message.systems)),
       this.on('processes', labProcessesReader, (message) => this.takeProcesses(message.processes)),
+      this.on('recorder/stops', diagnosticArrayReader, (message) => {
+        this.stops.value = stopsOf(message)
+      }),
       this.on('recorder/state', recorderStateReader, (message) => this.takeRecorder(message)),
     ]
   }

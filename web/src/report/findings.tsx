@@ -6,6 +6,9 @@ import { say } from '../words/diagnostic'
 import { words } from '../words/words'
 import { PlayheadContext } from './plot/playhead'
 
+/** Findings on a page of paper; as in report.css. */
+const PRINTED = 8
+
 interface FindingsProps<Found extends Diagnostic> {
   readonly title: string
   readonly findings: readonly Found[]
@@ -47,6 +50,11 @@ export function Findings<Found extends Diagnostic>(props: FindingsProps<Found>) 
           )
         })}
       </ol>
+      {findings.length > PRINTED && (
+        <p class="findings-more second">
+          {words.value.report.morePrinted(findings.length - PRINTED)}
+        </p>
+      )}
     </section>
   )
 }

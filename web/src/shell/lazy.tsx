@@ -10,12 +10,27 @@ interface Pending<Props> {
 
 const LOADING_SHOWN_AFTER_MS = 300
 
+/** A component whose code comes when it is first shown, or before that by load(). */
+export type LazyPage<Props extends object = object> = ComponentType<Props> & {
+  /** Begin to load the code; a failure is told where the component is shown. */
+  load(): void
+}
+
 /** Return a component that loads its page when it is first shown, and says so after 300 ms. */
 export function lazy<Props extends object>(
-  load: () => Promise<ComponentType<Props>>,
-): ComponentType<Props> {
+  fetch: () => Promise<ComponentType<Props>>,
+): LazyPage<Props> {
   let loaded: ComponentType<Props> | null = null
-  return function Lazy(props: Props) {
+  let loading: Promise<ComponentType<Props>> | null = null
+  const load = () => {
+    loading ??= fetch().catch((problem: unknown) => {
+      // the next attempt asks again
+      loading = null
+      throw problem
+    })
+    return loading
+  }
+  function Lazy(props: Props) {
     const [{ page, failed }, set] = useState<Pending<Props>>({ page: loaded, failed: false })
     const [slow, setSlow] = useState(false)
     useEffect(() => {
@@ -47,4 +62,5 @@ export function lazy<Props extends object>(
       )
     return slow ? <p class="second">{words.value.loading}</p> : null
   }
+  return Object.assign(Lazy, { load: () => void load().catch(() => {}) })
 }

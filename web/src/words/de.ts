@@ -232,6 +232,7 @@ export const words: Words = {
     robot: 'Roboter',
     robots: 'Roboter',
     events: 'Ereignisse',
+    morePrinted: (count) => `und ${count} weitere, auf der Seite`,
     moreEvents: (count) => `${count} weitere stehen in der Tabelle der Läufe.`,
     runs: 'Läufe',
     runOf: (run) => `Lauf ${run}`,

@@ -116,6 +116,7 @@ function nested(value: unknown, whole = false): string {
   return whole ? spoken(value) : say(value).message
 }
 
-function isTold(value: unknown): value is Told {
+/** Return whether a value is a text that exists in each language. */
+export function isTold(value: unknown): value is Told {
   return typeof value === 'object' && value !== null && 'code' in value && 'message' in value
 }

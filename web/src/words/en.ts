@@ -179,6 +179,7 @@ export const en = {
     robot: 'Robot',
     robots: 'Robots',
     events: 'Events',
+    morePrinted: (count: number) => `and ${count} more, on the page`,
     moreEvents: (count: number) => `${count} more are in the table of runs.`,
     runs: 'Runs',
     runOf: (run: number) => `Run ${run}`,

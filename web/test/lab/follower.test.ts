@@ -2,6 +2,7 @@ import { expect, test, vi } from 'vitest'
 import { commandsOf } from '../../src/lab/commands'
 import { LabFollower } from '../../src/lab/follower'
 import { Course } from '../../src/playback/course'
+import { diagnosticArrayReader } from '../../src/protocol/diagnostic_msgs'
 import {
   collisionReader,
   contactsReader,
@@ -18,6 +19,7 @@ import {
   recorderStateReader,
   robotSystemsReader,
   robotsReader,
+  seekType,
   triggerType,
 } from '../../src/protocol/mrlab_msgs'
 import { jointStateReader } from '../../src/protocol/sensor_msgs'
@@ -140,6 +142,40 @@ test('a replay goes on between the recorder’s messages and stands when it is p
   expect(follower.replay.position()).toBeCloseTo(5)
   link.deliver('recorder/state', recorderStateReader, { ...state, state: 3 })
   expect(follower.replay.position()).toBeCloseTo(3)
+})
+
+test('the thumb of a timeline asks for the place where it is, not for all that it passed', async () => {
+  const { link, follower } = lab()
+  link.answer('recorder/seek', seekType, () => ({ success: true, message: '' }))
+  const header = { stamp: { sec: 1000, nanosec: 0 }, frame_id: '' }
+  link.deliver('recorder/state', recorderStateReader, { header, state: 3, duration: 20, rate: 1 })
+  for (const place of [1, 2, 3, 4]) follower.replay.seek(place)
+  const places = () => link.calls.map(({ request }) => (request as { position: number }).position)
+  await vi.waitFor(() => expect(places()).toEqual([1, 4]))
+})
+
+test('the stops of a session that is replayed are known with their instants', () => {
+  const { link, follower } = lab()
+  const hit = { severity: 'error', code: 'run_hit', message: 'forearm_link touched table_1' }
+  link.deliver('recorder/stops', diagnosticArrayReader, {
+    status: [
+      {
+        level: 2,
+        name: 'tour_stop',
+        message: 'Stop 1 of 1: forearm_link touched table_1',
+        hardware_id: 'mrlab',
+        values: [
+          { key: 'session_time', value: '1.500' },
+          { key: 'events', value: JSON.stringify([hit]) },
+        ],
+      },
+      { level: 0, name: 'newer', message: 'Something newer', hardware_id: '', values: [] },
+    ],
+  })
+  expect(follower.stops.value).toMatchObject([
+    { time: 1.5, severity: 'error', events: [{ code: 'run_hit' }] },
+    { time: 0, severity: 'info', events: [{ code: 'newer', message: 'Something newer' }] },
+  ])
 })
 
 test('a system keeps its timeline from message to message', () => {

@@ -165,7 +165,7 @@ export function Lab({ link }: { link: Link }) {
                 disabled={lost || moving.length === 0}
                 onClick={pauseAll}
               >
-                {w.pauseAll}
+                <span class="lab-bar-word">{w.pauseAll}</span>
               </Button>
             )}
             <Button

@@ -1,16 +1,64 @@
-import { useEffect, useState } from 'preact/hooks'
+import { useEffect, useMemo, useState } from 'preact/hooks'
 import { Button } from '../../design/button'
 import { Icon } from '../../design/icons'
 import { listBagsOf, order, trigger } from '../../lab/commands'
 import type { LabFollower } from '../../lab/follower'
+import type { SessionStop } from '../../lab/stops'
+import type { RemotePlayer } from '../../playback/player'
 import { RecorderState, replayType } from '../../protocol/mrlab_msgs'
+import type { TimeMark } from '../../scene/preview/controls'
 import { spoken } from '../../words/diagnostic'
-import { words } from '../../words/words'
+import { fixed, words } from '../../words/words'
 import { useLab } from './context'
 import { Timeline } from './timeline'
 
 /** Bags that are listed without a search. */
 const MOST = 6
+
+/** Marks on the timeline; of more, the graver ones. */
+const MOST_MARKS = 60
+const GRAVITY = ['error', 'warning', 'info'] as const
+
+function inWords({ events }: SessionStop): string {
+  return events.map(spoken).join(' · ')
+}
+
+function marksOf(stops: readonly SessionStop[]): readonly TimeMark[] {
+  return [...stops]
+    .sort((a, b) => GRAVITY.indexOf(a.severity) - GRAVITY.indexOf(b.severity))
+    .slice(0, MOST_MARKS)
+    .map((stop) => ({ time: stop.time, severity: stop.severity, words: inWords(stop) }))
+}
+
+interface StopsProps {
+  readonly stops: readonly SessionStop[]
+  readonly player: RemotePlayer
+  /** True if the person may seek. */
+  readonly enabled: boolean
+}
+
+/** What happened in the session; a press goes there. */
+function Stops({ stops, player, enabled }: StopsProps) {
+  if (stops.length === 0) return null
+  return (
+    <ol class="lab-load-list lab-stops" aria-label={words.value.report.events}>
+      {stops.map((stop) => (
+        <li key={stop.time}>
+          <button
+            type="button"
+            class={`lab-load-item lab-stop lab-stop-${stop.severity} small`}
+            disabled={!enabled}
+            onClick={() => player.seek(stop.time)}
+          >
+            <Icon name={stop.severity} />
+            <span class="second lab-stop-time">{fixed(stop.time, 1)} s</span>
+            <span class="grow">{inWords(stop)}</span>
+          </button>
+        </li>
+      ))}
+    </ol>
+  )
+}
 
 /** Replay a recorded bag in this view, and show the state of the recorder. */
 export function ReplayCard({ follower }: { follower: LabFollower }) {
@@ -28,6 +76,8 @@ export function ReplayCard({ follower }: { follower: LabFollower }) {
     // a name can be typed all the same
     listBagsOf(link).then(setBags, () => setBags([]))
   }, [link, may.replay, doing])
+  const stops = follower.stops.value
+  const marks = useMemo(() => marksOf(stops), [stops, words.value])
   const replaying = follower.replays
   if (!may.replay && !replaying && state?.state !== RecorderState.RECORDING) return null
   const replay = (wanted: string) => {
@@ -44,7 +94,14 @@ export function ReplayCard({ follower }: { follower: LabFollower }) {
       {replaying && state ? (
         <>
           <p class="small">{w.replaying(state.bag)}</p>
-          <Timeline key="timeline" player={follower.replay} rate={100} enabled={may.replay} />
+          <Timeline
+            key="timeline"
+            player={follower.replay}
+            rate={100}
+            enabled={may.replay}
+            marks={marks}
+          />
+          <Stops stops={stops} player={follower.replay} enabled={may.replay} />
           {may.replay && (
             <div class="row">
               <Button onClick={() => trigger(lab, 'recorder/previous_stop')}>‹ {stop}</Button>

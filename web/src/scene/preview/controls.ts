@@ -64,11 +64,15 @@ export class Controls {
     this.slider.max = String(player.duration)
     this.slider.step = String(Math.max(step, player.duration / 5000))
     this.slider.setAttribute('aria-label', words.time)
-    this.slider.addEventListener('input', () => {
+    // A thumb that is dragged stays where the hand has it, wherever the player is meanwhile.
+    this.slider.addEventListener('pointerdown', () => {
       this.scrubbing = true
-      player.seek(Number(this.slider.value))
-      this.scrubbing = false
     })
+    this.slider.addEventListener('input', () => player.seek(Number(this.slider.value)))
+    for (const end of ['pointerup', 'pointercancel', 'change', 'blur'])
+      this.slider.addEventListener(end, () => {
+        this.scrubbing = false
+      })
 
     this.clock.className = 'scene-clock'
     this.speed.className = 'scene-speed'
