@@ -96,13 +96,10 @@ def _all_degrees(found: Diagnostic, variable: str) -> bool:
     return found.code == "degrees" and whole and found.variable in ("", variable)
 
 
-def of_result(
-    result: ConversionResult, robot: ShownRobot, *, frame_rate: float = DEFAULT_FRAME_RATE
-) -> dict[str, Any] | None:
+def of_result(result: ConversionResult, robot: ShownRobot) -> dict[str, Any] | None:
     """Return the document of what became of a file, or None where it held no motion.
 
     A refused file is shown by its preview, an ambiguous one by its likeliest candidate.
-    frame_rate: Hz, for rows whose rate is not known.
     """
     if result.trajectory is not None:
         return motion(
@@ -119,7 +116,7 @@ def of_result(
         file=result.file,
         message=result.message,
         verdict="ambiguous" if result.outcome is Outcome.AMBIGUOUS else "refused",
-        frame_rate=frame_rate,
+        frame_rate=result.frame_rate or DEFAULT_FRAME_RATE,
         diagnostics=result.diagnostics,
     )
 

@@ -60,7 +60,8 @@ class Outcome(Enum):
 class ConversionResult:
     """What became of a file; diagnostics worst first, candidates where a choice is needed.
 
-    preview: some rows of the matrix that was refused, where one was found.
+    preview: some rows of the matrix that was refused, where one was found; frame_rate: theirs, Hz,
+    0: not known.
     """
 
     file: str
@@ -69,6 +70,7 @@ class ConversionResult:
     candidates: tuple[Candidate, ...]
     diagnostics: tuple[Diagnostic, ...]
     preview: Preview | None = None
+    frame_rate: float = 0.0
 
     @property
     def said(self) -> Diagnostic:
@@ -338,7 +340,7 @@ def _checked(
         asked = (survey.of(variable).candidate(),)
         return ConversionResult(file, Outcome.AMBIGUOUS, None, asked, _worst_first(notes))
     if errors:
-        return _rejected(file, notes, variable)
+        return replace(_rejected(file, notes, variable), frame_rate=rate)
     return _Checked(layout, rate, Source(file, variable.path, workspace.sha256))
 
 

@@ -259,7 +259,7 @@ def _converted(
                 file=keys.name_of(key.rsplit("/", 1)[1]),
                 message=answer.message,
                 verdict="ambiguous" if ambiguous else "refused",
-                frame_rate=asked.frame_rate,
+                frame_rate=asked.frame_rate or float(answer.trajectory.frame_rate),
                 diagnostics=diagnostics,
             )
     rows = motions.preview_of(answer.preview) is not None

@@ -283,6 +283,8 @@ class ConverterNode(
             response.preview = trajectories.preview_to_message(result.preview)
         response.diagnostics = [trajectories.diagnostic_to_message(d) for d in result.diagnostics]
         if head is None:
+            # Of the preview, for a time of its rows.
+            response.trajectory.frame_rate = result.frame_rate
             self.get_logger().info(f"refused: {visible(str(converted.said))}")
             return
         response.trajectory = info_from_head(head)

@@ -109,7 +109,7 @@ def refused(values, rows=(1, 5, 9), outcome=Outcome.REJECTED):
 
 def test_a_refused_file_is_shown_by_its_preview():
     result = refused([[0, 1, 7], [np.nan, 2, 7], [5, 3, 7]])
-    found = orjson.loads(orjson.dumps(document.of_result(result, ROBOT, frame_rate=10.0)))
+    found = orjson.loads(orjson.dumps(document.of_result(replace(result, frame_rate=10.0), ROBOT)))
     assert found["verdict"] == "refused"
     assert unpacked(found["rows"]).tolist() == [1, 5, 9]
     assert unpacked(found["times"]).tolist() == [0, 0.4, 0.8]
