@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from mrlab_msgs import msg
@@ -11,11 +12,14 @@ from mrlab_msgs.msg import Latency, LatencyHop
 from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.core.base.diagnostic import Diagnostic, Severity, to_texts
 from mrlab_ros.core.bridge.latency import Delays
-from mrlab_ros.core.recording.stops import Stop
 from mrlab_ros.core.runtime.process_states import Phase, ProcessState
 from mrlab_ros.core.runtime.watch import Sign, silence
 from mrlab_ros.messages.texts import told, values_to_message
 from mrlab_ros.messages.time import make_header, time_from_message, time_to_message
+
+if TYPE_CHECKING:
+    # Commands that read messages do without numpy.
+    from mrlab_ros.core.recording.stops import Stop
 
 # Prefix of the names of the lab's processes on /diagnostics.
 PREFIX = "mrlab: "
