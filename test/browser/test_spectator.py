@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from math import dist
+from pathlib import Path
 
 import pytest
 from browser_side import difference, eventually, pixels
@@ -15,6 +16,8 @@ from served_lab import ServedLab
 
 # Software draws the pictures, on a busy machine a few a second.
 pytestmark = pytest.mark.timeout(300)
+
+MOTION = Path(__file__).parents[2] / "examples" / "quintic_ur5e.mat"
 
 
 @pytest.fixture
@@ -72,3 +75,41 @@ def test_the_projector_shows_what_a_student_sees_and_all_see_where_a_teacher_poi
     student.page.context.close()
     expect(status).to_have_count(0)
     expect(page.get_by_role("status").filter(has_text="has left the room")).to_be_visible()
+
+
+def test_a_recorded_session_is_walked_through_from_stop_to_stop(
+    teacher: LabPage, headsets: Callable[[], Headset], lab: ServedLab
+) -> None:
+    student = headsets()
+    student.enter()
+    student.act(BOARD, "tab lab")
+    student.act(BOARD, "record")
+    student.wait_for("room.board.panel.ids.includes('end_recording')")
+    lab.done("play", "ur5e_1", str(MOTION))
+    student.page.evaluate("room.lookHere.ask(room.head.clone().set(0.4, 0.5, 0.2))")
+    student.wait_for("room.lookHere.point !== null")
+    student.act(BOARD, "end_recording")
+    student.act(BOARD, "replay 0")
+    student.act(BOARD, "replay_play")
+    student.wait_for("room.follower.recorder.value.state === 3")
+    student.page.evaluate("room.follower.replay.seek(0)")
+    student.act(BOARD, "next_stop")
+
+    # Where the run begins, for everybody.
+    stop = "room.follower.recorder.value.code === 'tour_stop' && room.lookHere.point?.toArray()"
+    student.wait_for(stop)
+    began = student.page.evaluate("room.follower.replay.position()")
+    assert "begins" in student.page.evaluate("room.board.notice")
+    card = teacher.page.get_by_role("article").filter(has_text="Recordings")
+    expect(card).to_contain_text("Stop 1 of")
+    # The teacher goes on to the end of the motion, and to where somebody pointed then.
+    stops = int(re.search(r"Stop 1 of (\d)", card.inner_text())[1])  # type: ignore[index]
+    for number in range(2, stops + 1):
+        card.get_by_role("button", name="Stop ›").click()
+        expect(card).to_contain_text(f"Stop {number} of")
+    student.wait_for(f"Math.abs({stop}[0] - 0.4) < 1e-9")
+    card.get_by_role("button", name="‹ Stop").click()
+    expect(card).to_contain_text(f"Stop {stops - 1} of")
+    student.wait_for(f"room.follower.replay.position() >= {began}")
+    card.get_by_role("button", name="End the replay").click()
+    student.wait_for("room.lookHere.point === null && room.handles.size === 1")

@@ -81,8 +81,9 @@ class Displays:
         self._seen[token] = message.id, now
         message.name = person.name
         message.part = part_of(person.role)
-        # A display that is not aligned with the others says so by a frame of its own.
-        if message.header.frame_id != message.id:
+        # The lab's frame, or that of another place or display in which the poses are measured.
+        frame = message.header.frame_id
+        if not 1 <= len(frame) <= LONGEST_ID or not frame.isprintable():
             message.header.frame_id = FRAME
         if message.away:
             del self._seen[token]

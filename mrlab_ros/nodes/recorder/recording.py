@@ -16,7 +16,7 @@ from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.recording.metadata import Topic
 from mrlab_ros.core.recording.topics import Split, Topics
-from mrlab_ros.messages.qos import message_class, profile, topic_of
+from mrlab_ros.messages.qos import STREAM, message_class, profile, topic_of
 from mrlab_ros.nodes.recorder.attachments import SessionContent
 from mrlab_ros.nodes.recorder.diagnostics import (
     NOT_RECORDED,
@@ -42,6 +42,8 @@ GONE_NS = 30 * SECOND
 PRESENT_NS = SECOND // 2
 # A stamp that is so far in the future is of before the clock was set back, ns.
 AHEAD_NS = SECOND // 10
+# What displays send comes into the graph only while somebody subscribes to it.
+ASKED_FOR = {"/look_here": "mrlab_msgs/msg/LookHere"}
 # Messages kept for the recorder while a disk or the machine stalls: 10 s at 100 Hz.
 DEPTH = 1000
 
@@ -114,6 +116,7 @@ class Recording:
         self._on_trouble = on_trouble
         self._complain = warn
         self._followed: dict[str, Followed] = {}
+        self._asking: list[Subscription] = []
         # type of each topic that was ever followed
         self._kinds: dict[str, str] = {}
         # Topics that are not wanted, or cannot be recorded.
@@ -136,6 +139,13 @@ class Recording:
     def start(self) -> None:
         """Follow the topics that there are; raise DiskTrouble where the disk refuses."""
         if self._guarded(self._writer.flush):
+            for name, kind in ASKED_FOR.items():
+                if name in self._topics:
+                    self._asking.append(
+                        self._streams.create_subscription(
+                            message_class(kind), name, lambda _: None, STREAM, raw=True
+                        )
+                    )
             self.discover()
         self._check_trouble()
         if not self._closed:
@@ -332,8 +342,9 @@ class Recording:
             raise self._trouble
 
     def _leave(self) -> None:
-        for followed in self._followed.values():
-            self._streams.destroy_subscription(followed.subscription)
+        for each in [*self._asking, *(each.subscription for each in self._followed.values())]:
+            self._streams.destroy_subscription(each)
+        self._asking.clear()
         self._followed.clear()
 
 

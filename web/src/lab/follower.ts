@@ -111,7 +111,8 @@ export class LabFollower {
   private readonly kept = new Map<string, FollowedRobot>()
   private readonly courses: Courses
   private readonly systemPlayers = new Map<string, RemotePlayer>()
-  private surfaces: readonly Surface[] = []
+  /** As the lab has them. */
+  surfaces: readonly Surface[] = []
   private processes: readonly LabProcess[] = []
   /** Ends the naming of a process that runs again. */
   private outageTimer: ReturnType<typeof setTimeout> | undefined

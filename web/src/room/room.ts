@@ -218,6 +218,7 @@ export class Room {
       this.presence,
       this.scan,
       this.touching,
+      this.anchor,
     )
     const bases = () => this.robots.bases()
     this.alignment = new Alignment(this.stage, this.anchor, this.scan, bases)
@@ -235,7 +236,7 @@ export class Room {
     this.guide = new Guide(ports, this, targets)
     this.board.tabs = tabsOf(ports, parts, this)
     this.undo = [
-      effect(() => this.anchor.goTo(this.follower.place.value?.id ?? '')),
+      effect(() => this.common.goTo(this.follower.place.value?.id ?? '')),
       effect(() => {
         this.lookHere.stand(this.follower.recorder.value)
         this.stage.invalidate()

@@ -3,7 +3,6 @@ import type { LabFollower } from '../lab/follower'
 import type { People } from '../lab/people/people'
 import type { Link } from '../link/link'
 import type { TrajectoryInfo } from '../protocol/mrlab_msgs'
-import type { ShownSurface } from '../scene/lab/surfaces'
 import type { MeshSource } from '../scene/robot/meshes'
 import type { Words } from '../words/en'
 import type { Board, MakeTab, Tab, TabPorts } from './board/board'
@@ -158,13 +157,12 @@ interface Tabbed extends Places {
   readonly guide: Guide
   readonly visit: Visit
   readonly stage: RoomStage
-  readonly surfaces: readonly ShownSurface[]
 }
 
 /** Return the tabs of the board, in their order. */
 export function tabsOf(ports: Ports, { person, tabs }: RoomParts, room: Tabbed): Tab[] {
   const { spawning, placing, objects, follower, settings, visit, stage, drawings } = room
-  const switches = roomSwitches(ports, room, visit, stage, () => room.surfaces.length)
+  const switches = roomSwitches(ports, room, visit, stage, () => follower.surfaces)
   const chosen = () => placing.id
   return [
     robotsTab(ports, chosen, (entry) => {
@@ -178,7 +176,12 @@ export function tabsOf(ports: Ports, { person, tabs }: RoomParts, room: Tabbed):
       () => ({ here: objects.count, most: spawning.most }),
     ),
     systemsTab(ports, room.creation, follower),
-    peopleTab(ports, room.people, follower, person, room.pointing),
+    peopleTab(ports, room.people, follower, person, room.pointing, {
+      get inside() {
+        return visit.inside.value
+      },
+      join: (frame) => room.common.join(frame),
+    }),
     labTab(ports, follower, room.stats),
     ...tabs.map((make) => make(ports, follower, drawings)),
     roomTab(ports, switches),

@@ -969,9 +969,10 @@ export const en = {
       'The headset knows no table or wall here. Press "Set up the room" and follow it, or go on without.',
     anchorKept: 'The scene keeps its place here, also for the next time.',
     anchorSession: 'The scene keeps its place until you leave; the headset keeps no more places.',
-    notAligned: 'not aligned',
+    alignWith: 'Align with',
+    notAligned: 'elsewhere, or not aligned',
     alignToCount:
-      'Others are here. Your surfaces and your avatar count once you are aligned: tab "Room".',
+      'Others are here. Your surfaces and your avatar count once you are aligned with them: tab "Room" or "People".',
     earlierPlace:
       'The earlier place of the scene was found. Tab "Room": put it back, or keep it here.',
     putBack: 'Put it back',

@@ -35,6 +35,7 @@ def test_name_and_role_are_those_of_the_sign_in():
     found = read(displays.admit("a", ANNA, forged, 0.0))
     assert (found.id, found.name, found.part) == ("quest", "anna", presence.DRIVES)
     assert (found.head.position.x, found.header.frame_id) == (1.5, "world")
+    # Who is in another place, or aligned with somebody else, says so by the frame.
     alone = said(id="quest", header={"frame_id": "quest"})
     assert read(displays.admit("a", ANNA, alone, 1.0)).header.frame_id == "quest"
     parts = [presence.part_of(role) for role in Role]

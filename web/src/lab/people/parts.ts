@@ -9,3 +9,7 @@ export type Part = keyof typeof PART_ICONS
 export function partOf({ part }: Pick<Presence, 'part'>): Part {
   return part === Presence.TEACHES || part === Presence.DRIVES ? (part as Part) : 0
 }
+
+/** The frame of the displays in the lab's place. That of others is the id of their place, or of a
+ * display: its own, or that of another one that it was aligned with. */
+export const COMMON = 'world'

@@ -3,7 +3,7 @@ import type { Link } from '../../link/link'
 import { type Presence, presenceReader } from '../../protocol/mrlab_msgs'
 import type { Words } from '../../words/en'
 import { Avatar, AvatarShapes } from './avatar'
-import { type Part, partOf } from './parts'
+import { COMMON, type Part, partOf } from './parts'
 
 /** s without a message after which an avatar is removed. */
 const GONE = 4
@@ -29,26 +29,23 @@ function standing({ x, y, z }: Vector3): Standing {
 
 interface Person {
   readonly avatar: Avatar
-  aligned: boolean
+  frame: string
   seenAt: number
 }
 
-/** A person in the room. id: of the display. */
+/** A person in the room. id: of the display. frame: of its poses. aligned: that is ours as well. */
 export interface Present {
   readonly id: string
   readonly name: string
   readonly part: Part
+  readonly frame: string
   readonly aligned: boolean
 }
 
-/** The frame of displays that are in the same place; any other one is a display's own. */
-export const COMMON = 'world'
-
 /** The other people in the room, from their presence. */
 export class People {
-  /** True if this display is in the same place as the others: avatars are drawn between displays
-   * in one place only. */
-  inPlace = true
+  /** The frame of this display: avatars are drawn between displays of one frame only. */
+  frame = COMMON
   /** The display whose eyes the picture is seen with: nothing of it is drawn. Empty: our own. */
   seenBy = ''
   private readonly people = new Map<string, Person>()
@@ -68,17 +65,24 @@ export class People {
 
   /** The others. */
   get present(): Present[] {
-    return [...this.people].map(
-      ([
-        id,
-        {
-          avatar: { name, part },
-          aligned,
-        },
-      ]) => {
-        return { id, name, part, aligned }
-      },
-    )
+    return [...this.people].map(([id, { avatar, frame }]) => {
+      const { name, part } = avatar
+      return { id, name, part, frame, aligned: frame === this.frame }
+    })
+  }
+
+  /** Return whether anybody else is in a frame. */
+  anyIn(frame: string): boolean {
+    for (const person of this.people.values()) if (person.frame === frame) return true
+    return false
+  }
+
+  /** The frame of those whom a newcomer joins: that of the lab's place, unless all others who know
+   * their place are elsewhere. */
+  get joinable(): string {
+    if (this.anyIn(COMMON)) return COMMON
+    for (const [id, { frame }] of this.people) if (frame !== id) return frame
+    return COMMON
   }
 
   /** Where people stand, in the lab's frame, this one first. head: in the scene. */
@@ -102,17 +106,17 @@ export class People {
     return this.people.get(id)?.avatar.eyes
   }
 
-  /** True if nobody else is in the common place, and nobody with a lower id waits for it. */
+  /** True if nobody else knows their place, and nobody with a lower id waits for it. */
   get isFirst(): boolean {
-    for (const [id, { aligned }] of this.people) if (aligned || id < this.id) return false
+    for (const [id, { frame }] of this.people) if (frame !== id || id < this.id) return false
     return true
   }
 
   /** Before each picture: update avatars, and remove silent people. Returns whether any is drawn.
    * now, step: s. */
   update(now: number, step: number): boolean {
-    for (const [id, { avatar, aligned, seenAt }] of this.people) {
-      avatar.group.visible = aligned && this.inPlace && id !== this.seenBy
+    for (const [id, { avatar, frame, seenAt }] of this.people) {
+      avatar.group.visible = frame === this.frame && id !== this.seenBy
       if (now - seenAt > GONE) this.remove(id)
       else avatar.update(step)
     }
@@ -141,14 +145,13 @@ export class People {
     }
     if (person === undefined) {
       const avatar = new Avatar(this.shapes, name, part, this.words.room.parts[part])
-      person = { avatar, aligned: true, seenAt: 0 }
+      person = { avatar, frame: COMMON, seenAt: 0 }
       this.people.set(message.id, person)
       this.world.add(avatar.group)
       this.changed()
     }
-    const aligned = message.header.frame_id === COMMON
-    if (aligned !== person.aligned) {
-      person.aligned = aligned
+    if (person.frame !== message.header.frame_id) {
+      person.frame = message.header.frame_id
       this.changed()
     }
     // Not the time of the last frame: a software renderer may take seconds for one.

@@ -19,8 +19,16 @@ interface Pointing {
   toggle(): void
 }
 
-const MOST_LISTED = 8
-const ROW = 36
+/** Aligns this headset by touch with those of a frame. */
+interface Joining {
+  readonly inside: boolean
+  join(frame: string): void
+}
+
+const MOST_LISTED = 6
+const ROW = 46
+const ALIGN = 230
+const SMALL = { small: true }
 
 /** The people in the room, and the button with which instructors pause everything. */
 export function peopleTab(
@@ -29,6 +37,7 @@ export function peopleTab(
   follower: LabFollower,
   own: Person,
   pointing: Pointing,
+  joining: Joining,
 ): Tab {
   const w = ports.words.room
   const pause = async () => {
@@ -41,16 +50,21 @@ export function peopleTab(
     words: w.people,
     draw: (pen) => {
       let y = TOP + 12
-      const line = (part: Part, name: string, ink: string, aligned = true) => {
-        const place = aligned ? '' : ` · ${w.notAligned}`
-        const words = `${PART_ICONS[part]}  ${name} · ${w.parts[part]}${place}`
-        pen.text(EDGE, y, words, TEXT.body, undefined, ink, 600)
+      const line = (part: Part, name: string, where = '') => {
+        const words = `${PART_ICONS[part]}  ${name} · ${w.parts[part]}${where}`
+        pen.text(EDGE, y, words, TEXT.body, BOARD_WIDTH - 2 * EDGE - ALIGN - GAP, 'ink', 600)
         y += ROW
       }
-      line(own.part, `${named(own.name)} (${w.you})`, 'ink')
+      line(own.part, `${named(own.name)} (${w.you})`)
       const { present } = people
-      for (const { name, part, aligned } of present.slice(0, MOST_LISTED))
-        line(part, named(name), 'ink', aligned)
+      for (const { id, name, part, frame, aligned } of present.slice(0, MOST_LISTED)) {
+        if (joining.inside && !aligned) {
+          const x = BOARD_WIDTH - EDGE - ALIGN
+          const join = () => joining.join(frame)
+          pen.button(`align ${id}`, x, y - ROW / 2 + 1, ALIGN, w.alignWith, join, SMALL, ROW - 4)
+        }
+        line(part, named(name), aligned ? '' : ` · ${w.notAligned}`)
+      }
       const more = present.length - MOST_LISTED
       if (more > 0) pen.text(EDGE, y, w.andMore(more), TEXT.small, undefined, 'second')
       if (present.length === 0) pen.lines(EDGE, y, w.alone, TEXT.small, undefined, 'second')

@@ -1,7 +1,9 @@
+import type { Surface } from '../../protocol/mrlab_msgs'
 import { sentence } from '../../words/diagnostic'
-import { Asking } from '../panels/asking'
+import { Asking, CONFIRM_S } from '../panels/asking'
 import type { Alignment } from '../place/alignment'
 import type { SceneAnchor } from '../place/anchor'
+import type { CommonPlace } from '../place/common_place'
 import { orderSurfaces, type RoomScan } from '../place/scan'
 import type { TouchAlignment } from '../place/touch_alignment'
 import type { Lab, May, Speech, Viewer } from '../ports'
@@ -15,22 +17,26 @@ export interface Places {
   readonly alignment: Alignment
   readonly scan: RoomScan
   readonly touching: TouchAlignment
+  readonly common: CommonPlace
 }
 
-/** Return the lines and switches of the room tab. surfaces: how many the lab knows. */
+/** Return the lines and switches of the room tab. surfaces: those that the lab knows. */
 export function roomSwitches(
   ports: Speech & Lab & May & Viewer,
-  { anchor, alignment, scan, touching }: Places,
+  { anchor, alignment, scan, touching, common }: Places,
   visit: Visit,
   stage: RoomStage,
-  surfaces: () => number,
+  surfaces: () => readonly Surface[],
 ): RoomSwitches {
   const asking = new Asking(ports.say)
+  let forgotten: readonly Surface[] = []
+  let forgottenAt = Number.NEGATIVE_INFINITY
+  const now = () => performance.now() / 1000
   return {
     lines: () => {
       const standing = {
-        surfaces: surfaces(),
-        insideFor: visit.lasts(performance.now() / 1000),
+        surfaces: surfaces().filter(({ vertices }) => vertices.length > 0).length,
+        insideFor: visit.lasts(now()),
         scanned: scan.count,
         hold: anchor.hold,
         missing: visit.missing,
@@ -47,7 +53,7 @@ export function roomSwitches(
     get aligning() {
       return touching.awaited !== 'nothing'
     },
-    align: () => (touching.awaited === 'nothing' ? touching.begin() : touching.cancel()),
+    align: () => (touching.awaited === 'nothing' ? common.join() : touching.cancel()),
     get canUndo() {
       return touching.canUndo
     },
@@ -55,7 +61,10 @@ export function roomSwitches(
     get canPutBack() {
       return anchor.canPutBack
     },
-    putBack: () => anchor.putBack(),
+    putBack: () => {
+      common.moved()
+      anchor.putBack()
+    },
     keepHere: () => anchor.keepHere(),
     get scan() {
       const { session } = visit
@@ -71,13 +80,26 @@ export function roomSwitches(
       scan.awaited = !scan.awaited
       if (scan.awaited) ports.say(ports.words.room.touchTable, false)
     },
-    bringHere: () => alignment.align(ports),
+    bringHere: () => {
+      common.moved()
+      alignment.align(ports)
+    },
     canForget: ports.scene,
+    get canRemember() {
+      return now() - forgottenAt < CONFIRM_S
+    },
     forgetSurfaces: () =>
       asking.press('forget', ports.words.room.asksForget, () => {
+        forgotten = surfaces()
+        forgottenAt = now()
         orderSurfaces(ports, '', [])
         scan.tellAgain()
       }),
+    rememberSurfaces: () => {
+      forgottenAt = Number.NEGATIVE_INFINITY
+      orderSurfaces(ports, '', [...forgotten])
+      scan.tellAgain()
+    },
     leave: () => visit.leave(),
   }
 }

@@ -106,6 +106,9 @@ export interface RoomSwitches {
   /** Have the lab forget the surfaces of all headsets, also of those that left. */
   readonly canForget: boolean
   forgetSurfaces(): void
+  /** True for a while after that: it can be undone. */
+  readonly canRemember: boolean
+  rememberSurfaces(): void
   leave(): void
 }
 
@@ -113,7 +116,7 @@ export function roomTab(ports: Speech, room: RoomSwitches): Tab {
   return {
     id: 'room',
     words: ports.words.room.room,
-    says: () => room.lines().join(),
+    says: () => [...room.lines(), room.canRemember].join(),
     draw: (pen) => {
       const w = ports.words.room
       let y = TOP + 6
@@ -136,9 +139,10 @@ export function roomTab(ports: Speech, room: RoomSwitches): Tab {
         enabled: room.canUndo,
       })
       pen.button('bring', EDGE, third, width, w.bringHere, () => room.bringHere())
-      pen.button('forget', right, third, width, w.forgetSurfaces, () => room.forgetSurfaces(), {
-        enabled: room.canForget,
-      })
+      const [forget, press] = room.canRemember
+        ? [w.undo, () => room.rememberSurfaces()]
+        : [w.forgetSurfaces, () => room.forgetSurfaces()]
+      pen.button('forget', right, third, width, forget, press, { enabled: room.canForget })
       const fourth = third + HIT + GAP
       pen.button('leave', EDGE, fourth, width, w.leave, () => room.leave(), {
         enabled: room.canAlign,

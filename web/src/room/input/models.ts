@@ -1,5 +1,6 @@
-import { Group, Matrix4, type Object3D, Vector3 } from 'three'
+import { Group, type Material, Matrix4, Mesh, type Object3D, Vector3 } from 'three'
 import { GLTFLoader } from 'three/examples/jsm/loaders/GLTFLoader.js'
+import { mergeGeometries } from 'three/examples/jsm/utils/BufferGeometryUtils.js'
 import { release } from '../../scene/robot/meshes'
 
 // Files of our own origin, so that a headset without internet has them too.
@@ -32,6 +33,31 @@ export function modelFile(profiles: readonly string[], handedness: string): stri
     for (const [path, url] of Object.entries(FILES)) if (path.endsWith(end)) return url
   }
   return ''
+}
+
+/** Return the meshes of a controller as one for each material: its buttons do not move, and each mesh
+ * is a draw call for each eye. What cannot be joined, or is mirrored, stays as it is. */
+function joined(scene: Object3D): Object3D {
+  const parts = new Map<Material | Material[], Mesh[]>()
+  scene.updateMatrixWorld(true)
+  scene.traverse((node) => {
+    if (!(node instanceof Mesh)) return
+    parts.set(node.material, [...(parts.get(node.material) ?? []), node])
+  })
+  const model = new Group()
+  for (const [material, meshes] of parts) {
+    const plain = meshes.every(({ matrixWorld }) => matrixWorld.determinant() > 0)
+    const shapes = meshes.map((mesh) => mesh.geometry.clone().applyMatrix4(mesh.matrixWorld))
+    const shape = plain ? mergeGeometries(shapes) : null
+    for (const each of shapes) each.dispose()
+    if (shape === null) {
+      for (const mesh of meshes) model.attach(mesh)
+      continue
+    }
+    for (const mesh of meshes) mesh.geometry.dispose()
+    model.add(new Mesh(shape, material))
+  }
+  return model
 }
 
 /** The model of a controller or a hand. */
@@ -90,8 +116,8 @@ export class InputModel {
   }
 
   private take(scene: Object3D): void {
-    this.group.add(scene)
     const { hand } = this.source
+    this.group.add(hand === undefined ? joined(scene) : scene)
     if (hand === undefined) return
     // its bones are where the joints are, far from where the mesh was made
     scene.traverse((node) => {

@@ -1,10 +1,9 @@
-import { CircleGeometry, type Group, Mesh, MeshBasicMaterial, PlaneGeometry } from 'three'
+import type { Group } from 'three'
 import type { RemotePlayer } from '../../playback/player'
 import { fixed } from '../../words/words'
-import { GlyphText } from './glyphs'
+import { LiveInk } from './live_ink'
 import { PANEL_THEME, type Pen, TEXT } from './pen'
 
-const MM = 0.001
 const THICK = 8
 const KNOB = 30
 /** s between two seeks of one drag. */
@@ -15,6 +14,9 @@ const READ_PERIOD = 0.1
 const BELOW = 10
 /** Letters of the row. */
 const MOST = 64
+/** The boxes of a timeline: its bar and its knob. */
+const BAR = 0
+const DISC = 1
 
 /** The rectangle of a timeline in its panel, mm from the left top corner. */
 export interface Track {
@@ -31,14 +33,13 @@ export interface Mark {
   readonly words: string
 }
 
-/** The timeline of a panel: bar and knob are meshes of their own, so that the passing time
- * repaints nothing. */
+/** The timeline of a panel: bar, knob and time are apart, so that the passing time repaints
+ * nothing. */
 export class Timeline {
-  private readonly flat = new MeshBasicMaterial({ toneMapped: false })
-  private readonly bar = new Mesh(new PlaneGeometry(1, 1), this.flat)
-  private readonly knob = new Mesh(new CircleGeometry(0.5, 24), this.flat)
-  private readonly readout: GlyphText
+  private readonly ink: LiveInk
   private said = ''
+  /** mm, of the bar when it was drawn last. */
+  private length = Number.NaN
   /** Number of completed drags. */
   scrubs = 0
   private scrub: number | null = null
@@ -50,17 +51,15 @@ export class Timeline {
    * stir: requests a picture. */
   constructor(
     group: Group,
-    private readonly width: number,
-    private readonly height: number,
+    width: number,
+    height: number,
     private readonly track: Track,
     private readonly noteAt: (position: number) => string,
     private readonly stir: () => void,
   ) {
-    this.flat.color.set(PANEL_THEME.colours.accent)
-    group.add(this.bar, this.knob)
-    this.bar.position.z = this.knob.position.z = 1.5 * MM
-    this.knob.scale.setScalar(KNOB * MM)
-    this.readout = new GlyphText(group, MOST, width, height)
+    this.ink = new LiveInk(group, { letters: MOST, boxes: 2 }, width, height)
+    this.ink.fill(BAR, PANEL_THEME.colours.accent, 'box')
+    this.ink.fill(DISC, PANEL_THEME.colours.accent, 'disc')
   }
 
   /** Return its position, s: of a drag, else of the lab. */
@@ -71,7 +70,7 @@ export class Timeline {
   /** Before each picture; null: there is nothing to show. now: s. */
   update(player: RemotePlayer | null, now: number): void {
     this.now = now
-    this.bar.visible = this.knob.visible = this.readout.visible = player !== null
+    this.ink.visible = player !== null
     if (player === null) return
     if (Number.isNaN(this.readAt)) {
       this.read(player)
@@ -81,11 +80,11 @@ export class Timeline {
     const { x, y, width, height } = this.track
     const share = player.duration > 0 ? this.position(player) / player.duration : 0
     const length = Math.max(share * width, 0.1)
-    const left = x - this.width / 2
-    const middle = (this.height / 2 - y - height / 2) * MM
-    this.bar.scale.set(length * MM, THICK * MM, 1)
-    this.bar.position.set((left + length / 2) * MM, middle, this.bar.position.z)
-    this.knob.position.set((left + length) * MM, middle, this.knob.position.z)
+    if (length === this.length) return
+    this.length = length
+    const middle = y + height / 2
+    this.ink.move(BAR, x, middle - THICK / 2, length, THICK)
+    this.ink.move(DISC, x + length - KNOB / 2, middle - KNOB / 2, KNOB, KNOB)
   }
 
   /** Paint the static part: the track and its marks. */
@@ -113,10 +112,7 @@ export class Timeline {
   }
 
   dispose(): void {
-    this.readout.dispose()
-    this.bar.geometry.dispose()
-    this.knob.geometry.dispose()
-    this.flat.dispose()
+    this.ink.dispose()
   }
 
   /** Paint the time. */
@@ -131,10 +127,10 @@ export class Timeline {
     this.said = said
     const { x, y, width, height } = this.track
     const row = y + height + BELOW
-    this.readout.begin()
-    this.readout.put(time, x, row, ink)
-    this.readout.put(note, x + width, row, second, 'right')
-    this.readout.end()
+    this.ink.begin()
+    this.ink.put(time, x, row, ink)
+    this.ink.put(note, x + width, row, second, 'right')
+    this.ink.end()
     this.stir()
   }
 

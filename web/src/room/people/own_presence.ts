@@ -1,5 +1,6 @@
 import { type Object3D, Quaternion, type Vector3 } from 'three'
-import { COMMON, type People } from '../../lab/people/people'
+import { COMMON } from '../../lab/people/parts'
+import type { People } from '../../lab/people/people'
 import type { Link } from '../../link/link'
 import { createPresence, presenceWriter } from '../../protocol/mrlab_msgs'
 import type { Viewer } from '../ports'
@@ -22,16 +23,16 @@ export class OwnPresence {
   constructor(
     private readonly link: Pick<Link, 'publish' | 'labTime'>,
     private readonly world: Object3D,
-    private readonly people: Pick<People, 'id' | 'inPlace'>,
+    private readonly people: Pick<People, 'id' | 'frame'>,
   ) {
     this.own.id = people.id
     this.own.header.frame_id = COMMON
   }
 
-  /** Set if this display is in the same place as the others. */
-  setAligned(aligned: boolean): void {
-    this.own.header.frame_id = aligned ? COMMON : this.own.id
-    this.people.inPlace = aligned
+  /** Set the frame of our poses, which says in whose place we are. */
+  setFrame(frame: string): void {
+    this.own.header.frame_id = frame
+    this.people.frame = frame
   }
 
   /** Publish our pose; call it in each frame with a headset. now: s. */

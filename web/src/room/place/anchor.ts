@@ -89,6 +89,8 @@ export class SceneAnchor {
   private retryAt = Number.POSITIVE_INFINITY
   /** Id of the lab's place; empty: the lab has not said. */
   private labPlace = ''
+  /** The place that `handle` was last kept for. */
+  private heldFor = ''
 
   constructor(
     private readonly group: Object3D,
@@ -115,19 +117,37 @@ export class SceneAnchor {
     return this.held && holds(this.handle, place)
   }
 
+  /** Return the place of the lab that the group's anchor holds, `wanted` if it does; empty: none. */
+  placeHere(wanted: string): string {
+    if (!this.held || this.handle === '') return ''
+    const here = keptAnchors().filter(
+      ({ handle, place }) => handle === this.handle && place !== '',
+    )
+    return here.some(({ place }) => place === wanted) ? wanted : (here[0]?.place ?? '')
+  }
+
+  /** Keep that the group's anchor holds a place of the lab: the headset is known to be there. */
+  holdFor(place: string): void {
+    const { handle } = this
+    if (handle === '' || place === this.heldFor) return
+    this.heldFor = place
+    if (holds(handle, place)) return
+    const others = keptAnchors().filter((kept) => kept.handle !== handle || kept.place !== '')
+    store([{ handle, place }, ...others])
+  }
+
   /** The lab stands in another place now: the scene goes to the anchor that holds it, if this
-   * headset has found one here; else it stays, and its anchor holds that place too. */
-  goTo(place: string): void {
-    if (place === this.labPlace) return
+   * headset has found one here; else it stays. Returns whether it is there. */
+  goTo(place: string): boolean {
     this.labPlace = place
-    if (this.handle === '' || this.at(place)) return
+    if (this.handle === '' || this.at(place)) return this.handle !== ''
     for (const [handle, anchor] of this.restored) {
       if (!holds(handle, place)) continue
       if (this.anchor !== null) this.restored.set(this.handle, this.anchor)
       this.adopt(handle, anchor)
-      return
+      return true
     }
-    store([{ handle: this.handle, place }, ...keptAnchors()])
+    return false
   }
 
   /** Restore the anchors of earlier sessions, if there are any. */
@@ -260,6 +280,7 @@ export class SceneAnchor {
     this.earlier = ''
     this.anchor = anchor
     this.handle = handle
+    this.heldFor = ''
     this.hold = 'kept'
     this.waitsUntil = Number.NaN
   }
@@ -312,8 +333,9 @@ export class SceneAnchor {
         await this.session?.deletePersistentAnchor?.(handle)
         return
       }
-      store([{ handle, place: this.labPlace }, ...keptAnchors()])
+      store([{ handle, place: '' }, ...keptAnchors()])
       this.handle = handle
+      this.heldFor = ''
       this.hold = 'kept'
     } catch {
       // As if all places of the headset were taken.

@@ -7,6 +7,7 @@ import {
   SphereGeometry,
   Vector3,
 } from 'three'
+import { COMMON } from '../../lab/people/parts'
 import type { Words } from '../../words/en'
 import type { Speech } from '../ports'
 import type { SceneAnchor } from './anchor'
@@ -27,6 +28,11 @@ export class TouchAlignment {
   private readonly marks: readonly Mesh[]
   private readonly shape = new SphereGeometry(MARK, 16, 12)
   private readonly look = new MeshBasicMaterial({ color: 0xffe08a, toneMapped: false })
+  /** The others that the last alignment was with, by their frame; another object each time. null:
+   * it was undone, or there was none. */
+  joined: { readonly frame: string } | null = null
+  /** The frame of those with whom the awaited touches align. */
+  private joins = COMMON
   /** The earlier pose of the scene in the frame of its present one: a recentre moves both. */
   private before: Matrix4 | null = null
 
@@ -52,7 +58,9 @@ export class TouchAlignment {
     return this.before !== null
   }
 
-  begin(): void {
+  /** frame: of those who touch the same points. */
+  begin(frame = COMMON): void {
+    this.joins = frame
     this.awaited = 'first'
     this.show(0, null)
     this.show(1, null)
@@ -61,7 +69,7 @@ export class TouchAlignment {
 
   /** The session has ended. */
   end(): void {
-    this.before = null
+    this.before = this.joined = null
     this.cancel()
   }
 
@@ -94,6 +102,7 @@ export class TouchAlignment {
     this.anchor.put(position, turn)
     this.group.updateMatrixWorld(true)
     this.before = this.group.matrixWorld.clone().invert().multiply(old)
+    this.joined = { frame: this.joins }
     this.ports.say(this.words.alignDone, false)
     return true
   }
@@ -103,7 +112,7 @@ export class TouchAlignment {
     if (this.before === null) return
     this.group.updateMatrixWorld(true)
     const old = this.group.matrixWorld.clone().multiply(this.before)
-    this.before = null
+    this.before = this.joined = null
     old.decompose(position, turn, new Vector3())
     this.anchor.put(position, turn)
     this.group.updateMatrixWorld(true)

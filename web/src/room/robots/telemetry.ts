@@ -1,7 +1,6 @@
 import type { Telemetry } from '../../protocol/mrlab_msgs'
 import { fixed } from '../../words/words'
-import { GlyphText } from '../panels/glyphs'
-import { Graphs } from '../panels/graphs'
+import { LiveInk } from '../panels/live_ink'
 import type { Surroundings } from '../panels/panel'
 import { Panel } from '../panels/panel'
 import { PANEL_THEME, type Pen, TEXT } from '../panels/pen'
@@ -30,8 +29,7 @@ const DEG = 180 / Math.PI
 export class TelemetryPanel {
   readonly panel: Panel
   private readonly graph: Float64Array
-  private readonly text: GlyphText
-  private readonly curves: Graphs
+  private readonly live: LiveInk
   private written = 0
   private takenAt = Number.NEGATIVE_INFINITY
   private newest: Telemetry | null = null
@@ -46,9 +44,8 @@ export class TelemetryPanel {
     this.graph = new Float64Array(joints.length * SAMPLES).fill(Number.NaN)
     const height = TOP + joints.length * ROW + 40 + GRASP
     this.panel = new Panel(WIDTH, height, (pen) => this.draw(pen), ports)
-    const { group } = this.panel
-    this.text = new GlyphText(group, joints.length * LETTERS, WIDTH, height)
-    this.curves = new Graphs(group, joints.length, SAMPLES)
+    const parts = { letters: joints.length * LETTERS, curves: joints.length, samples: SAMPLES }
+    this.live = new LiveInk(this.panel.group, parts, WIDTH, height)
   }
 
   take(message: Telemetry): void {
@@ -68,21 +65,20 @@ export class TelemetryPanel {
   }
 
   dispose(): void {
-    this.text.dispose()
-    this.curves.dispose()
+    this.live.dispose()
     this.panel.dispose()
   }
 
   /** Take a sample, and show it. */
   private read(angleOf: (joint: string) => number): void {
     const place = this.written++ % SAMPLES
-    const { text, newest, joints } = this
+    const { live, newest, joints } = this
     const { ink } = PANEL_THEME.colours
     if (this.theme !== PANEL_THEME) {
       this.theme = PANEL_THEME
-      this.curves.paint(PANEL_THEME.joints)
+      live.paint(PANEL_THEME.joints)
     }
-    text.begin()
+    live.begin()
     for (let i = 0; i < joints.length; i++) {
       const joint = joints[i] as string
       const angle = angleOf(joint)
@@ -91,13 +87,13 @@ export class TelemetryPanel {
       const speed = index < 0 ? 0 : (newest?.velocities[index] ?? 0) * DEG
       const proxy = index < 0 ? 0 : (newest?.effort_proxy[index] ?? 0)
       const y = TOP + i * ROW + 14
-      text.put(`${tenths(angle * DEG)}°`, COLUMNS[0], y, ink, 'right')
-      text.put(`${tenths(speed)}°/s`, COLUMNS[1], y, ink, 'right')
-      text.put(tenths(proxy), COLUMNS[2], y, ink, 'right')
+      live.put(`${tenths(angle * DEG)}°`, COLUMNS[0], y, ink, 'right')
+      live.put(`${tenths(speed)}°/s`, COLUMNS[1], y, ink, 'right')
+      live.put(tenths(proxy), COLUMNS[2], y, ink, 'right')
       this.drawGraph(i)
     }
-    text.end()
-    this.curves.end()
+    live.end()
+    live.drawn()
     const load = newest === null ? '' : loadOf(newest)
     if (load !== this.load) this.panel.repaint()
     this.load = load
@@ -146,15 +142,14 @@ export class TelemetryPanel {
       high = Math.max(high, value)
     }
     const span = Math.max(high - low, 0.02)
-    const left = EDGE - WIDTH / 2
     const width = WIDTH - 2 * EDGE
-    const middle = this.panel.height / 2 - TOP - joint * ROW - CURVE_AT
+    const middle = TOP + joint * ROW + CURVE_AT
     for (let i = 0; i < SAMPLES; i++) {
       const value = this.graph[begin + ((this.written + i) % SAMPLES)] as number
       // before the first sample there is none: the curve begins at the right edge
       const at = Number.isNaN(value) ? SAMPLES - 1 : i
       const up = Number.isNaN(value) ? 0 : ((value - (low + high) / 2) / span) * CURVE
-      this.curves.set(joint, i, left + (at / (SAMPLES - 1)) * width, middle + up)
+      this.live.point(joint, i, EDGE + (at / (SAMPLES - 1)) * width, middle - up)
     }
   }
 }

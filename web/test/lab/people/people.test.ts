@@ -36,9 +36,17 @@ it('draws avatars between displays in one place only', () => {
   expect([drawn(), people.isFirst]).toEqual([[false], true])
   come('c', 'world')
   expect([drawn(), people.isFirst]).toEqual([[true], false])
-  people.inPlace = false
+  people.frame = 'b'
   people.update(performance.now() / 1000, 0.01)
   expect(drawn()).toEqual([false])
+  // Another place, in which we may be as well: those of the lab's are joined first.
+  expect(people.joinable).toBe('world')
+  come('c', 'attic')
+  expect([people.joinable, people.isFirst, drawn()]).toEqual(['attic', false, [false]])
+  people.frame = 'attic'
+  people.update(performance.now() / 1000, 0.01)
+  expect([drawn(), people.anyIn('attic'), people.anyIn('world')]).toEqual([[true], true, false])
+  people.frame = 'b'
   come('c', 'c')
   come('a', 'a')
   expect(people.isFirst).toBe(false)

@@ -210,9 +210,13 @@ describe('the anchor of the scene', () => {
     anchor.goTo('a')
     await anchor.restore(headset.session)
     await placeAt(headset, 1)
-    // The same anchor holds the new place as well, until the scene is moved.
-    anchor.goTo('b')
+    expect([anchor.placeHere('a'), kept.get(KEY)]).toEqual(['', 'place 0'])
+    // The same anchor may hold several places, until the scene is moved.
+    for (const place of ['a', 'b', 'b']) anchor.holdFor(place)
     expect(kept.get(KEY)).toBe('place 0\tb\nplace 0\ta')
+    expect(['a', 'b', 'c'].map((place) => anchor.placeHere(place))).toEqual(['a', 'b', 'b'])
+    expect([anchor.goTo('b'), anchor.goTo('c')]).toEqual([true, false])
+    anchor.goTo('b')
     kept.set(KEY, 'place 1\ta\nplace 2\tb')
     for (const place of ['place 1', 'place 2']) headset.places.add(place)
     anchor.end()

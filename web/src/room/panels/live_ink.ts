@@ -1,0 +1,277 @@
+import {
+  BufferAttribute,
+  BufferGeometry,
+  CanvasTexture,
+  Color,
+  DynamicDrawUsage,
+  type Group,
+  Mesh,
+  MeshBasicMaterial,
+  SRGBColorSpace,
+} from 'three'
+import { FONT, TEXELS, TEXT } from './pen'
+
+const MM = 0.001
+/** Right after the panel, and mm before it. */
+const AFTER_PANELS = 13
+const BEFORE = 1
+/** mm, of a curve. */
+const THICK = 2.2
+/** px of the atlas, and of a glyph's cell in it. */
+const SIDE = 512
+const CELL = 48
+const COLUMNS = Math.floor(SIDE / CELL)
+const SIZE = TEXT.small * TEXELS
+/** px from a cell's left edge to its glyph. */
+const INSET = 6
+const FIRST = '0123456789.,-−°/ :×%·()abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ'
+
+/** Left top corner of a cell of the atlas, 0 to 1. */
+interface Cell {
+  readonly u: number
+  readonly v: number
+}
+
+interface Glyph extends Cell {
+  /** mm */
+  readonly wide: number
+}
+
+/** All glyphs of texts that change with the time, painted once for all panels. */
+class Atlas {
+  readonly material: MeshBasicMaterial
+  /** A place within a white cell, and a cell with a disc. */
+  readonly solid: Cell
+  readonly disc: Cell
+  private readonly canvas = document.createElement('canvas')
+  private readonly texture: CanvasTexture
+  private readonly glyphs = new Map<string, Glyph>()
+
+  constructor() {
+    this.canvas.width = this.canvas.height = SIDE
+    this.texture = new CanvasTexture(this.canvas)
+    this.texture.colorSpace = SRGBColorSpace
+    this.texture.anisotropy = 4
+    this.material = new MeshBasicMaterial({
+      map: this.texture,
+      transparent: true,
+      depthWrite: false,
+      toneMapped: false,
+      vertexColors: true,
+    })
+    const { u, v } = this.of('█')
+    this.solid = { u: u + CELL / 2 / SIDE, v: v - CELL / 2 / SIDE }
+    this.disc = this.of('●')
+    for (const letter of FIRST) this.of(letter)
+  }
+
+  /** Return a glyph; it is painted when it is used for the first time. */
+  of(letter: string): Glyph {
+    const known = this.glyphs.get(letter)
+    if (known !== undefined) return known
+    const context = this.canvas.getContext('2d')
+    const place = Math.min(this.glyphs.size, COLUMNS * COLUMNS - 1)
+    const x = (place % COLUMNS) * CELL
+    const y = Math.floor(place / COLUMNS) * CELL
+    let wide = SIZE / 2
+    if (context !== null) {
+      context.font = `600 ${SIZE}px ${FONT}`
+      context.fillStyle = '#ffffff'
+      context.textBaseline = 'middle'
+      context.clearRect(x, y, CELL, CELL)
+      if (letter === '█') context.fillRect(x, y, CELL, CELL)
+      else if (letter === '●') {
+        context.beginPath()
+        context.arc(x + CELL / 2, y + CELL / 2, CELL / 2 - 1, 0, 2 * Math.PI)
+        context.fill()
+      } else context.fillText(letter, x + INSET, y + CELL / 2)
+      // figures of one width: a number does not tremble
+      wide = context.measureText(/\d/.test(letter) ? '0' : letter).width
+      this.texture.needsUpdate = true
+    }
+    const glyph = { u: x / SIDE, v: 1 - y / SIDE, wide: wide / TEXELS }
+    this.glyphs.set(letter, glyph)
+    return glyph
+  }
+}
+
+let shared: Atlas | null = null
+const colour = new Color()
+
+/** How much of a panel changes with the time. */
+interface Parts {
+  /** Letters at once; more are left out. */
+  readonly letters: number
+  /** Boxes, and curves of so many samples each. */
+  readonly boxes?: number
+  readonly curves?: number
+  readonly samples?: number
+}
+
+/** Texts, boxes and curves of a panel that change with the time: quads of painted glyphs and ribbons
+ * in one mesh, so that a change sends some kilobytes to the graphics card and no picture. One draw
+ * call. Places are mm from the panel's left top corner. */
+export class LiveInk {
+  private readonly atlas: Atlas
+  private readonly geometry = new BufferGeometry()
+  private readonly places: BufferAttribute
+  private readonly cells: BufferAttribute
+  private readonly colours: BufferAttribute
+  private readonly mesh: Mesh
+  private readonly boxes: number
+  private readonly curves: number
+  private readonly samples: number
+  /** First vertex of the curves: behind boxes and letters. */
+  private readonly ribbons: number
+  private readonly letters: number
+  private count = 0
+
+  /** width, height: of the panel, mm. */
+  constructor(
+    group: Group,
+    { letters, boxes = 0, curves = 0, samples = 0 }: Parts,
+    private readonly width: number,
+    private readonly height: number,
+  ) {
+    shared ??= new Atlas()
+    this.atlas = shared
+    this.letters = letters
+    this.boxes = boxes
+    this.curves = curves
+    this.samples = samples
+    this.ribbons = (boxes + letters) * 4
+    const corners = this.ribbons + curves * samples * 2
+    this.places = new BufferAttribute(new Float32Array(corners * 2), 2)
+    this.cells = new BufferAttribute(new Float32Array(corners * 2), 2)
+    this.colours = new BufferAttribute(new Uint8Array(corners * 3), 3, true)
+    for (const each of [this.places, this.cells, this.colours]) each.setUsage(DynamicDrawUsage)
+    this.geometry.setAttribute('position', this.places)
+    this.geometry.setAttribute('uv', this.cells)
+    this.geometry.setAttribute('color', this.colours)
+    this.geometry.setIndex(new BufferAttribute(Uint16Array.from(this.index()), 1))
+    const { u, v } = this.atlas.solid
+    for (let i = this.ribbons; i < corners; i++) this.cells.setXY(i, u, v)
+    this.mesh = new Mesh(this.geometry, this.atlas.material)
+    this.mesh.renderOrder = AFTER_PANELS
+    this.mesh.frustumCulled = false
+    this.mesh.position.z = BEFORE * MM
+    group.add(this.mesh)
+  }
+
+  set visible(on: boolean) {
+    this.mesh.visible = on
+  }
+
+  /** Begin anew: the texts before are gone. */
+  begin(): void {
+    this.count = 0
+  }
+
+  /** Write a text; x: its left or right edge, y: its middle. */
+  put(words: string, x: number, y: number, ink: string, align: 'left' | 'right' = 'left'): void {
+    let at = x
+    if (align === 'right') for (const letter of words) at -= this.atlas.of(letter).wide
+    colour.set(ink)
+    const wide = CELL / TEXELS
+    for (const letter of words) {
+      const glyph = this.atlas.of(letter)
+      if (letter !== ' ' && this.count < this.letters) {
+        const corner = (this.boxes + this.count++) * 4
+        this.quad(corner, at - INSET / TEXELS, y - wide / 2, wide, wide)
+        this.cell(corner, glyph, CELL / SIDE)
+      }
+      at += glyph.wide
+    }
+  }
+
+  /** Show the texts that were put. */
+  end(): void {
+    const { boxes, count, curves, samples } = this
+    const quads = boxes + count
+    this.geometry.setDrawRange(0, 6 * (quads + curves * Math.max(samples - 1, 0)))
+    for (const each of [this.places, this.cells, this.colours]) {
+      each.clearUpdateRanges()
+      each.addUpdateRange(0, quads * 4 * each.itemSize)
+      each.needsUpdate = true
+    }
+  }
+
+  /** Fill a box, or a disc as wide and high, in a colour; it keeps it until it is filled anew. */
+  fill(box: number, ink: string, shape: 'box' | 'disc'): void {
+    colour.set(ink)
+    if (shape === 'disc') this.cell(4 * box, this.atlas.disc, CELL / SIDE)
+    else this.cell(4 * box, this.atlas.solid, 0)
+    this.cells.needsUpdate = this.colours.needsUpdate = true
+  }
+
+  /** Move a box: its left and top edge, width and height. */
+  move(box: number, x: number, y: number, width: number, height: number): void {
+    this.quad(4 * box, x, y, width, height)
+    this.places.addUpdateRange(8 * box, 8)
+    this.places.needsUpdate = true
+  }
+
+  /** Paint the curves. */
+  paint(colours: readonly string[]): void {
+    const each = this.samples * 2
+    for (let curve = 0; curve < this.curves; curve++) {
+      colour.set(colours[curve % colours.length] as string)
+      for (let i = 0; i < each; i++) {
+        this.colours.setXYZ(this.ribbons + curve * each + i, colour.r, colour.g, colour.b)
+      }
+    }
+    this.colours.clearUpdateRanges()
+    this.colours.needsUpdate = true
+  }
+
+  /** Set a point of a curve; shown with the texts that follow. */
+  point(curve: number, sample: number, x: number, y: number): void {
+    const first = this.ribbons + 2 * (curve * this.samples + sample)
+    const px = (x - this.width / 2) * MM
+    const py = this.height / 2 - y
+    this.places.setXY(first, px, (py + THICK / 2) * MM)
+    this.places.setXY(first + 1, px, (py - THICK / 2) * MM)
+  }
+
+  /** Show the points that were set. */
+  drawn(): void {
+    const corners = this.curves * this.samples * 2
+    this.places.addUpdateRange(2 * this.ribbons, 2 * corners)
+    this.places.needsUpdate = true
+  }
+
+  dispose(): void {
+    this.mesh.removeFromParent()
+    this.geometry.dispose()
+  }
+
+  /** Ribbons first: the rest ends with the last letter. */
+  private index(): number[] {
+    const found: number[] = []
+    for (let curve = 0; curve < this.curves; curve++) {
+      for (let i = 0; i < this.samples - 1; i++) {
+        const a = this.ribbons + 2 * (curve * this.samples + i)
+        found.push(a, a + 1, a + 2, a + 2, a + 1, a + 3)
+      }
+    }
+    for (let a = 0; a < this.ribbons; a += 4) found.push(a, a + 2, a + 1, a + 1, a + 2, a + 3)
+    return found
+  }
+
+  private quad(first: number, x: number, y: number, width: number, height: number): void {
+    const left = (x - this.width / 2) * MM
+    const top = (this.height / 2 - y) * MM
+    for (let corner = 0; corner < 4; corner++) {
+      const px = left + (corner & 1 ? width * MM : 0)
+      this.places.setXY(first + corner, px, top - (corner & 2 ? height * MM : 0))
+    }
+  }
+
+  /** Show a cell of the atlas in the quad that begins at a vertex, in the present colour. */
+  private cell(first: number, { u, v }: Cell, side: number): void {
+    for (let corner = 0; corner < 4; corner++) {
+      this.cells.setXY(first + corner, u + (corner & 1 ? side : 0), v - (corner & 2 ? side : 0))
+      this.colours.setXYZ(first + corner, colour.r, colour.g, colour.b)
+    }
+  }
+}
