@@ -12,12 +12,17 @@ const ABOVE = 0.3
 /** rad/s and m/s at full stick. */
 export const TURN_SPEED = 1.6
 const SHIFT_SPEED = 0.8
+/** rad that a base turns for each that one hand turns like a key, beyond what happens by itself. */
+const KEY = 2.5
+const STEADY = 0.4
 /** rad: smaller turns are noise. */
 const LEAST_TURN = 1e-4
 
 /** A pointer that holds a base, in the lab's frame. near: the hand holds it, else the ray. */
 export interface Hold extends Grip {
   readonly near: boolean
+  /** Of the wrist about its ray, rad, to the left. */
+  readonly roll: number
 }
 
 /** Deflection of the stick of the first pointer, -1 to 1: x to the right, y towards the user. */
@@ -41,6 +46,9 @@ interface BaseGrab {
   readonly start: Vector3
   /** Direction from the first pointer to the second, rad. */
   between: number
+  /** Roll of the one hand when it took hold, and how far that has turned the base, rad. */
+  roll: number
+  twist: number
 }
 
 const direction = new Vector3()
@@ -62,6 +70,8 @@ export function newBaseGrab(): BaseGrab {
     offset: new Vector3(),
     start: new Vector3(),
     between: 0,
+    roll: 0,
+    twist: 0,
   }
 }
 
@@ -76,6 +86,8 @@ export function begin(grab: BaseGrab, { x, y, z }: Vector3, heading: number): vo
 /** Let a pointer carry the base from its present place. */
 export function hold(grab: BaseGrab, by: Hold, around: Surfaces): void {
   const { place, land, start, offset } = grab
+  grab.roll = by.roll
+  grab.twist = 0
   start.set(place.x, place.y, place.z)
   if (lands(by, around, land)) offset.set(place.x - land.x, place.y - land.y, 0)
   else offset.set(0, 0, 0)
@@ -89,7 +101,8 @@ export function join(grab: BaseGrab, first: Hold, second: Hold, around: Surfaces
   if (landsBetween(first, second, around, land)) offset.set(place.x - land.x, place.y - land.y, 0)
 }
 
-/** Carry a base for `step`, s: the first pointer moves it; a second one, or the stick, turns it.
+/** Carry a base for `step`, s: the first pointer moves it; a second one, the stick, or the first
+ * hand turned like a key, turns it.
  * Returns why it cannot stand under the pointer, empty: it can; null: no new place. */
 export function carry(
   grab: BaseGrab,
@@ -107,6 +120,11 @@ export function carry(
     turn(grab, by)
     grab.offset.applyAxisAngle(UP, by)
     grab.between = between
+  } else {
+    const way = first.roll - grab.roll
+    const twist = KEY * Math.sign(way) * Math.max(Math.abs(way) - STEADY, 0)
+    turn(grab, twist - grab.twist)
+    grab.twist = twist
   }
   turn(grab, -stick.x * TURN_SPEED * step)
   if (stick.y !== 0) {

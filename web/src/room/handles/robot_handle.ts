@@ -35,7 +35,7 @@ export type HandlePorts = Speech & Lab & Frames & Ground & Surroundings
 interface Holder {
   readonly pointer: Pointer
   /** The pointer in the lab's frame. */
-  readonly hold: Hold
+  readonly hold: { -readonly [Part in keyof Hold]: Hold[Part] }
 }
 
 /** A robot's base: it is carried with one pointer, turned with two or with a stick, and stays
@@ -159,7 +159,7 @@ export class RobotHandle implements Target {
   private take(pointer: Pointer): void {
     const { position, quaternion: q } = this.base
     const near = this.reaches(pointer.place)
-    const holder = { pointer, hold: { near, ray: new Ray(), place: new Vector3() } }
+    const holder = { pointer, hold: { near, roll: 0, ray: new Ray(), place: new Vector3() } }
     this.holders.push(holder)
     const [first, second] = this.holders
     if (first === undefined) return
@@ -177,6 +177,7 @@ export class RobotHandle implements Target {
     inverse.copy(this.ports.world.matrixWorld).invert()
     hold.ray.copy(pointer.ray).applyMatrix4(inverse)
     hold.place.copy(pointer.place).applyMatrix4(inverse)
+    hold.roll = pointer.roll
     return hold
   }
 

@@ -60,6 +60,8 @@ export abstract class Pointer {
    * ray. */
   readonly place = new Vector3()
   readonly ray = new Ray()
+  /** Of the wrist about the ray, rad, to the left; 0: it has none. */
+  roll = 0
   tracked = false
   protected lostAt = Number.NaN
   private readonly tried: Hit = newHit()

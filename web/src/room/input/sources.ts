@@ -108,6 +108,9 @@ export class XrInputs {
         this.matrix.fromArray(pose.transform.matrix)
         this.matrix.decompose(ray.ray.origin, this.quaternion, this.scale)
         ray.ray.direction.set(0, 0, -1).applyQuaternion(this.quaternion)
+        const { x, y, z, w } = this.quaternion
+        // of the sine, how high its right side is
+        ray.roll = Math.asin(Math.min(Math.max(2 * (x * y + w * z), -1), 1))
       }
       const at = this.at
       at.frame = frame

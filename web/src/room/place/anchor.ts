@@ -63,6 +63,11 @@ function keptHandles(): string[] {
   return [...new Set(keptAnchors().map(({ handle }) => handle))]
 }
 
+/** Return whether an anchor is known to hold places of the lab. */
+function holdsAny(handle: string): boolean {
+  return keptAnchors().some((kept) => kept.handle === handle && kept.place !== '')
+}
+
 /** Return whether an anchor is known to hold a place of the lab. */
 function holds(handle: string, place: string): boolean {
   return keptAnchors().some((kept) => kept.handle === handle && kept.place === place)
@@ -267,7 +272,7 @@ export class SceneAnchor {
         this.adopt(handle, anchor)
       } else {
         // That of another place of this room is where it is to be.
-        if (!own && this.at(this.labPlace)) continue
+        if (!own && holdsAny(handle) && this.at(this.labPlace)) continue
         this.earlier = handle
         this.news.returned()
       }

@@ -11,12 +11,13 @@ let others: Place[]
 const around = () => ({ supports, walls: [], bases: others, obstacles: [] })
 
 function holdAt(x: number, y: number) {
-  return { near: true, ray: new Ray(), place: new Vector3(x, y, 0.1) }
+  return { near: true, roll: 0, ray: new Ray(), place: new Vector3(x, y, 0.1) }
 }
 
 beforeEach(() => {
   others = []
   first.place.set(0.05, 0, 0.1)
+  first.roll = 0.1
   begin(grabbed, new Vector3(0, 0, 0), 0)
   hold(grabbed, first, around())
 })
@@ -63,6 +64,21 @@ test('two pointers carry the base with them', () => {
   expect(carry(grabbed, first, second, still, 0.1, around())).toBe('')
   expect(grabbed.place.x).toBeCloseTo(0.5)
   expect(grabbed.heading).toBeCloseTo(0)
+})
+
+test('one hand turns it like a key, and not where it only trembles', () => {
+  first.roll = 0.4
+  expect(carry(grabbed, first, null, still, 0.1, around())).toBeNull()
+  expect([grabbed.heading, grabbed.moved]).toEqual([0, false])
+  for (const roll of [0.6, 0.9]) {
+    first.roll = roll
+    carry(grabbed, first, null, still, 0.1, around())
+  }
+  expect(grabbed.heading).toBeCloseTo(2.5 * 0.4)
+  // Taken anew, it goes on from there.
+  hold(grabbed, first, around())
+  carry(grabbed, first, null, still, 0.1, around())
+  expect([grabbed.heading, grabbed.moved]).toEqual([expect.closeTo(1), true])
 })
 
 test('the stick turns it and pushes it along the ray', () => {
