@@ -1022,7 +1022,7 @@ export const words: Words = {
     anchorKept: 'Die Szene behält hier ihren Platz, auch für das nächste Mal.',
     anchorSession:
       'Die Szene behält ihren Platz, bis du gehst; die Brille merkt sich keine weiteren.',
-    alignWith: 'Hieran ausrichten',
+    alignWith: 'Mit ihnen ausrichten',
     notAligned: 'woanders oder nicht ausgerichtet',
     alignToCount:
       'Andere sind hier. Deine Flächen und dein Avatar zählen, sobald du dich ausrichtest: Reiter „Raum“.',

@@ -969,7 +969,7 @@ export const en = {
       'The headset knows no table or wall here. Press "Set up the room" and follow it, or go on without.',
     anchorKept: 'The scene keeps its place here, also for the next time.',
     anchorSession: 'The scene keeps its place until you leave; the headset keeps no more places.',
-    alignWith: 'Align with',
+    alignWith: 'Align with them',
     notAligned: 'elsewhere, or not aligned',
     alignToCount:
       'Others are here. Your surfaces and your avatar count once you are aligned with them: tab "Room" or "People".',

@@ -97,6 +97,13 @@ class Atlas {
 
 let shared: Atlas | null = null
 const colour = new Color()
+/** Of what is written next: red, green and blue, 0 to 255. */
+const ink = new Uint8Array(3)
+
+function dip(into: string): void {
+  const { r, g, b } = colour.set(into)
+  ink.set([Math.round(r * 255), Math.round(g * 255), Math.round(b * 255)])
+}
 
 /** How much of a panel changes with the time. */
 interface Parts {
@@ -114,6 +121,10 @@ interface Parts {
 export class LiveInk {
   private readonly atlas: Atlas
   private readonly geometry = new BufferGeometry()
+  /** Written ten times a second: into the arrays, without calls. */
+  private readonly xy: Float32Array
+  private readonly uv: Float32Array
+  private readonly rgb: Uint8Array
   private readonly places: BufferAttribute
   private readonly cells: BufferAttribute
   private readonly colours: BufferAttribute
@@ -141,16 +152,19 @@ export class LiveInk {
     this.samples = samples
     this.ribbons = (boxes + letters) * 4
     const corners = this.ribbons + curves * samples * 2
-    this.places = new BufferAttribute(new Float32Array(corners * 2), 2)
-    this.cells = new BufferAttribute(new Float32Array(corners * 2), 2)
-    this.colours = new BufferAttribute(new Uint8Array(corners * 3), 3, true)
+    this.xy = new Float32Array(corners * 2)
+    this.uv = new Float32Array(corners * 2)
+    this.rgb = new Uint8Array(corners * 3)
+    this.places = new BufferAttribute(this.xy, 2)
+    this.cells = new BufferAttribute(this.uv, 2)
+    this.colours = new BufferAttribute(this.rgb, 3, true)
     for (const each of [this.places, this.cells, this.colours]) each.setUsage(DynamicDrawUsage)
     this.geometry.setAttribute('position', this.places)
     this.geometry.setAttribute('uv', this.cells)
     this.geometry.setAttribute('color', this.colours)
     this.geometry.setIndex(new BufferAttribute(Uint16Array.from(this.index()), 1))
     const { u, v } = this.atlas.solid
-    for (let i = this.ribbons; i < corners; i++) this.cells.setXY(i, u, v)
+    for (let i = this.ribbons; i < corners; i++) this.uv.set([u, v], 2 * i)
     this.mesh = new Mesh(this.geometry, this.atlas.material)
     this.mesh.renderOrder = AFTER_PANELS
     this.mesh.frustumCulled = false
@@ -168,10 +182,16 @@ export class LiveInk {
   }
 
   /** Write a text; x: its left or right edge, y: its middle. */
-  put(words: string, x: number, y: number, ink: string, align: 'left' | 'right' = 'left'): void {
+  put(
+    words: string,
+    x: number,
+    y: number,
+    colour: string,
+    align: 'left' | 'right' = 'left',
+  ): void {
     let at = x
     if (align === 'right') for (const letter of words) at -= this.atlas.of(letter).wide
-    colour.set(ink)
+    dip(colour)
     const wide = CELL / TEXELS
     for (const letter of words) {
       const glyph = this.atlas.of(letter)
@@ -197,8 +217,8 @@ export class LiveInk {
   }
 
   /** Fill a box, or a disc as wide and high, in a colour; it keeps it until it is filled anew. */
-  fill(box: number, ink: string, shape: 'box' | 'disc'): void {
-    colour.set(ink)
+  fill(box: number, colour: string, shape: 'box' | 'disc'): void {
+    dip(colour)
     if (shape === 'disc') this.cell(4 * box, this.atlas.disc, CELL / SIDE)
     else this.cell(4 * box, this.atlas.solid, 0)
     this.cells.needsUpdate = this.colours.needsUpdate = true
@@ -215,10 +235,8 @@ export class LiveInk {
   paint(colours: readonly string[]): void {
     const each = this.samples * 2
     for (let curve = 0; curve < this.curves; curve++) {
-      colour.set(colours[curve % colours.length] as string)
-      for (let i = 0; i < each; i++) {
-        this.colours.setXYZ(this.ribbons + curve * each + i, colour.r, colour.g, colour.b)
-      }
+      dip(colours[curve % colours.length] as string)
+      for (let i = 0; i < each; i++) this.rgb.set(ink, 3 * (this.ribbons + curve * each + i))
     }
     this.colours.clearUpdateRanges()
     this.colours.needsUpdate = true
@@ -226,11 +244,12 @@ export class LiveInk {
 
   /** Set a point of a curve; shown with the texts that follow. */
   point(curve: number, sample: number, x: number, y: number): void {
-    const first = this.ribbons + 2 * (curve * this.samples + sample)
-    const px = (x - this.width / 2) * MM
+    const { xy } = this
+    const first = 2 * (this.ribbons + 2 * (curve * this.samples + sample))
     const py = this.height / 2 - y
-    this.places.setXY(first, px, (py + THICK / 2) * MM)
-    this.places.setXY(first + 1, px, (py - THICK / 2) * MM)
+    xy[first] = xy[first + 2] = (x - this.width / 2) * MM
+    xy[first + 1] = (py + THICK / 2) * MM
+    xy[first + 3] = (py - THICK / 2) * MM
   }
 
   /** Show the points that were set. */
@@ -262,16 +281,19 @@ export class LiveInk {
     const left = (x - this.width / 2) * MM
     const top = (this.height / 2 - y) * MM
     for (let corner = 0; corner < 4; corner++) {
-      const px = left + (corner & 1 ? width * MM : 0)
-      this.places.setXY(first + corner, px, top - (corner & 2 ? height * MM : 0))
+      const at = 2 * (first + corner)
+      this.xy[at] = left + (corner & 1 ? width * MM : 0)
+      this.xy[at + 1] = top - (corner & 2 ? height * MM : 0)
     }
   }
 
   /** Show a cell of the atlas in the quad that begins at a vertex, in the present colour. */
   private cell(first: number, { u, v }: Cell, side: number): void {
     for (let corner = 0; corner < 4; corner++) {
-      this.cells.setXY(first + corner, u + (corner & 1 ? side : 0), v - (corner & 2 ? side : 0))
-      this.colours.setXYZ(first + corner, colour.r, colour.g, colour.b)
+      const at = 2 * (first + corner)
+      this.uv[at] = u + (corner & 1 ? side : 0)
+      this.uv[at + 1] = v - (corner & 2 ? side : 0)
+      this.rgb.set(ink, 3 * (first + corner))
     }
   }
 }

@@ -37,7 +37,7 @@ export class CommonPlace {
     private readonly presence: Pick<OwnPresence, 'setFrame'>,
     private readonly scan: Pick<RoomScan, 'tellAgain'>,
     private readonly touching: Pick<TouchAlignment, 'joined' | 'end' | 'begin'>,
-    private readonly anchor: Pick<SceneAnchor, 'goTo' | 'placeHere' | 'holdFor'>,
+    private readonly anchor: Pick<SceneAnchor, 'waits' | 'goTo' | 'placeHere' | 'holdFor'>,
   ) {}
 
   /** A session begins; now: s. */
@@ -83,7 +83,7 @@ export class CommonPlace {
   /** In each frame with a headset; now: s. */
   update(now: number): void {
     this.takeTouch()
-    const heard = now - this.enteredAt > LISTEN_S
+    const heard = now - this.enteredAt > LISTEN_S && !this.anchor.waits
     if (this.here === '' && heard) {
       this.here = this.anchor.placeHere(this.lab) || (this.people.isFirst ? this.lab : '')
     }

@@ -19,6 +19,7 @@ describe('the common place of headsets', () => {
   let held: string
   let kept: string[]
   let found: boolean
+  let waits: boolean
   let touching: { joined: { frame: string } | null; begin(): void; end(): void }
   let place: CommonPlace
 
@@ -40,6 +41,9 @@ describe('the common place of headsets', () => {
     const presence = { setFrame: (frame: string) => news.push(frame) }
     const scan = { tellAgain: () => tellings++ }
     const anchor = {
+      get waits() {
+        return waits
+      },
       goTo: () => found,
       placeHere: () => held,
       holdFor: (id: string) => kept.push(id),
@@ -55,7 +59,7 @@ describe('the common place of headsets', () => {
     said = []
     kept = []
     held = ''
-    found = false
+    found = waits = false
     tellings = 0
     touching = {
       joined: null,
@@ -135,7 +139,11 @@ describe('the common place of headsets', () => {
   it('is another one for headsets in another room, whose surfaces count while nobody is in the lab’s', () => {
     held = 'attic'
     place.begin(10)
+    waits = true
     place.update(11.5)
+    expect(news).toEqual(['own'])
+    waits = false
+    place.update(11.6)
     expect([place.aligned, news.at(-1)]).toEqual([true, 'attic'])
     others = ['world']
     place.update(12)
