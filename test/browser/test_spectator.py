@@ -18,6 +18,7 @@ from served_lab import ServedLab
 pytestmark = pytest.mark.timeout(300)
 
 MOTION = Path(__file__).parents[2] / "examples" / "quintic_ur5e.mat"
+NEXT, BACK = "Stop \u203a", "\u2039 Stop"
 
 
 @pytest.fixture
@@ -105,10 +106,10 @@ def test_a_recorded_session_is_walked_through_from_stop_to_stop(
     # The teacher goes on to the end of the motion, and to where somebody pointed then.
     stops = int(re.search(r"Stop 1 of (\d)", card.inner_text())[1])  # type: ignore[index]
     for number in range(2, stops + 1):
-        card.get_by_role("button", name="Stop ›").click()
+        card.get_by_role("button", name=NEXT).click()
         expect(card).to_contain_text(f"Stop {number} of")
     student.wait_for(f"Math.abs({stop}[0] - 0.4) < 1e-9")
-    card.get_by_role("button", name="‹ Stop").click()
+    card.get_by_role("button", name=BACK).click()
     expect(card).to_contain_text(f"Stop {stops - 1} of")
     student.wait_for(f"room.follower.replay.position() >= {began}")
     card.get_by_role("button", name="End the replay").click()
