@@ -139,12 +139,21 @@ def serve(settings: Settings) -> None:
     # uvicorn ends with the signal that stopped it, which a launcher calls a crash.
     for stop in (signal.SIGINT, signal.SIGTERM):
         signal.signal(stop, _end)
-    uvicorn.Server(config).run(sockets=[listening])
+    server = uvicorn.Server(config)
+    stop_once = server.handle_exit
+    # A Ctrl-C arrives twice, from the terminal and from a launcher: the second one would cut the
+    # end short, which uvicorn prints as a traceback. LAST_WORDS_S bounds it.
+    server.handle_exit = lambda *signal: server.should_exit or stop_once(*signal)  # type: ignore
+    server.run(sockets=[listening])
 
 
 def _end(_signal: int, _frame: object) -> None:
-    """End the process as a wanted stop."""
-    sys.exit(0)
+    """End the process as a wanted stop; uvicorn has closed everything and raises its signal again.
+
+    A thread of zenoh that comes back to Python while the interpreter ends would abort the process.
+    """
+    sys.stdout.flush()
+    os._exit(0)
 
 
 def listen(settings: Settings) -> socket.socket:
