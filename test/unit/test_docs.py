@@ -57,3 +57,15 @@ def test_the_tests_of_the_threat_model_exist():
             tests = (ROOT / "test" / name).read_text()
         else:
             assert f"def {name}" in tests, name
+
+
+def test_both_glossaries_have_the_same_words() -> None:
+    english, german = (
+        {
+            tuple(row.split(" | ")[:2])
+            for row in re.findall(r"^\| (.*) \|$", page.read_text(), re.M)
+        }
+        for page in (ROOT / "docs/glossary.md", ROOT / "docs/de/glossary.md")
+    )
+    pairs = {(german_word, word) for word, german_word in english} - {("Deutsch", "word")}
+    assert pairs == german - {("Wort", "English")}

@@ -2163,7 +2163,7 @@ export const diagnostics: Templates = {
     'Zeile {line:integer} rechnet ({found}); gelesen werden nur Zahlen, Texte und Matrizen aus Zahlen. Führe die Datei in MATLAB aus und sichere den Workspace',
   ],
   maximum_differs: [
-    'Das Maximum der Plattform ist {found}, das Bewertungsschema hat {points:number} Punkte; die Punkte werden eingetragen, wie sie sind.',
+    'Das Maximum der Plattform ist {found}, die Rubrik hat {points:number} Punkte; die Punkte werden eingetragen, wie sie sind.',
   ],
   may_be_old: [
     'Der Prozess {process} stand {frozen:integer} s lang still, und dies wurde vielleicht davor gesendet; es wurde nicht ausgeführt.',
@@ -2733,7 +2733,7 @@ export const diagnostics: Templates = {
   ],
   no_reference_motion: ['Zum Vergleichen gibt es keine Bewegung der Musterlösung.'],
   no_reference_named: [
-    'Das Bewertungsschema nennt keine Musterlösung zum Vergleichen; ergänze reference: solution.mat',
+    'Die Rubrik nennt keine Musterlösung zum Vergleichen; ergänze reference: solution.mat',
   ],
   no_reference_of_model: ['Die Musterlösung hat keine Bewegung eines {model} zum Vergleichen.'],
   no_references: ["'{variable}' enthält keine Verweise auf ihre Elemente"],
@@ -2833,7 +2833,7 @@ export const diagnostics: Templates = {
     'ihre Werte sind keine Zeiten der Zeilen, die mit einer Rate für Gelenke steigen',
   ],
   no_tool_to_grasp: [
-    'Ohne Werkzeug zum Greifen: {robots:list}; ergänze im Bewertungsschema tool: parallel_gripper.',
+    'Ohne Werkzeug zum Greifen: {robots:list}; ergänze in der Rubrik tool: parallel_gripper.',
   ],
   no_topic_of_pages: [
     '{key} ist kein Topic, das das Labor an Seiten gibt.',
@@ -4094,7 +4094,7 @@ export const diagnostics: Templates = {
   ],
   unknown_partial: ["partial ist '{rule}'; '{sentence}' kennt {rules:list}."],
   unknown_sentence: [
-    "'{text}' kann ein Bewertungsschema nicht messen; meinst du {close:either}?",
+    "'{text}' kann eine Rubrik nicht messen; meinst du {close:either}?",
     'Was sich messen lässt, steht in docs/rubrics.md.',
   ],
   unknown_unit: ['die Einheiten sind {known:list}'],
