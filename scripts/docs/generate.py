@@ -16,6 +16,7 @@ import design_tokens
 import diagnostics_page
 import licences_page
 import message_stubs
+import numbers_of_pages
 import parameters_page
 import playback_vectors
 import protocol_page
@@ -82,7 +83,7 @@ def wanted(page: str) -> str:
     """Return what a page should be, given what it is."""
     if page in FILES:
         return FILES[page]()
-    text = (ROOT / page).read_text()
+    text = numbers_of_pages.filled((ROOT / page).read_text(), ROOT)
     for (place, name), make in BLOCKS.items():
         if place == page:
             text = rendered(text, name, make())
@@ -94,7 +95,8 @@ def main() -> int:
     parser.add_argument("--check", action="store_true", help="exit 1 where a page is out of date")
     check = parser.parse_args().check
     stale = []
-    for page in sorted({place for place, _ in BLOCKS} | set(FILES)):
+    prose = {str(path.relative_to(ROOT)) for path in ROOT.glob("docs/**/*.md")} - set(FILES)
+    for page in sorted(prose | set(FILES)):
         path, text = ROOT / page, wanted(page)
         if not path.is_file() or path.read_text() != text:
             stale.append(page)

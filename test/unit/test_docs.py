@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from numbers_of_pages import SOURCED, filled, without_source
 from page_blocks import DATA, GENERATED, MARK, PAGES, ROOT, blocks
 
 
@@ -69,3 +70,24 @@ def test_both_glossaries_have_the_same_words() -> None:
     )
     pairs = {(german_word, word) for word, german_word in english} - {("Deutsch", "word")}
     assert pairs == german - {("Wort", "English")}
+
+
+def test_a_number_in_prose_is_what_its_source_has(tmp_path: Path) -> None:
+    (tmp_path / "limits.py").write_text("WAIT_MS, FAR = 2 * 250, 0.04  # why\n")
+    (tmp_path / "lab.yaml").write_text("quota:  3 << 30  # bytes\n")
+    page = (
+        "waits 9 s<!-- limits.py WAIT_MS -->, up to 9 cm<!-- limits.py FAR -->, "
+        "9 GiB<!-- lab.yaml quota -->, then 7 s; `8 s`"
+    )
+    assert re.sub("<.*?>", "", filled(page, tmp_path)) == (
+        "waits 0.5 s, up to 4 cm, 3 GiB, then 7 s; `8 s`"
+    )
+    assert without_source(page) == ["7 s"]
+    with pytest.raises(SystemExit, match="GONE"):
+        filled("1 s<!-- limits.py GONE -->", tmp_path)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_where_a_page_names_sources_each_quantity_has_one(page: Path) -> None:
+    text = page.read_text()
+    assert not SOURCED.search(text) or without_source(text) == []
