@@ -212,9 +212,9 @@ def age_ns(now_ns: int, received_ns: int, longest_ns: int) -> int:
 class TopicPoll(_RawThread[str]):
     """Polls raw subscriptions and hands their messages on in the order in which they came.
 
-    Each subscription is kept with its topic's name. Every `period` s `on_messages` gets what has
-    come since the last time, maybe nothing; once it returns False, the thread ends. stop() takes
-    what has come before it ends the thread.
+    Each subscription is kept with its topic's name. Every `period` s, which `on_messages` may
+    change, it gets what has come since the last time, maybe nothing; once it returns False, the
+    thread ends. stop() takes what has come before it ends the thread.
     """
 
     def __init__(
@@ -225,7 +225,7 @@ class TopicPoll(_RawThread[str]):
         on_error: Callable[[Exception], None],
     ) -> None:
         super().__init__(name, on_error)
-        self._period = period
+        self.period = period
         self._on_messages = on_messages
         self._early: list[Received] = []
         self._base_ns = time.time_ns() - time.monotonic_ns()
@@ -236,7 +236,7 @@ class TopicPoll(_RawThread[str]):
             last = self._stopped.is_set()
             if not self._on_messages(self._take(found, last)) or last:
                 return False
-            self._stopped.wait(self._period)
+            self._stopped.wait(self.period)
         return True
 
     def _take(self, found: list[tuple[Any, Any, str]], last: bool) -> list[Received]:

@@ -24,13 +24,15 @@ from rclpy.task import Future
 
 from mrlab_ros.adapters import threads
 from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.runtime.freezes import LOOK_PERIOD_S
 from mrlab_ros.ros import clock, environment
 from mrlab_ros.ros.diagnostics import BAD_ROS_ARGUMENTS
 from mrlab_ros.ros.environment import skip_generator
 from mrlab_ros.ros.node import HiddenNode
 
-# The longest the executor waits at a time, s; what arrives is handed on at once all the same.
-WAIT_S = 0.2
+# The longest the executor waits at a time, s; what arrives is handed on at once all the same. So
+# often a process says that it runs.
+WAIT_S = LOOK_PERIOD_S
 
 
 def make_executor(context: Context) -> Executor:

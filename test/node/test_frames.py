@@ -21,7 +21,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 from mrlab_ros.core.base.clock import SECOND
 from mrlab_ros.messages import qos
 from mrlab_ros.messages.time import time_from_message
-from mrlab_ros.nodes.frames.node import FramesNode
+from mrlab_ros.nodes.frames.node import REST_S, FramesNode
 from mrlab_ros.nodes.lab.node import LabNode
 
 STAMP = Time(sec=1_700_000_000, nanosec=5)
@@ -206,3 +206,21 @@ def test_an_error_that_repeats_is_logged_once_a_second(stage):
     wait_for(lambda: len(errors()) > 1, "two errors")
     first, second = (time_from_message(line.stamp) for line in errors()[:2])
     assert second - first > 0.9 * SECOND
+
+
+def test_it_looks_seldom_while_nobody_takes_what_moves(stage):
+    robot = spawn(stage, model="ur5e")
+    arm = stage.client.create_publisher(JointState, f"/{robot.name}/joint_states", qos.STREAM)
+    wait_for(arm.get_subscription_count, "the frames node")
+    (frames,) = [node for node in stage._spun if isinstance(node, FramesNode)]
+    wait_for(lambda: frames._poll.period == REST_S, "the rest")
+    moving = stage.listen(TFMessage, "/tf", 100)
+    names = list(robot.joint_names)
+
+    def quick():
+        stamp = stage.client.get_clock().now().to_msg()
+        arm.publish(JointState(header=Header(stamp=stamp), name=names, position=[0.1] * 6))
+        stamps = sorted({time_from_message(t.header.stamp) for m in moving for t in m.transforms})
+        return sum(np.diff(stamps) < REST_S * SECOND / 2) > 5
+
+    wait_for(quick, "frames at the rate of the parameter")

@@ -38,13 +38,13 @@ class Latched:
     """
 
     def __init__(self, node: Node, topic: str) -> None:
-        self._publisher = node.create_publisher(MarkerArray, topic, qos.LATCHED)
+        self.publisher = node.create_publisher(MarkerArray, topic, qos.LATCHED)
         self._before: list[Marker] = []
 
     def publish(self, now: list[Marker]) -> None:
         gone = markers.without(self._before, now)
         self._before = now
-        self._publisher.publish(markers.array([*gone, *now]))
+        self.publisher.publish(markers.array([*gone, *now]))
 
 
 class MarkerPublishers:
@@ -76,6 +76,8 @@ class MarkerPublishers:
         self._caller = Caller(node)
         self._fetch = CatalogueClient(self._caller.node).fetch
         self._work = Worker("paths", on_error=self._complain)
+        # Publishers of what moves.
+        self.moves = (self._objects.publisher, self._robots.publisher, self._contacts)
 
     def close(self) -> None:
         self._work.close(timeout=0.0)

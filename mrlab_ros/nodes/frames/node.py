@@ -159,6 +159,8 @@ class Batch:
 
 # As tf2's own broadcasters publish; joint states of all robots too.
 TF = QoSProfile(depth=100)
+# Between two turns while nobody takes what moves, s: most labs are seen on pages alone.
+REST_S = 0.2
 # The newest joint state is enough; those before it are not even read.
 NEWEST = QoSProfile(depth=1)
 
@@ -196,6 +198,8 @@ class FramesNode(
         self._poll = TopicPoll("frames", 1 / self.parameters.rate, self._turn, self._report)
         rate = self.parameters.marker_rate
         self._markers = MarkerPublishers(self, rate, self._identity) if rate else None
+        # Publishers of what moves.
+        self._moves = [self._moving, self._joints, *(self._markers.moves if self._markers else ())]
         self._subscribe(msg.Robots, "/robots", self._on_robots, qos.LATCHED)
         if self._markers is not None:
             for kind, topic, take, quality in self._markers.topics():
@@ -234,6 +238,8 @@ class FramesNode(
         self._guarded(self._publish)
         if self._markers is not None:
             self._guarded(self._markers.publish_due)
+        taken = any(each.get_subscription_count() for each in self._moves)
+        self._poll.period = 1 / self.parameters.rate if taken else REST_S
         return True
 
     def _guarded(self, work: Callable[[], None]) -> None:
