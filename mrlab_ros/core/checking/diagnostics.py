@@ -72,6 +72,20 @@ GRASPS_NOTHING = Code(
     WARNING,
     meaning="A gripper closes where nothing is.",
 )
+NOTHING_TO_GRASP = Code(
+    "nothing_to_grasp",
+    "The gripper closes on nothing: no part is there that it could hold.",
+    "Check the motion in a scene that has its parts.",
+    INFO,
+    meaning="A gripper closes in a room without objects.",
+)
+BARE_FLANGE = Code(
+    "bare_flange",
+    "The motion closes a gripper, and {robot} carries none.",
+    "Choose the gripper that it is for.",
+    INFO,
+    meaning="A motion commands a gripper that the robot does not have.",
+)
 MISSED_HAND_OVER = Code(
     "missed_hand_over",
     "The gripper closes on nothing: {giver} let go of {other} {ago:time} before[: {why:problem}].",

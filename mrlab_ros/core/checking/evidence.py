@@ -18,6 +18,7 @@ from mrlab_ros.core.checking.diagnostics import (
     LEFT_THE_ROOM,
     LOSES_OBJECT,
     MISSED_HAND_OVER,
+    NOTHING_TO_GRASP,
     PAYLOAD,
     TOO_CLOSE,
     UNCERTAIN_GRASP,
@@ -192,7 +193,9 @@ def of_grasps(recorded: Rehearsed, objects: Iterable[str]) -> list[Diagnostic]:
             held.pop(change.robot)
             if not _taken(recorded, change, before):
                 found.append(LOSES_OBJECT(**at, **met(Kind.OBJECT, before)))
-        elif change.state is Grasp.EMPTY and some:
+        elif change.state is Grasp.EMPTY and not some:
+            found.append(NOTHING_TO_GRASP(robot=change.robot, time=change.time))
+        elif change.state is Grasp.EMPTY:
             giver = _last_let_go(recorded, change)
             if giver is None:
                 found.append(GRASPS_NOTHING(**at))

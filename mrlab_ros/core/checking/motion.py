@@ -11,6 +11,7 @@ import numpy as np
 from mrlab_ros.core.base.diagnostic import Diagnostic, Severity
 from mrlab_ros.core.base.geometry import Array, Pose, Vector, rotate
 from mrlab_ros.core.checking import evidence, joint_limits, tool, waypoints
+from mrlab_ros.core.checking.diagnostics import BARE_FLANGE
 from mrlab_ros.core.checking.evidence import CLOSE, NO_ADVICE, Advice
 from mrlab_ros.core.checking.joint_limits import JointFigures, StatedLimits, spectral_arc_length
 from mrlab_ros.core.checking.rehearsal_record import Rehearsed
@@ -24,6 +25,7 @@ from mrlab_ros.core.checking.report import (
 )
 from mrlab_ros.core.checking.tool import Dexterity
 from mrlab_ros.core.conversion.convert import ConversionResult
+from mrlab_ros.core.physics.grasp.states import Grasp
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.trajectory import Trajectory
 
@@ -123,6 +125,15 @@ def physics_findings(
     ]
 
 
+def _bare_flange(t: Trajectory | None, recorded: Rehearsed, robot: str) -> list[Diagnostic]:
+    """Return a finding where a motion closes a gripper and the robot has none to announce it."""
+    if t is None or t.gripper is None or not t.gripper.any():
+        return []
+    if any(c.robot == robot and c.state is not Grasp.OPEN for c in recorded.grasps):
+        return []
+    return [BARE_FLANGE(robot=robot, time=float(t.gripper.argmax()) / t.frame_rate)]
+
+
 def converted_findings(result: ConversionResult, robot: str) -> list[Diagnostic]:
     """Return what the conversion found, without its notes."""
     t = result.trajectory
@@ -194,6 +205,7 @@ def report_of(
             found += waypoints.findings_of(passed, within, name)
     if recorded is not None:
         found += physics_findings(recorded, graspable, closest)
+        found += _bare_flange(t, recorded, name)
     findings = in_order(found)
     rows = figures.joints if figures is not None else ()
     return CheckReport(

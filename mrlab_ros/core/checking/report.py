@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 from typing import Any
 
-from mrlab_ros.core.base.diagnostic import Code, Diagnostic, plain
+from mrlab_ros.core.base.diagnostic import Code, Diagnostic, Severity, plain
 from mrlab_ros.core.checking.diagnostics import (
     ACCELERATION_LIMIT,
     ACCELERATIONS_IN_LIMITS,
@@ -252,7 +252,8 @@ class CheckReport:
             first = self.refusing[0]
             return CHECK_NOT_READY(count=len(self.refusing), time=first.time, first=first)
         unknown = {c.condition for r in self.robots for c in r.hardware if c.state is _U}
-        return CHECK_READY(warnings=len(self.findings) or None, unknown=len(unknown) or None)
+        warnings = sum(f.severity > Severity.INFO for f in self.findings)
+        return CHECK_READY(warnings=warnings or None, unknown=len(unknown) or None)
 
     def document(self) -> dict[str, Any]:
         """Return the report as JSON has it; `hash` is of all else in it."""

@@ -671,6 +671,8 @@ export const words: Words = {
       uncertain_grasp: 'Unsicherer Griff',
       loses_object: 'Verliert ein Objekt',
       grasps_nothing: 'Greift ins Leere',
+      nothing_to_grasp: 'Nichts zu greifen',
+      bare_flange: 'Kein Greifer',
       missed_hand_over: 'Verpasste Übergabe',
       drops_object: 'Lässt in der Luft los',
       failed_hand_over: 'Misslungene Übergabe',
@@ -1374,6 +1376,10 @@ export const diagnostics: Templates = {
   ],
   bag_without_robots: [
     'Kein Roboter eines Labors ist darin, sondern {topics:list}[ und {more:integer} weitere]',
+  ],
+  bare_flange: [
+    'Die Bewegung schließt einen Greifer, und {robot} trägt keinen.',
+    'Wähle den Greifer, für den sie ist.',
   ],
   begins_at_rest: ['beginnt in Ruhe'],
   begins_inside: [
@@ -2576,6 +2582,10 @@ export const diagnostics: Templates = {
   ],
   nothing_handed_in: ['Noch hat niemand etwas abgegeben.'],
   nothing_proposed: ['Es sind keine Punkte vorgeschlagen; starte zuerst die Bewertung.'],
+  nothing_to_grasp: [
+    'Der Greifer schließt um nichts: Es ist kein Teil da, das er halten könnte.',
+    'Prüfe die Bewegung mit ihren Teilen: mrlab check --scene FILE, oder --lab.',
+  ],
   nothing_to_hand_in_for: [
     'Es gibt noch keine Aufgabe.',
     'Warte, bis deine Lehrperson sie bereitgestellt hat.',

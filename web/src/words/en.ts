@@ -619,6 +619,8 @@ export const en = {
       uncertain_grasp: 'Uncertain grasp',
       loses_object: 'Loses an object',
       grasps_nothing: 'Closes on nothing',
+      nothing_to_grasp: 'Nothing to grasp',
+      bare_flange: 'No gripper',
       missed_hand_over: 'Missed hand-over',
       drops_object: 'Lets go in the air',
       failed_hand_over: 'Failed hand-over',

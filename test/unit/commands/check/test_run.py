@@ -41,6 +41,13 @@ def test_a_grasp_in_its_scene_is_ready_and_told(tmp_path):
     assert [f["values"]["number"] for f in misses] == [2]
 
 
+def test_a_motion_that_closes_a_gripper_is_told_that_there_is_none():
+    found = json.loads(check(PICK, "--robot", "ur5e", "--scene", "empty", "--json").stdout)
+    (bare,) = found["findings"]
+    assert (bare["code"], bare["robot"], bare["time"]) == ("bare_flange", "ur5e_1", 1.85)
+    assert found["verdict"] == "ready"
+
+
 def test_a_collision_refuses_and_the_page_and_the_report_have_one_hash(tmp_path):
     given = (QUINTIC, "--robot", "ur5e", "--scene", "obstacle_course")
     page = tmp_path / "page.html"

@@ -39,6 +39,11 @@ def test_a_taker_that_was_not_late_is_told_where_to_close(before: list[GraspChan
     assert (found.code, found.robot) == ("grasps_nothing", "taker")
 
 
+def test_a_room_without_parts_is_named_where_a_gripper_closes() -> None:
+    (found,) = of_grasps(Rehearsed(grasps=[MISSES]), [])
+    assert (found.code, found.robot, found.time) == ("nothing_to_grasp", "taker", 12.8)
+
+
 def test_what_is_let_go_in_the_air_drops_and_what_is_set_down_does_not() -> None:
     drops = [Drop(1.0, "r", "cube", 0.3), Drop(2.0, "r", "rod", 0.004)]
     (found,) = of_grasps(Rehearsed(drops=drops), [])
