@@ -77,10 +77,10 @@ def test_a_number_in_prose_is_what_its_source_has(tmp_path: Path) -> None:
     (tmp_path / "lab.yaml").write_text("quota:  3 << 30  # bytes\n")
     page = (
         "waits 9 s<!-- limits.py WAIT_MS -->, up to 9 cm<!-- limits.py FAR -->, "
-        "9 GiB<!-- lab.yaml quota -->, then 7 s; `8 s`"
+        "9 GiB<!-- lab.yaml quota -->, then 7 s; `8 s`; 6 s<!-- measured -->"
     )
     assert re.sub("<.*?>", "", filled(page, tmp_path)) == (
-        "waits 0.5 s, up to 4 cm, 3 GiB, then 7 s; `8 s`"
+        "waits 0.5 s, up to 4 cm, 3 GiB, then 7 s; `8 s`; 6 s"
     )
     assert without_source(page) == ["7 s"]
     with pytest.raises(SystemExit, match="GONE"):
