@@ -97,8 +97,8 @@ export async function measureFrames(page) {
 }
 
 /** Show the telemetry of all robots, and measure what is sent to the graphics card, MB/s, and what a
- * frame then costs, ms. */
-export async function measureTelemetry(page) {
+ * frame then costs, ms. also: measures more of it. */
+export async function measureTelemetry(page, also) {
   await page.evaluate(() => {
     for (const name of window.room.panels.names) window.room.panels.of(name).telemetry = true
   })
@@ -112,10 +112,11 @@ export async function measureTelemetry(page) {
     return { sent: (window.blindBytes - bytes) / seconds / 1e6, js: window.samples.js }
   }, TOUCH ? 300 : 5000)
   const { calls } = await page.evaluate(() => window.room.stage.renderer.info.render)
+  const more = await also()
   await page.evaluate(() => {
     for (const name of window.room.panels.names) window.room.panels.of(name).telemetry = false
   })
-  return { sent: found.sent, p95: quantile(found.js, 0.95), calls }
+  return { sent: found.sent, p95: quantile(found.js, 0.95), calls, more }
 }
 
 /** Measure from moving the knob of a paused robot until its pose changes in a frame, ms. */

@@ -43,6 +43,10 @@ const LOWEST = -48 * deg
 /** Of a place that is kept: so far from its thing. */
 const FARTHEST = 45 * deg
 const GAP = 1 * deg
+/** Cost, rad, of a box that is overlapped, and of a whole robot that is covered. */
+const HARM = 10
+/** The places that are tried, rad from the thing: the nearest first, which end the search early. */
+const OFFSETS = offsets()
 
 /** Return the part of a robot that a box covers. */
 export function covered(box: Box, robot: Silhouette): number {
@@ -70,7 +74,8 @@ export function stays(box: Box, wish: Wish, crowd: Crowd): boolean {
 
 /** Return whether a box covers nothing that it must not. */
 export function clear(box: Box, crowd: Crowd): boolean {
-  return harm(box, crowd) === 0
+  if (crowd.boxes.some((other) => overlaps(box, other))) return false
+  return crowd.robots.every((robot) => covered(box, robot) <= MOST_COVERED)
 }
 
 /** Return the best place for a panel: it covers no robot by more than 10%, and no box, if there is
@@ -79,34 +84,48 @@ export function settle(wish: Wish, crowd: Crowd): Box {
   const { width, height, side } = wish
   let best: Box = { az: wish.az, el: wish.el, width, height }
   let least = Number.POSITIVE_INFINITY
-  for (let across = -ACROSS; across <= ACROSS + 1e-9; across += STEP) {
+  const robots = crowd.robots.map((robot) => aside(robot, wish.az))
+  const half = width / 2
+  for (const { across, up } of OFFSETS) {
     const az = wish.az + across
-    for (let up = -DOWN; up <= UP + 1e-9; up += STEP) {
-      const el = Math.min(Math.max(wish.el + up, LOWEST), HIGHEST)
-      const wrong = across * side < 0 ? 4 * deg : 0
-      const rest = 0.3 * Math.abs(el - REST)
-      const cost = Math.hypot(across, el - wish.el) + wrong + rest
-      if (cost >= least) continue
-      const box = { az, el, width, height }
-      const seen = crowd.robots.reduce((sum, robot) => sum + covered(box, robot), 0)
-      const whole = cost + 10 * harm(box, crowd) + seen
-      if (whole >= least) continue
-      least = whole
-      best = box
+    const el = Math.min(Math.max(wish.el + up, LOWEST), HIGHEST)
+    const wrong = across * side < 0 ? 4 * deg : 0
+    const rest = 0.3 * Math.abs(el - REST)
+    let cost = Math.hypot(across, el - wish.el) + wrong + rest
+    if (cost >= least) continue
+    const box = { az, el, width, height }
+    for (const other of crowd.boxes) if (overlaps(box, other)) cost += HARM
+    for (const robot of robots) {
+      if (cost >= least) break
+      let inside = 0
+      for (let i = 0; i < robot.length; i += 2) {
+        const off = (robot[i] as number) - across
+        if (off <= -half || off >= half) continue
+        if (Math.abs((robot[i + 1] as number) - el) < height / 2) inside++
+      }
+      const part = inside / Math.max(robot.length / 2, 1)
+      cost += part > MOST_COVERED ? part * (1 + HARM) : part
     }
+    if (cost >= least) continue
+    least = cost
+    best = box
   }
   return best
 }
 
-/** Return how much a box covers that it must not; 0: nothing. */
-function harm(box: Box, { robots, boxes }: Crowd): number {
-  let sum = 0
-  for (const robot of robots) {
-    const part = covered(box, robot)
-    if (part > MOST_COVERED) sum += part
+/** Return a silhouette with az from a direction on. */
+function aside(robot: Silhouette, az: number): Float64Array {
+  const found = Float64Array.from(robot)
+  for (let i = 0; i < found.length; i += 2) found[i] = turn((found[i] as number) - az)
+  return found
+}
+
+function offsets(): { readonly across: number; readonly up: number }[] {
+  const found = []
+  for (let across = -ACROSS; across <= ACROSS + 1e-9; across += STEP) {
+    for (let up = -DOWN; up <= UP + 1e-9; up += STEP) found.push({ across, up })
   }
-  for (const other of boxes) if (overlaps(box, other)) sum += 1
-  return sum
+  return found.sort((a, b) => Math.hypot(a.across, a.up) - Math.hypot(b.across, b.up))
 }
 
 /** Return an angle between -pi and pi. */

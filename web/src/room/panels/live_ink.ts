@@ -136,6 +136,8 @@ export class LiveInk {
   private readonly ribbons: number
   private readonly letters: number
   private count = 0
+  /** True until new colours of the curves are sent. */
+  private painted = false
 
   /** width, height: of the panel, mm. */
   constructor(
@@ -211,9 +213,10 @@ export class LiveInk {
     this.geometry.setDrawRange(0, 6 * (quads + curves * Math.max(samples - 1, 0)))
     for (const each of [this.places, this.cells, this.colours]) {
       each.clearUpdateRanges()
-      each.addUpdateRange(0, quads * 4 * each.itemSize)
+      if (!this.painted) each.addUpdateRange(0, quads * 4 * each.itemSize)
       each.needsUpdate = true
     }
+    this.painted = false
   }
 
   /** Fill a box, or a disc as wide and high, in a colour; it keeps it until it is filled anew. */
@@ -231,15 +234,14 @@ export class LiveInk {
     this.places.needsUpdate = true
   }
 
-  /** Paint the curves. */
+  /** Paint the curves; shown with the texts that follow. */
   paint(colours: readonly string[]): void {
     const each = this.samples * 2
     for (let curve = 0; curve < this.curves; curve++) {
       dip(colours[curve % colours.length] as string)
       for (let i = 0; i < each; i++) this.rgb.set(ink, 3 * (this.ribbons + curve * each + i))
     }
-    this.colours.clearUpdateRanges()
-    this.colours.needsUpdate = true
+    this.painted = true
   }
 
   /** Set a point of a curve; shown with the texts that follow. */
@@ -255,7 +257,9 @@ export class LiveInk {
   /** Show the points that were set. */
   drawn(): void {
     const corners = this.curves * this.samples * 2
-    this.places.addUpdateRange(2 * this.ribbons, 2 * corners)
+    // Without a range all is sent.
+    if (this.places.updateRanges.length > 0)
+      this.places.addUpdateRange(2 * this.ribbons, 2 * corners)
     this.places.needsUpdate = true
   }
 
