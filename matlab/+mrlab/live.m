@@ -11,7 +11,8 @@ function live(source, varargin)
 %     'variable', 'q_des'   the name of the array; else q
 %     'seconds', 60         end by itself
 %
-%   What is wrong with a motion is printed, and the next one is waited for.
+%   What is wrong with a motion is printed, and the next one is waited for. A .mat file may come
+%   later; another file that is missing is mrlab:noFile.
 %
 %   Example
 %       mrlab.live(@quintic, 100, 'robot', 'ur5e')
@@ -39,7 +40,12 @@ rest = [fieldnames(own), struct2cell(own)]';
 begun = tic();
 seen = [];
 content = [];
-mrlab.internal.say('Watching %s; Ctrl+C ends it.\n', watched);
+there = exist(watched, 'file') ~= 0;
+if ~there && (isa(source, 'function_handle') || isempty(regexp(watched, '\.mat$', 'once')))
+    error('mrlab:noFile', 'There is no file %s.', watched);
+end
+later = {' as soon as it is written', ''};
+mrlab.internal.say('Watching %s%s; Ctrl+C ends it.\n', watched, later{1 + there});
 while toc(begun) < given.seconds
     found = dir(watched);
     if ~isempty(found) && is_new(watched, found(1), seen, content)

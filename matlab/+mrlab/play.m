@@ -10,6 +10,7 @@ function played = play(varargin)
 %   mrlab.play(LAB, 'ur5e_1', 'pick') plays a trajectory of the catalogue.
 %
 %   Errors: the first finding's, such as mrlab:jointLimit, where the lab refuses the motion;
+%   mrlab:otherRobot where 'robot' is not that robot's model;
 %   mrlab:illegalEvent where the robot moves, and nothing is published then; mrlab:roleTooLow where
 %   your role may not play. Findings that do not refuse the motion are warnings.
 %
@@ -27,6 +28,10 @@ else
     if isempty(robot)
         error('mrlab:noRobot', 'The lab has no robot %s. It has: %s.', motion.robot, ...
             strjoin({robots.name}, ', '));
+    end
+    if ~any(strcmp(motion.model, {'', robot.model}))
+        error('mrlab:otherRobot', '%s is a %s, not a %s. Leave ''robot'' out, or name another robot.', ...
+            motion.robot, robot.model, motion.model);
     end
     motion.options.robot_model = robot.model;
     motion.options.end_effector = robot.end_effector;

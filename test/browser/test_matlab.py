@@ -44,6 +44,12 @@ printf('%d %g %g\\n', fs, found.delay, max(found.most));
 back(3, 2) = NaN;
 try, mrlab.compare(back, q, fs), catch problem, disp(problem.identifier), end
 try, mrlab.compare(q, q, 0), catch problem, disp(problem.identifier), end
+other = {'robot', 'kuka_kr3_r540'};
+try, mrlab.play('ur5e_1', q, 100, other{:}), catch problem, disp(problem.identifier), end
+try, mrlab.live('gone.m', 100), catch problem, disp(problem.identifier), end
+lab = mrlab.connect();
+lab.url = 'http://127.0.0.1:1';
+try, mrlab.state(lab), catch problem, disp(problem.message(end - 2:end)), end
 """
 
 # The first row is below the floor, so that the arm is not clear there either.
@@ -214,7 +220,10 @@ def test_a_robot_plays_and_what_was_recorded_is_compared(octave: Octave) -> None
     assert "ur5e_1 plays played@1" in said
     assert "played@2" in said
     assert "50 0.14 0" in said
-    assert said.split()[-2:] == ["mrlab:nonFinite", "mrlab:badRate"]
+    assert said.split()[-5:-1] == [
+        "mrlab:nonFinite", "mrlab:badRate", "mrlab:otherRobot", "mrlab:noFile",
+    ]  # fmt: skip
+    assert said.split()[-1] != "000"
 
 
 def test_a_script_is_shown_again_when_it_is_saved(

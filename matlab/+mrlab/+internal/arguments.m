@@ -2,8 +2,9 @@ function [lab, motion] = arguments(given, more, robot)
 %ARGUMENTS The lab and the motion of a call: [LAB,] [ROBOT,] Q, FS, NAME, VALUE, ...
 %   MORE: names of options beside those of the conversion. ROBOT: given where a robot comes first.
 %   motion: q, rate (Hz, or s of each row; [] where not given), options, place (the number of the
-%   argument that is q), robot (empty where none is asked for), source ('' : the caller's line).
-motion = struct('q', [], 'rate', [], 'place', 1, 'robot', '', 'name', '', 'source', '');
+%   argument that is q), robot (empty where none is asked for), model (that was named, or empty),
+%   source ('' : the caller's line).
+motion = struct('q', [], 'rate', [], 'place', 1, 'robot', '', 'model', '', 'name', '', 'source', '');
 if ~isempty(given) && isstruct(given{1}) && isfield(given{1}, 'url')
     lab = given{1};
     given(1) = [];
@@ -46,6 +47,7 @@ if isfield(own, 'source')
     motion.source = own.source;
 end
 if isfield(own, 'robot')
+    motion.model = own.robot;
     motion.options.robot_model = own.robot;
 elseif isempty(lab.robot) && ~isfield(motion.options, 'robot_model') && isempty(motion.robot)
     error('mrlab:noModel', 'Name the model: ''robot'', ''ur5e''.');

@@ -110,7 +110,9 @@ mrlab.internal.private_file(config, sprintf('%s\n', lines{:}));
 if failed == 127
     error('mrlab:noCurl', 'Octave needs the program curl, which is not there.');
 elseif failed ~= 0
-    error('mrlab:noAnswer', 'No lab answers at %s: %s', lab.url, strtrim(said));
+    % Without an answer curl prints the code of none, 000, too.
+    error('mrlab:noAnswer', 'No lab answers at %s: %s', lab.url, ...
+        strtrim(regexprep(said, '000\s*$', '')));
 end
 status = str2double(said);
 bytes = uint8([]);

@@ -286,10 +286,11 @@ def _between(jumps: list[int], rows: int, variable: str) -> tuple[Fix, ...]:
     fixes = []
     for first, last in pieces[:MOST_PARTS]:
         path = rows_of(variable, first, last)
+        # What is stored is shortened where it is: under another name it would be something else.
+        name = variable if STORED.fullmatch(variable) else "q"
         is_stored = ".." not in variable and variable[0].isalpha()
-        fixes.append(
-            Fix("variable", path, f"q = {path if is_stored else f'q({first}:{last}, :)'};")
-        )
+        part = path if is_stored else f"q({first}:{last}, :)"
+        fixes.append(Fix("variable", path, f"{name} = {part};"))
     return tuple(fixes)
 
 

@@ -81,7 +81,9 @@ class Options:
         if text == "mm":
             return "mm", 1e-3
         stated = units.parse(text)
-        if stated is not None and stated.is_angle and stated.factor:
+        # A word whose plural is another unit is not taken: grad is a degree, grads are gradians.
+        plural = units.parse(f"{text}s") or stated
+        if stated and stated.is_angle and stated.factor and stated == plural:
             return stated.name, stated.factor
         name, _, number = text.partition(":")
         try:

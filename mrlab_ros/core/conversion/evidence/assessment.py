@@ -32,6 +32,7 @@ from mrlab_ros.core.conversion.workspace import Variable
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.trajectory import Array
 
+NEAR_ZERO = 0.02  # of the range of a column
 RADIANS, NO_POSES = UnitEvidence("rad"), PoseEvidence()
 
 
@@ -260,3 +261,14 @@ def _doubts(a: Assessment, robot: RobotModel) -> Iterable[Diagnostic]:
             yield MAY_BE_TIME(column=clock.index + 1, why=clock.why)
     if a.still and (a.low.any() or a.high.any()):
         yield SEEN(what="still")
+    # Also under the name of positions: the speeds of a motion from rest to rest look like this,
+    # where the robot's own place to rest is not zero.
+    named = a.name.hint is Hint.POSITIONS and not (a.tool_path or a.rates or a.by_name)
+    if named and a.between_zeros and _one_sided(a) and robot.home.any():
+        yield SEEN(what="between_zeros")
+
+
+def _one_sided(a: Assessment) -> bool:
+    """Return whether each column keeps to one side of zero."""
+    nearest = np.minimum(np.abs(a.low), np.abs(a.high))
+    return bool((nearest <= NEAR_ZERO * (a.high - a.low)).all())

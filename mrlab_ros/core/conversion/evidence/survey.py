@@ -17,6 +17,7 @@ from mrlab_ros.core.conversion.evidence import unit_range as units
 from mrlab_ros.core.conversion.evidence.assessment import (
     FEW_ROWS,
     NAME_SCORES,
+    NEAR_ZERO,
     NO_POSES,
     Assessment,
     blocking_clocks,
@@ -112,7 +113,6 @@ def survey(workspace: Workspace, robot: RobotModel, *, columns_asked: bool = Fal
 ROUGH = 0.15
 ENOUGH_ROWS = 20
 SMOOTH_ROWS = 20_000
-NEAR_ZERO = 0.02  # of the range of a column
 COARSE = 0.05  # rad from row to row: waypoints, not samples
 # Rows of zeros at an end were never filled where the step to them is so large: rad, usual steps.
 UNFILLED_LEAST, UNFILLED_FACTOR = 0.05, 5.0

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import refusals
 from fakes import make_model
 from refusals import said_in
 
@@ -14,6 +15,7 @@ from mrlab_ros.core.base.diagnostic import Severity
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.conversion import convert as conversion_convert
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome, id_from
+from mrlab_ros.core.conversion.diagnostics import BAD_OPTION
 from mrlab_ros.core.conversion.evidence import joining
 from mrlab_ros.core.conversion.options import Options, parse_columns
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
@@ -408,7 +410,7 @@ def test_the_time_of_the_structure_itself_comes_first():
 def test_the_own_time_of_a_signal_comes_first():
     own = var("log{1}.Values.Time", np.arange(300)[:, None] / 250)
     q = var("log{1}.Values.Data", motion(), time="log{1}.Values.Time")
-    assert accepted(var("fs", 50.0), own, q).frame_rate == 250.0
+    assert accepted(var("fs", 20.0), own, q).frame_rate == 250.0
 
 
 def test_uneven_times_are_a_warning():
@@ -585,6 +587,24 @@ def test_degrees_in_some_columns_are_not_converted_in_silence():
     warnings = accepted(var("q", q), units="deg").warnings
     assert any("little_in_degrees" in said_in(w) for w in warnings)
     assert not accepted(var("q", np.degrees(motion(reach=2.0))), units="deg").warnings
+
+
+def test_velocities_under_the_name_of_positions_are_doubted() -> None:
+    u = np.linspace(0, 1, 101)[:, None]
+    bump = (30 * u**2 - 60 * u**3 + 30 * u**4) * np.array([0.9, 0.4, -0.5, 0.3, 0.2, 0.6])
+    robot = make_model(6, home=-1.0)
+    (warning,) = accepted(var("q", bump), var("fs", 20.0), robot=robot).warnings
+    assert said_in(warning)["seen"]["what"] == "between_zeros"
+    calm = (var("fs", 20.0),)
+    away = np.column_stack([bump[:, :1], bump[:, 1:] - 1.2])
+    assert not accepted(var("q", away), *calm, robot=robot).warnings
+    assert not accepted(var("q", bump), *calm, robot=make_model(6)).warnings  # its home
+
+
+def test_a_word_that_may_mean_two_units_is_no_option() -> None:
+    assert Options(units="gradians").factor()[0] == Options(units="grads").factor()[0] == "gon"
+    with refusals.refused(BAD_OPTION, BadInput, found="grad"):
+        Options(units="grad").factor()
 
 
 def test_options_that_name_things_twice_or_needlessly_are_answered():
