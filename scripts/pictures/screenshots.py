@@ -10,6 +10,7 @@ from __future__ import annotations
 import argparse
 import io
 import shutil
+import subprocess
 import sys
 import tempfile
 import time
@@ -17,8 +18,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
 from PIL import Image
 from playwright.sync_api import Browser, Page, expect, sync_playwright
+from scipy.io import loadmat, savemat
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(path) for path in (ROOT / "test" / "support").iterdir()]
@@ -94,6 +97,27 @@ def published(page: Page, stage: Stage) -> None:
     page.evaluate("scrollTo(0, 0)")
 
 
+def marked(page: Page, stage: Stage) -> None:
+    """The class of the teacher's tutorial: a motion, whole and as students hand it in."""
+    handed_in = stage.files / "submissions"
+    if not handed_in.exists():
+        handed_in.mkdir()
+        example = loadmat(ROOT / "examples" / "pick_and_place_ur5e.mat")
+        q, fs = example["q"], example["fs"]
+        for name, made in {
+            "Ada": (q, fs),
+            "Alan": (q[: len(q) * 3 // 4], fs),
+            "Edsger": (np.rad2deg(q), fs),
+            "Grace": (q, fs * 0.8),
+            "Kurt": (q[::-1], fs),
+        }.items():
+            savemat(handed_in / f"{name}.mat", {"q": made[0], "fs": made[1]})
+        rubric = ROOT / "examples" / "rubrics" / "pick_and_place.yaml"
+        words = ("class", handed_in, "--rubric", rubric, "--out", stage.files / "marked")
+        subprocess.run([sys.executable, "-m", "mrlab_ros.cli", *words], check=True)
+    page.goto((stage.files / "marked" / "index.html").as_uri())
+
+
 def trajectories(page: Page, stage: Stage) -> None:
     page.goto(f"{stage.gateway.url}/trajectories")
     page.locator(".trajectory").first.wait_for()
@@ -144,6 +168,7 @@ PAGES: dict[str, Callable[[Page, Stage], None]] = {
     "refused": refused,
     "chooser": chooser,
     "published": published,
+    "marked": marked,
     "trajectories": trajectories,
     "comparison": comparison,
     "lab": lab,
@@ -169,6 +194,12 @@ def prepare(page: Page, stage: Stage) -> None:
         upload.publish(name, shared=name == "wide")
 
 
+def picture(page: Page) -> Image.Image:
+    """Return the page as it is once all of it is sharp."""
+    eventually(page, lambda: bool(page.evaluate(SHARP)))
+    return Image.open(io.BytesIO(page.screenshot(timeout=PATIENCE_MS))).convert("RGB")
+
+
 def take(browsers: tuple[Browser, Browser], stage: Stage, cookies: Path, names: list[str]) -> None:
     """Write the pictures of the pages `names`; browsers: for pages without and with 3D."""
     IMAGES.mkdir(parents=True, exist_ok=True)
@@ -188,10 +219,9 @@ def take(browsers: tuple[Browser, Browser], stage: Stage, cookies: Path, names: 
             for theme in THEMES:
                 page.emulate_media(color_scheme=theme)  # type: ignore[arg-type]
                 page.wait_for_timeout(SETTLE_MS)
-                page.wait_for_function(SHARP)
-                image = Image.open(io.BytesIO(page.screenshot(timeout=PATIENCE_MS)))
+                image = picture(page)
                 file = IMAGES / f"{name}-{size}-{theme}.webp"
-                image.convert("RGB").save(file, quality=QUALITY, method=6)
+                image.save(file, quality=QUALITY, method=6)
                 print(file.relative_to(ROOT), flush=True)
             context.close()
 
