@@ -26,7 +26,7 @@ from mrlab_ros.ros.parameters import WrongParameters
 from mrlab_ros.ros.spinning import SpunNode, shut_down, start_up
 
 # How often a process checks whether it was asked to stop, s.
-POLL_PERIOD_S = 0.1
+POLL_PERIOD_S = 0.2
 # A restarted process must not join the graph during a replay: it waits up to this long for the
 # recorder to be discovered, s. Discovery takes up to 3 s.
 FIND_TIMEOUT_S = 3.0
