@@ -67,9 +67,10 @@ def dds(topics: list[str], socket: str = "") -> Iterator[list[Callable[[bytes], 
         yield [publisher.publish for publisher in publishers]
         return
     direct = Direct(socket, "")
-    streams = [direct.stream(topic) for topic in topics]
-    for stream in streams:
-        until(stream.newly_heard, "a subscriber a key")
+    heard = [threading.Event() for _ in topics]
+    streams = [direct.stream(*each) for each in zip(topics, (e.set for e in heard), strict=True)]
+    for event in heard:
+        until(event.is_set, "a subscriber a key")
 
     def both(publisher: Any, stream: Stream) -> Callable[[bytes], None]:
         def publish(payload: bytes) -> None:

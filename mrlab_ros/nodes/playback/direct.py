@@ -42,16 +42,21 @@ class Stream:
     beside much other work, also while the bridge stands still. name: the topic's.
     """
 
-    def __init__(self, name: str, later: Callable[[Callable[[], None]], None]) -> None:
-        """later: has the thread of Direct do something."""
+    def __init__(
+        self,
+        name: str,
+        later: Callable[[Callable[[], None]], None],
+        on_heard: Callable[[], None],
+    ) -> None:
+        """later: has the thread of Direct do something. on_heard: see Direct.stream()."""
         self.name = name
         self.offer: Declared | None = None
         self._later = later
+        self._on_heard = on_heard
         self._publisher: Publisher | None = None
         # Held while the publisher is used or exchanged, not while it is closed.
         self._use = threading.Lock()
         self._heard = False
-        self._newly_heard = False
         self._sequence = 0
         # Sizes and delays of what was put since the last report.
         self._carried: deque[tuple[int, int]] = deque()
@@ -68,11 +73,6 @@ class Stream:
                 self._carried.append((len(payload), now_ns - published_ns))
         finally:
             self._use.release()
-
-    def newly_heard(self) -> bool:
-        """Return whether somebody hears it who did not at the last call; for any one thread."""
-        newly, self._newly_heard = self._newly_heard, False
-        return newly
 
     def begin(self, session: Session, key: str, rule: TopicRule) -> None:
         """Put messages by `rule` from now on."""
@@ -98,9 +98,10 @@ class Stream:
             former.undeclare()
 
     def _look(self) -> None:
-        heard = self._publisher is not None and self._publisher.has_subscriber()
-        self._newly_heard = self._newly_heard or (heard and not self._heard)
-        self._heard = heard
+        before = self._heard
+        self._heard = self._publisher is not None and self._publisher.has_subscriber()
+        if self._heard and not before:
+            self._on_heard()
 
 
 class Direct:
@@ -124,9 +125,13 @@ class Direct:
         # While it runs Python the deadline thread waits for it.
         self._worker.send(partial(take_precedence, REALTIME - 2))
 
-    def stream(self, topic: str) -> Stream:
-        """Offer a topic, and return what puts its messages."""
-        stream = Stream(topic, self._worker.send)
+    def stream(self, topic: str, on_heard: Callable[[], None] = lambda: None) -> Stream:
+        """Offer a topic, and return what puts its messages.
+
+        on_heard: called in a thread of this object's own when somebody hears it and nobody did
+        before; it must not wait.
+        """
+        stream = Stream(topic, self._worker.send, on_heard)
         self._worker.send(partial(self._add, stream))
         return stream
 

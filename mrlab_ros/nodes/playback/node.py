@@ -129,7 +129,7 @@ class PlaybackNode(LeanNode):
         self._publish_joint_state = raw_publish(self._joint_states)
         self._subscribers = 0
         if self._direct is not None:
-            self._stream = self._direct.stream(self._joint_states.topic_name)
+            self._stream = self._direct.stream(self._joint_states.topic_name, self._repeat)
         self._state = self.create_publisher(
             msg.PlaybackState, "playback_state", qos.LATCHED_EVENTS
         )
@@ -423,10 +423,12 @@ class PlaybackNode(LeanNode):
         The count is looked at: a LeanNode handles no events.
         """
         before, self._subscribers = self._subscribers, self._joint_states.get_subscription_count()
-        heard = self._stream is not None and self._stream.newly_heard()
-        if heard or self._subscribers > before:
-            with self._command() as now_ns:
-                self.playback.repeat(now_ns)
+        if self._subscribers > before:
+            self._repeat()
+
+    def _repeat(self) -> None:
+        with self._command() as now_ns:
+            self.playback.repeat(now_ns)
 
     def _on_collision(self, message: msg.Collision) -> None:
         with self._command() as now_ns:

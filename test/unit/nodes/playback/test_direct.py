@@ -6,6 +6,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from queue import Queue
 from typing import Any
 
 import pytest
@@ -100,22 +101,30 @@ def opened(session: Zenoh, tmp_path: Path) -> Iterator[Direct]:
 
 
 @pytest.fixture
-def stream(opened: Direct, session: Zenoh) -> Stream:
-    made = opened.stream(TOPIC)
+def heard() -> Queue[bool]:
+    """Return what gets an entry when the stream is heard again."""
+    return Queue()
+
+
+@pytest.fixture
+def stream(opened: Direct, session: Zenoh, heard: Queue[bool]) -> Stream:
+    made = opened.stream(TOPIC, lambda: heard.put(True))
     until(lambda: session.tokens == [f"{OFFERS[1:]}{TOPIC}"])
     return made
 
 
-def test_nothing_is_put_before_the_grant_and_after_its_end(stream: Stream, session: Zenoh) -> None:
+def test_nothing_is_put_before_the_grant_and_after_its_end(
+    stream: Stream, session: Zenoh, heard: Queue[bool]
+) -> None:
     got = session.put.setdefault(TOPIC[1:], [])
     stream.put(b"early", 1)
     session.granting(GRANT, True)
-    until(stream.newly_heard)
-    assert not stream.newly_heard()
+    heard.get(timeout=DEADLINE_S)
+    assert heard.empty()
     stream.put(b"state", 7)
     session.granting(GRANT, False)
     session.granting(GRANT, True)
-    until(stream.newly_heard)
+    heard.get(timeout=DEADLINE_S)
     stream.put(b"again", 9)
     assert [payload for payload, _ in got] == [b"state", b"again"]
     numbered = [found for _, each in got if (found := stamps(each))]
@@ -123,10 +132,10 @@ def test_nothing_is_put_before_the_grant_and_after_its_end(stream: Stream, sessi
 
 
 def test_the_deadline_thread_waits_for_no_publisher_that_is_closed(
-    stream: Stream, session: Zenoh
+    stream: Stream, session: Zenoh, heard: Queue[bool]
 ) -> None:
     session.granting(GRANT, True)
-    until(stream.newly_heard)
+    heard.get(timeout=DEADLINE_S)
     session.flowing.clear()
     session.granting(GRANT, False)
 
@@ -140,9 +149,9 @@ def test_the_deadline_thread_waits_for_no_publisher_that_is_closed(
     until(dropped)
 
 
-def test_what_nobody_hears_is_not_put(stream: Stream, session: Zenoh) -> None:
+def test_what_nobody_hears_is_not_put(stream: Stream, session: Zenoh, heard: Queue[bool]) -> None:
     session.granting(GRANT, True)
-    until(stream.newly_heard)
+    heard.get(timeout=DEADLINE_S)
     session.heard = False
     session.matched()
 
@@ -154,12 +163,14 @@ def test_what_nobody_hears_is_not_put(stream: Stream, session: Zenoh) -> None:
     until(unheard)
     session.heard = True
     session.matched()
-    until(stream.newly_heard)
+    heard.get(timeout=DEADLINE_S)
 
 
-def test_what_was_put_is_reported_once(opened: Direct, stream: Stream, session: Zenoh) -> None:
+def test_what_was_put_is_reported_once(
+    opened: Direct, stream: Stream, session: Zenoh, heard: Queue[bool]
+) -> None:
     session.granting(GRANT, True)
-    until(stream.newly_heard)
+    heard.get(timeout=DEADLINE_S)
     for _ in range(3):
         stream.put(b"state", time.time_ns())
     opened.report()
