@@ -23,6 +23,7 @@ THREADS = {
     "adapters/parent_exit.py": ["loop"],
     "adapters/workspaces/reader.py": ["loop"],
     "adapters/zenoh/session.py": ["Pool"],
+    "app/recorder/stops.py": ["Pool"],
     "classroom/grader.py": ["loop"],
     "commands/demo/lab.py": ["task"],
     "commands/up/lab_run.py": ["loop"],
