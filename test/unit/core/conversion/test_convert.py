@@ -322,7 +322,10 @@ def test_unwrap_removes_full_turns():
     q = motion(reach=1.5)
     jumped = q.copy()
     jumped[150:, 2] -= 2 * np.pi
-    assert "jump_2pi" in codes(convert(var("q", jumped)))
+    result = convert(var("q", jumped), var("fs", 50.0))
+    assert "jump_2pi" in codes(result)
+    # Its rows are shown at the times of which the findings speak.
+    assert result.frame_rate == 50.0
     np.testing.assert_allclose(accepted(var("q", jumped), unwrap=True).positions, q, atol=1e-12)
 
 

@@ -40,6 +40,32 @@ export function drawsInSoftware(renderer: WebGLRenderer): boolean {
   return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(String(name))
 }
 
+/** Knows when the machine is done with a picture: WebGL takes orders long before, and a page whose
+ * orders pile up stands still. */
+export class Pace {
+  private sync: WebGLSync | null = null
+
+  constructor(private readonly context: WebGL2RenderingContext) {}
+
+  /** Call it behind the orders of a picture. */
+  ordered(): void {
+    const { context } = this
+    context.deleteSync(this.sync)
+    this.sync = context.fenceSync(context.SYNC_GPU_COMMANDS_COMPLETE, 0)
+    context.flush()
+  }
+
+  /** True while the machine still draws the last picture. */
+  get draws(): boolean {
+    const { context, sync } = this
+    if (sync === null) return false
+    if (context.getSyncParameter(sync, context.SYNC_STATUS) === context.UNSIGNALED) return true
+    context.deleteSync(sync)
+    this.sync = null
+    return false
+  }
+}
+
 /** The host of a lab's scene: a page's picture, or the room. */
 export interface SceneHost {
   /** The lab's frame `world`: z up, m. */

@@ -20,7 +20,7 @@ import {
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js'
 import { RoomEnvironment } from 'three/examples/jsm/environments/RoomEnvironment.js'
 import { Floor } from './floor'
-import { drawsInSoftware, matt, rendererOn } from './renderer'
+import { drawsInSoftware, matt, Pace, rendererOn } from './renderer'
 import { ShadowFit } from './shadow_fit'
 import { onTheme, reducedMotion, type SceneTheme, themeNow } from './theme'
 
@@ -57,6 +57,7 @@ export class Stage {
   drawn = 0
   theme: SceneTheme
   private readonly renderer: WebGLRenderer
+  private readonly pace: Pace
   private readonly controls: OrbitControls
   private readonly floor = new Floor()
   private readonly sun = new DirectionalLight(0xffffff, 1.7)
@@ -91,6 +92,7 @@ export class Stage {
     this.canvas.setAttribute('role', 'img')
     this.canvas.setAttribute('aria-label', label)
     this.renderer = rendererOn(this.canvas)
+    this.pace = new Pace(this.renderer.getContext() as WebGL2RenderingContext)
     const software = drawsInSoftware(this.renderer)
     if (software) this.sharpness = LEAST_SHARPNESS
     this.renderer.toneMapping = NeutralToneMapping
@@ -136,7 +138,7 @@ export class Stage {
   invalidate(): void {
     if (this.request !== 0 || this.waiting !== undefined || this.disposed) return
     this.requested = performance.now() / 1000
-    if (this.latency < SLOW) this.request = requestAnimationFrame(this.draw)
+    if (this.latency < SLOW) this.request = requestAnimationFrame(this.drawNext)
     // leave a machine that cannot keep up as much time for the rest of the page as for pictures
     else this.waiting = setTimeout(this.drawSoon, Math.min(this.latency, LONGEST_WAIT) * 1000)
   }
@@ -253,6 +255,7 @@ export class Stage {
     if (this.scene.environment === null) this.scene.traverse(matt)
     this.shadow.apply()
     this.renderer.render(this.scene, this.camera)
+    this.pace.ordered()
     this.drawn++
     if (more) this.invalidate()
   }
@@ -267,7 +270,13 @@ export class Stage {
   private readonly drawSoon = (): void => {
     this.waiting = undefined
     this.requested = performance.now() / 1000
-    this.request = requestAnimationFrame(this.draw)
+    this.request = requestAnimationFrame(this.drawNext)
+  }
+
+  /** Draw once the machine is done with the picture before. */
+  private readonly drawNext = (): void => {
+    if (this.pace.draws) this.request = requestAnimationFrame(this.drawNext)
+    else this.draw()
   }
 
   /** Choose how many pixels this picture gets, by how long the last ones were waited for. */
@@ -284,6 +293,7 @@ export class Stage {
     const moving = this.sharpness
     this.setSharpness(1)
     this.renderer.render(this.scene, this.camera)
+    this.pace.ordered()
     this.sharpness = moving
   }
 
