@@ -1,5 +1,5 @@
 import { signal } from '@preact/signals'
-import { useMemo, useRef } from 'preact/hooks'
+import { useEffect, useMemo, useRef } from 'preact/hooks'
 import { Button } from '../../design/button'
 import { OutcomeChip } from '../../design/chip'
 import { spoken } from '../../words/diagnostic'
@@ -44,6 +44,11 @@ export function Verdict({ flow, result, file }: VerdictProps) {
   const { conversion, motion, choice } = result
   const selected = useMemo(() => signal(firstFinding(conversion.diagnostics)), [conversion])
   const robots = useRef<HTMLDetailsElement>(null)
+  const heading = useRef<HTMLHeadingElement>(null)
+  // What was pressed is gone with its page: keyboards and screen readers go on at the answer.
+  useEffect(() => {
+    if (document.activeElement === document.body) heading.current?.focus({ preventScroll: true })
+  }, [conversion])
   const tried = flow.tried.value
   const busy = flow.busy.value
   const labels = optionLabels(choice.options, w)
@@ -64,7 +69,9 @@ export function Verdict({ flow, result, file }: VerdictProps) {
               {w.upload.otherFile}
             </Button>
           </div>
-          <h1 class="verdict-message">{title(result)}</h1>
+          <h1 class="verdict-message" ref={heading} tabIndex={-1}>
+            {title(result)}
+          </h1>
           {labels.length > 0 && (
             <p class="row small">
               {labels.map((label) => (
