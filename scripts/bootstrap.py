@@ -251,14 +251,24 @@ class Setup:
         )
 
     def data_files(self):
-        """Name the files that setup.py installs as data: a new one means a new install."""
+        """Name the files that setup.py installs as data: a new one means a new install.
+
+        Except of what somebody saves among the examples: those are the ones that git knows.
+        """
         folders = ("config", "robots", "launch", "examples", "msg_schemas", "web/dist")
-        return [
+        named = [
             str(p.relative_to(ROOT))
             for f in folders
             for p in sorted(ROOT.joinpath(f).rglob("*"))
             if "__pycache__" not in p.parts
         ]
+        git = ["git", "-C", str(ROOT), "ls-files", "examples"]
+        try:
+            known = subprocess.run(git, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+        except OSError:
+            return named
+        shipped = known.stdout.decode().splitlines()
+        return [p for p in named if not (shipped and p.startswith("examples/"))] + shipped
 
     def make_venv(self):
         say("  needs 1.4 GB in this folder, and the network")
