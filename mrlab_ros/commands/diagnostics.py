@@ -174,6 +174,11 @@ ROBOTS_HAVE_ERRORS = Code(
 ROBOT_NOT_IMPORTED = Code(
     "robot_not_imported", "{file} was not imported: {count:count error|errors}."
 )
+AS_TOOL_WITHOUT = Code(
+    "as_tool_without",
+    "--as-tool takes no {options:list}: a hand alone has no arm.",
+    "Leave out {options:list}.",
+)
 MESHES_NOT_INSTALLED = Code(
     "meshes_not_installed",
     "The meshes of {file} were not installed: {count:count error|errors}, listed above.",

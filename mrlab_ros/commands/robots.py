@@ -17,6 +17,7 @@ import typer
 from mrlab_ros.adapters import share
 from mrlab_ros.commands import output
 from mrlab_ros.commands.diagnostics import (
+    AS_TOOL_WITHOUT,
     BAD_ANGLES,
     BAD_PACKAGE_OPTION,
     MESHES_INSTALLED,
@@ -28,7 +29,7 @@ from mrlab_ros.commands.diagnostics import (
 )
 from mrlab_ros.commands.output import AsJson, print_findings, say
 from mrlab_ros.core.base.diagnostic import Fix, Severity, plain
-from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput, WrongUsage
 from mrlab_ros.core.base.foreign_text import for_shell
 
 if TYPE_CHECKING:
@@ -310,7 +311,13 @@ def import_robot(
     from mrlab_ros.adapters.robots.importing.robot import import_robot as taken_in
     from mrlab_ros.adapters.robots.importing.source import find_description
     from mrlab_ros.adapters.robots.sheet import checked_format
+    from mrlab_ros.core.base.checks import Number, between, checked
 
+    checked("--speed", speed, Number(between(0.0, 1e3)))
+    checked("--force", force, Number(between(0.1, 1e5), "N"))
+    of_arms = [name for name, on in (("--tip", tip), ("--srdf", srdf), ("--sheet", sheet)) if on]
+    if as_tool and of_arms:
+        raise WrongUsage(AS_TOOL_WITHOUT(options=of_arms))
     if sheet is not None:
         checked_format(sheet)
     path = find_description(source[0])

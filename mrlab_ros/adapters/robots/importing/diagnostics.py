@@ -159,3 +159,11 @@ HAND_MIMICS = Code(
     "expected one that does not mimic another.",
     meaning="Joints of a hand follow each other in a circle, or one that is not there.",
 )
+HAND_BACKWARDS = Code(
+    "hand_backwards",
+    "The hand closes {behind:length} behind '{link}', and so inside the robot that carries it.",
+    "Give it a root link whose z points out of the flange: one more, with a fixed joint to "
+    "'{link}'.",
+    severity=Severity.WARNING,
+    meaning="The z of a hand's root link points away from its fingers.",
+)

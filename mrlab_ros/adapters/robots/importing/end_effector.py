@@ -23,7 +23,11 @@ from mrlab_ros.adapters.robots.importing.arm_and_hand import (
     middles_of,
     palm_and_ends,
 )
-from mrlab_ros.adapters.robots.importing.diagnostics import BAD_ROBOT_ID, ROBOT_ID_TAKEN
+from mrlab_ros.adapters.robots.importing.diagnostics import (
+    BAD_ROBOT_ID,
+    HAND_BACKWARDS,
+    ROBOT_ID_TAKEN,
+)
 from mrlab_ros.adapters.robots.importing.robot import (
     ID,
     Face,
@@ -104,7 +108,9 @@ def import_end_effector(
         closing = fingers(joints, middles, source.name) if hand else ()
         turn_fingers(root, closing)
         stated = _drive(root, closing, speed, force)
-        _add_tcp(root, closing, middles, tool_id, resolve)
+        reach = _add_tcp(root, closing, middles, tool_id, resolve)
+        if reach < 0:
+            found = (*found, HAND_BACKWARDS(link=joints[0].parent, behind=-reach))
         found = (*still, *found, *checks.check_parts(root, source.name))
         if checks.errors(found):
             return ImportedTool(found)
@@ -172,13 +178,11 @@ def _add_tcp(
     middles: Mapping[str, Array],
     tool_id: str,
     resolve: checks.Resolve,
-) -> None:
+) -> float:
     """Add the frame tcp: at one that is named so, else amid the ends of the fingers half closed,
-    else at the far end."""
+    else at the far end. Return how far in front of the root it is, m."""
     links = [str(link.get("name")) for link in root.iterfind("link")]
     name = f"{tool_id}_{TCP}"
-    if name in links:
-        return
     joints = _parents_first(root, tool_id)
     base = joints[0].parent if joints else links[0]
     moved = {joint.child for joint in joints if joint.moves}
@@ -198,8 +202,11 @@ def _add_tcp(
             for _, mesh, pose in (*solid.meshes(), *seen.meshes())
         ]
         at[2] = max(tops, default=0.0)
+    if name in links:
+        return float(at[2])
     ET.SubElement(root, "link", name=name)
     joint = ET.SubElement(root, "joint", name=f"{base}-{TCP}", type="fixed")
     ET.SubElement(joint, "parent", link=base)
     ET.SubElement(joint, "child", link=name)
     ET.SubElement(joint, "origin", xyz=" ".join(repr(float(value)) for value in at), rpy="0 0 0")
+    return float(at[2])

@@ -179,6 +179,9 @@ def test_a_hand_alone_is_imported_by_a_command(tmp_path: Path, monkeypatch: pyte
     monkeypatch.setenv("MRLAB_ROBOTS", str(tmp_path))
     source = tmp_path / "pinch.urdf"
     source.write_text(PINCH)
+    for wrong in (("--force", "nan"), ("--speed", "inf"), ("--tip", "left"), ("--id", "../x")):
+        assert mrlab("robots", "import", source, "--as-tool", *wrong).returncode
+    assert not list(tmp_path.glob("end_effectors/*"))
     done = mrlab("robots", "import", source, "--as-tool", "--json")
     assert json.loads(done.stdout)["hand"] == ["pinch_slide", "pinch_follow"]
     assert RobotLibrary(ROOT / "robots").gripper("ur5e", "pinch") is kinds.FINGERS
@@ -200,6 +203,13 @@ def test_a_hand_alone_comes_in_as_an_end_effector_and_picks_a_cube(tmp_path: Pat
     assert library.gripper("gantry", "pinch") is kinds.FINGERS
     # The robot has a link of the same name as the hand.
     assert "pinch_base_link" in library.description("ur5e", "pinch")
+    # It was made to hang from its flange, which the root's z points out of.
+    turned = PINCH.replace("0 0.005 0.065", "0 0.005 -0.065").replace("0 -0.005 0.065", "0 0 -0.1")
+    (tmp_path / "hanging.urdf").write_text(turned)
+    found = import_end_effector(tmp_path / "hanging.urdf", "hanging", library, {}).findings
+    assert [one.values["behind"] for one in found if one.code == "hand_backwards"] == [
+        pytest.approx(0.0825, abs=1e-4)
+    ]
     with refused(ROBOT_ID_TAKEN, BadInput, robot="pinch"):
         import_end_effector(source, "pinch", library, {})
     cell = Cell(library)
