@@ -63,7 +63,9 @@ COVERED = """() => {
       if (from == null) continue
       const a = eyes.clone().setFromMatrixPosition(link.matrixWorld)
       const b = eyes.clone().setFromMatrixPosition(from.matrixWorld)
-      for (let i = 0; i < 8; i++) points.push(a.clone().lerp(b, i / 8))
+      // by length: frames without one are at the tool
+      const count = Math.round(a.distanceTo(b) / 0.02)
+      for (let i = 0; i < count; i++) points.push(a.clone().lerp(b, (i + 0.5) / count))
     }
     for (const group of panels) {
       const { parameters } = group.children[0]?.geometry ?? {}

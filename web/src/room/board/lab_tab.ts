@@ -130,9 +130,9 @@ export function labTab(ports: TabPorts, follower: LabFollower, stats: Stats): Ta
         const replay = () => {
           order(ports, 'recorder/replay', replayType, { bag, rate: 1, start: 0, loop: false })
         }
-        pen.button(`replay ${i}`, RIGHT, at, COLUMN, `${w.replayed} ${bag}`, replay, {
-          small: true,
-        })
+        // those that have no name of their own differ by their time
+        const label = `▶ ${bag.replace(/^session_/, '')}`
+        pen.button(`replay ${i}`, RIGHT, at, COLUMN, label, replay, { small: true })
       })
     } else drawReplay(pen, y, doing === RecorderState.REPLAYING, stop)
   }
@@ -157,6 +157,12 @@ export function labTab(ports: TabPorts, follower: LabFollower, stats: Stats): Ta
     const share = replay.duration > 0 ? replay.position() / replay.duration : 0
     pen.box(RIGHT, track - 4, COLUMN, 8, PANEL_THEME.colours.hairline)
     pen.box(RIGHT, track - 4, Math.max(share * COLUMN, 8), 8, PANEL_THEME.colours.accent)
+    const { colours, states } = PANEL_THEME
+    const inks = { info: colours.second, warning: states.PAUSED, error: states.COLLISION_HALT }
+    for (const { time, severity } of replay.duration > 0 ? follower.stops.value : []) {
+      const at = RIGHT + (time / replay.duration) * COLUMN
+      pen.box(at - 2, track - 12, 4, 24, inks[severity])
+    }
     const time = `${fixed(replay.position(), 1)} / ${fixed(replay.duration, 1)} s`
     pen.text(RIGHT, track + 36, time, TEXT.small, COLUMN, 'ink', 600)
     const stops = [

@@ -114,7 +114,7 @@ export class PanelCheck {
     const look = { small: true, enabled: !unknown || commands }
     pen.button('check', x, TOP, CHECK_WIDTH, checkLabel(check, words), press, look)
     if (check === null) return
-    pen.box(x + 12, TOP + HIT + 4, CHECK_WIDTH - 24, LINE, checkColour(check))
+    pen.box(x + 12, TOP + HIT - LINE - 4, CHECK_WIDTH - 24, LINE, checkColour(check))
   }
 
   /** Draw the findings of the check; a finding leads to its instant. */

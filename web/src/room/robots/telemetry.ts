@@ -105,7 +105,7 @@ export class TelemetryPanel {
     const { angles, velocities, proxies } = w.plots.channels
     const heads = [angles, velocities, proxies]
     heads.forEach((head, i) => {
-      pen.text(COLUMNS[i] as number, 74, head, TEXT.small, 150, 'second', 400, 'right')
+      pen.text(COLUMNS[i] as number, 74, head, TEXT.small, 128, 'second', 400, 'right')
     })
     this.joints.forEach((joint, i) => {
       const colour = PANEL_THEME.joints[i % PANEL_THEME.joints.length] as string
