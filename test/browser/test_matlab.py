@@ -47,8 +47,7 @@ try, mrlab.compare(q, q, 0), catch problem, disp(problem.identifier), end
 other = {'robot', 'kuka_kr3_r540'};
 try, mrlab.play('ur5e_1', q, 100, other{:}), catch problem, disp(problem.identifier), end
 try, mrlab.live('gone.m', 100), catch problem, disp(problem.identifier), end
-lab = mrlab.connect();
-lab.url = 'http://127.0.0.1:1';
+lab = struct('url', 'http://127.0.0.1:1', 'token', 'none', 'ca', '', 'robot', '');
 try, mrlab.state(lab), catch problem, disp(problem.message(end - 2:end)), end
 """
 
