@@ -14,19 +14,6 @@ from solids import Array, Solid, block, disc, lathe
 
 from mrlab_ros.adapters.robots.packing.surfaces import Material
 
-# KUKA's colours by their RAL numbers: 2003, 9005, 9010. 9005 is drawn as bright as it looks in a
-# lit room: what the paint alone reflects diffusely shows no form on a screen.
-ORANGE = Material("orange", (0.965, 0.471, 0.157), 0.0, 0.42)
-BLACK = Material("black", (0.165, 0.167, 0.175), 0.0, 0.45)
-WHITE = Material("white", (0.93, 0.925, 0.915), 0.0, 0.38)
-GREY = Material("grey", (0.33, 0.335, 0.345), 0.0, 0.5)
-LIGHT_GREY = Material("light_grey", (0.74, 0.75, 0.76), 0.6, 0.38)
-STEEL = Material("steel", (0.66, 0.67, 0.69), 1.0, 0.32)
-RUBBER = Material("rubber", (0.045, 0.045, 0.05), 0.0, 0.8)
-UR_BLUE = Material("ur_blue", (0.49, 0.678, 0.8), 0.0, 0.4)
-UR_SILVER = Material("ur_silver", (0.76, 0.77, 0.78), 0.85, 0.36)
-UR_DARK = Material("ur_dark", (0.278, 0.278, 0.285), 0.2, 0.42)
-
 
 @dataclass(frozen=True, eq=False)
 class Part:

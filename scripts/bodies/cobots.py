@@ -5,7 +5,8 @@ Sizes: robots/<id>/robot.yaml names the descriptions they were measured on.
 
 from __future__ import annotations
 
-from body import RUBBER, UR_BLUE, UR_DARK, UR_SILVER, Body, bolts, cone, drum
+from body import Body, bolts, cone, drum
+from materials import RUBBER, UR_BLUE, UR_DARK, UR_SILVER
 from solids import Solid, disc, lathe
 
 

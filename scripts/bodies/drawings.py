@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from body import STEEL
+from materials import STEEL
 from PIL import Image, ImageDraw, ImageFont
 from solids import Array
 

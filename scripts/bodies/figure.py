@@ -16,9 +16,6 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 from solids import Array, Solid, rod, union
 
-from mrlab_ros.adapters.robots.packing.surfaces import Material
-
-SKIN = Material("figure", (0.36, 0.42, 0.5), 0.0, 0.75)
 STATURE, MEASURED = 1.8, 1.75  # m
 SQUARE = 2.3  # exponent of the sections: 2 is an ellipse
 

@@ -21,12 +21,15 @@ import cuts
 import glb
 import hulls
 import kuka
+import materials
 import measured
 import numpy as np
 import tools
 import yaml
-from body import BLACK, Body
-from figure import SKIN, figure
+from body import Body
+from facets import joined
+from figure import figure
+from materials import BLACK, SKIN
 from mesher import contour
 from solids import Array, Solid
 from urdf_writer import LinkFiles, urdf
@@ -51,6 +54,7 @@ BODIES: dict[str, Callable[[], Body]] = {
     "parallel_gripper": tools.parallel_gripper,
     "centric_gripper": tools.centric_gripper,
     "vacuum_cup": tools.vacuum_cup,
+    "holding_magnet": tools.holding_magnet,
 }
 
 
@@ -133,7 +137,7 @@ def described(body: Body, poses: dict[str, Array], budget: float) -> dict[str, S
                 shape.shells.append((part.solid, mesh.vertices[mesh.faces]))
                 group = groups.setdefault(part.material.name, (part.material, []))
                 group[1].append(_placed(small, shape.pose))
-        shape.pieces.extend((material, _joined(meshes)) for material, meshes in groups.values())
+        shape.pieces.extend((material, joined(meshes)) for material, meshes in groups.values())
         shapes[link] = shape
     return shapes
 
@@ -210,13 +214,11 @@ def make(place: Path, source: str, target: str, out: Path) -> None:
     print(f"{name}: {triangles} triangles, {size / 1e3:.0f} kB, {count} hulls")
 
 
-def _joined(meshes: list[Mesh]) -> Mesh:
-    offsets = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
-    return Mesh(
-        np.concatenate([mesh.vertices for mesh in meshes]),
-        np.concatenate([mesh.faces + at for mesh, at in zip(meshes, offsets, strict=False)]),
-        np.concatenate([mesh.normals for mesh in meshes]),
-    )
+def paint(name: str, out: Path) -> None:
+    """Give the present meshes of a model the materials of the table; their surfaces stay."""
+    known = {each.name: each for each in vars(materials).values() if isinstance(each, Material)}
+    for file in sorted(out.glob(f"**/{name}/meshes/*.glb")):
+        glb.write(file, [(known[material.name], mesh) for material, mesh in glb.read(file)])
 
 
 def main() -> None:
@@ -224,6 +226,11 @@ def main() -> None:
     parser = argparse.ArgumentParser(description="Generate the bodies of robots.")
     parser.add_argument("ids", nargs="*", metavar="ID", help="models, or figure; none: all")
     parser.add_argument("--out", type=Path, default=ROBOTS, help="the library to write to")
+    parser.add_argument(
+        "--paint",
+        action="store_true",
+        help="only take the materials anew",
+    )
     chosen = parser.parse_args()
     known = [*kuka.ROBOTS, *BODIES, FIGURE]
     unknown = sorted(set(chosen.ids) - set(known))
@@ -234,6 +241,8 @@ def main() -> None:
         if name == FIGURE:
             person = creased(decimated(contour(figure(), 0.014), 3000))
             glb.write(chosen.out / f"{FIGURE}.glb", [(SKIN, person)])
+        elif chosen.paint:
+            paint(name, chosen.out)
         elif (ROBOTS / name).is_dir():
             make(Path(name), "robot.yaml", "robot.urdf", chosen.out)
         else:

@@ -38,7 +38,11 @@ def read(path: Path) -> list[tuple[Material, Mesh]]:
         finish = made["pbrMetallicRoughness"]
         red, green, blue = (round(srgb(value), 4) for value in finish["baseColorFactor"][:3])
         material = Material(
-            made["name"], (red, green, blue), finish["metallicFactor"], finish["roughnessFactor"]
+            made["name"],
+            (red, green, blue),
+            finish["metallicFactor"],
+            finish["roughnessFactor"],
+            finish["baseColorFactor"][3],
         )
         mesh = Mesh(
             values(primitive["attributes"]["POSITION"]).astype(np.float64),
@@ -92,10 +96,14 @@ def write(path: Path, pieces: list[tuple[Material, Mesh]]) -> None:
             {
                 "name": material.name,
                 "pbrMetallicRoughness": {
-                    "baseColorFactor": [round(linear(c), 5) for c in material.colour] + [1.0],
+                    "baseColorFactor": [
+                        *(round(linear(c), 5) for c in material.colour),
+                        material.alpha,
+                    ],
                     "metallicFactor": material.metalness,
                     "roughnessFactor": material.roughness,
                 },
+                **({"alphaMode": "BLEND"} if material.alpha < 1 else {}),
             }
         )
     document = {

@@ -6,7 +6,8 @@ scripts/bodies/sections/<id>.json where the outlines do.
 
 from __future__ import annotations
 
-from body import BLACK, GREY, LIGHT_GREY, ORANGE, RUBBER, STEEL, WHITE, Part, bolts
+from body import Part, bolts
+from materials import BLACK, GREY, LIGHT_GREY, ORANGE, RUBBER, STEEL, WHITE
 from measured import Link, Region
 
 from mrlab_ros.adapters.robots.packing.surfaces import Material

@@ -24,6 +24,7 @@ from castings import Castings
 from details import Surface
 from markings import AFAR, Marking, marked, markings
 from relief import clamped, grooved, lined, screwed
+from rings import collars
 
 from mrlab_ros.adapters.robots.packing import packed
 from mrlab_ros.adapters.robots.packing.atlas import Drawing
@@ -57,6 +58,7 @@ class Dress:
         self._surfaces = {link: Surface(own) for link, own in pieces.items()}
         self._entries = details.table(figures["id"])
         self._marks = markings(figures, self._surfaces)
+        self._collars = collars(figures, pieces, self.around)
 
     def drawings(self, afar: bool = False) -> list[Drawing]:
         """Return what the atlas has beside colours; afar: for the far level."""
@@ -71,6 +73,7 @@ class Dress:
             *lined(seams, surface, around),
             *screwed(self._own("screws", link), surface, around),
             *clamped(self._own("clamps", link), surface, around),
+            *self._collars[link],
         ]
 
     def far(self, link: str, body: list[Piece]) -> list[Piece]:

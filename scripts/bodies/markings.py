@@ -25,7 +25,7 @@ from mrlab_ros.core.base.geometry import transform_from_xyz_rpy
 GRID = 7  # rays across a marking, each way, that find its plane
 TURNED = 0.35  # cosine; faces turned further away carry no marking
 PIXELS = {"name": 52, "axis": 88, "plate": 136, "pinch": 48}  # heights in the atlas
-WHOLE = 0.93  # of a marking that must lie on its link
+WHOLE = 0.9  # of a marking that must lie on its link
 AFAR = ("name",)  # kinds that are drawn far off, too
 
 

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from body import BLACK, STEEL
 from cutting import cut
 from details import MM, Surface, frame_of, unit
+from materials import BLACK, STEEL
 from solids import Array
 
 from mrlab_ros.adapters.robots.packing.occlusion import Around
@@ -30,11 +30,15 @@ MATERIALS: dict[str, Material] = {"steel": STEEL, "black": BLACK}
 
 
 def grooved(pieces: Sequence[Piece], seams: Sequence[dict[str, Any]]) -> list[Piece]:
-    """Return the pieces of a link with grooves cut along the seams that go round it."""
+    """Return the pieces of a link with grooves cut along the seams that go round it.
+
+    A seam with `count` is there so often, `pitch` mm apart: the fins of a motor.
+    """
     result = list(pieces)
     for seam in seams:
-        if "at" in seam:
-            result = [_grooved(piece, seam) for piece in result]
+        for number in range(seam.get("count", 1) if "at" in seam else 0):
+            place = {**seam, "at": seam["at"] + number * seam.get("pitch", 0.0)}
+            result = [_grooved(piece, place) for piece in result]
     return result
 
 

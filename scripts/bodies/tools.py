@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from body import BLACK, GREY, LIGHT_GREY, RUBBER, STEEL, Body, bolts, drum, slab
+from body import Body, bolts, drum, slab
+from materials import BLACK, COPPER, GREY, LIGHT_GREY, RUBBER, STEEL
 from solids import block, disc, lathe, plate, ring
 
 
@@ -89,4 +90,21 @@ def vacuum_cup() -> Body:
         0.0008,
     )
     body.add("vacuum_base_link", RUBBER, bellows)
+    return body
+
+
+def holding_magnet() -> Body:
+    """A flat electromagnet: a steel pot with its winding cast in around the core, on a neck."""
+    body = Body()
+    link = "magnet_base_link"
+    foot = drum("z", 0.0, 0.012, 0.0375, 0.002)
+    neck = drum("z", 0.0, 0.03, 0.017, 0.002)
+    body.add(link, LIGHT_GREY, foot.blend(neck, 0.006))
+    pot = drum("z", 0.028, 0.06, 0.032, 0.0025)
+    pot = pot - (drum("z", 0.0595, 0.07, 0.026, 0.0) - drum("z", 0.0, 0.1, 0.014, 0.0))
+    body.add(link, STEEL, pot.cut(ring("z", 0.032, 0.0018).moved(0, 0, 0.036), 0.001))
+    body.add(link, COPPER, drum("z", 0.057, 0.0598, 0.026, 0.0003))
+    body.add(link, BLACK, block((0.016, 0.018, 0.016), 0.003).moved(0.033, 0, 0.044))
+    body.add(link, STEEL, disc("x", 0.006, 0.014, 0.001).moved(0.046, 0, 0.044))
+    body.add(link, STEEL, bolts("z", 0.0125, 0.03, 4, 0.003))
     return body

@@ -22,7 +22,7 @@ import outlines
 import pytest
 import solids
 import trimesh
-from body import BLACK, ORANGE
+from materials import BLACK, ORANGE
 
 from mrlab_ros.adapters.robots import hulls as fits
 from mrlab_ros.adapters.robots.packing import surfaces

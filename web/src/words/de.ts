@@ -5,6 +5,7 @@ export const words: Words = {
   names: {
     local: 'lokal',
     centric_gripper: 'Dreifinger\u00adgreifer',
+    holding_magnet: 'Haft\u00admagnet',
     parallel_gripper: 'Parallel\u00adgreifer',
     vacuum_cup: 'Vakuum\u00adsauger',
     cube: 'Würfel',
@@ -26,7 +27,9 @@ export const words: Words = {
     peg: 'Zapfen',
     hole: 'Lochplatte',
     bin: 'Behälter',
+    conveyor: 'Förderband',
     crate: 'Kiste',
+    fixture: 'Vorrichtung',
     pallet: 'Palette',
     pedestal: 'Podest',
     table: 'Tisch',

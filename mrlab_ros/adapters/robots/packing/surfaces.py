@@ -19,12 +19,13 @@ APART = 5.0  # m, between surfaces that are thinned together
 
 @dataclass(frozen=True)
 class Material:
-    """A name and the glTF metallic-roughness values; colour is sRGB, 0 to 1."""
+    """A name and the glTF metallic-roughness values; colour is sRGB, 0 to 1; alpha 1: opaque."""
 
     name: str
     colour: tuple[float, float, float]
     metalness: float
     roughness: float
+    alpha: float = 1.0
 
 
 @dataclass(frozen=True, eq=False)

@@ -93,6 +93,7 @@ def test_how_an_end_effector_holds_is_stated_in_its_file() -> None:
     held = {tool: LIBRARY.gripper("ur5e", tool).name for tool in LIBRARY.end_effectors()}
     assert held == {
         "centric_gripper": "fingers",
+        "holding_magnet": "magnet",
         "parallel_gripper": "fingers",
         "vacuum_cup": "cup",
     }

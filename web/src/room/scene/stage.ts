@@ -10,16 +10,15 @@ import {
   type Object3D,
   PCFShadowMap,
   PerspectiveCamera,
-  PMREMGenerator,
   Scene,
   ShadowMaterial,
   Vector3,
   WebGLRenderer,
 } from 'three'
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js'
-import { RoomEnvironment } from 'three/examples/jsm/environments/RoomEnvironment.js'
 import { XREstimatedLight } from 'three/examples/jsm/webxr/XREstimatedLight.js'
 import { Floor } from '../../scene/stage/floor'
+import { hallLight } from '../../scene/stage/hall'
 import type { SceneHost } from '../../scene/stage/renderer'
 import { NoWebGL } from '../../scene/stage/renderer'
 import { ShadowFit } from '../../scene/stage/shadow_fit'
@@ -61,7 +60,7 @@ export class RoomStage implements SceneHost {
   readonly canvas = document.createElement('canvas')
   theme: SceneTheme = themeNow()
   private readonly floor = new Floor()
-  private readonly sun = new DirectionalLight(0xffffff, 1.6)
+  private readonly sun = new DirectionalLight(0xffffff, 2.2)
   readonly shadow = new ShadowFit(this.sun, SUN)
   private readonly shadowFloor = new Mesh(
     new CircleGeometry(6, 48),
@@ -249,12 +248,8 @@ export class RoomStage implements SceneHost {
   }
 
   private lightUp(): void {
-    const generator = new PMREMGenerator(this.renderer)
-    const room = new RoomEnvironment()
-    this.scene.environment = generator.fromScene(room, 0.04).texture
-    this.scene.environmentIntensity = 0.55
-    room.dispose()
-    generator.dispose()
+    this.scene.environment = hallLight(this.renderer)
+    this.scene.environmentIntensity = 0.62
     const { shadow } = this.sun
     this.sun.castShadow = true
     shadow.mapSize.set(1024, 1024)

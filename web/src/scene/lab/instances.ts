@@ -9,6 +9,7 @@ import {
   type Object3D,
   type Vector3,
 } from 'three'
+import { geometryOf, partsBelow } from '../robot/robot_body'
 
 const FIRST = 16 // instances for which there is room at first
 
@@ -153,14 +154,20 @@ function same(elements: readonly number[], drawn: Float32Array, from: number): b
   return true
 }
 
-/** Return the meshes below an object as the parts of a kind; null: one of them cannot be. */
-export function partsOf(object: Object3D): KindPart[] | null {
-  object.updateWorldMatrix(true, true)
+/** Return what is below an object as the parts of a kind: its opaque meshes as one, which is drawn
+ * with `own`, made by bodyMaterial; null: one of them cannot be. */
+export function partsOf(object: Object3D, own: Material): KindPart[] | null {
+  const opaque = partsBelow(object, () => object)
+  const merged = new Set(opaque.map(({ mesh }) => mesh))
   const inverse = object.matrixWorld.clone().invert()
   const parts: KindPart[] = []
+  if (opaque.length > 0) {
+    const geometry = geometryOf(opaque, [object], null)
+    parts.push({ geometry, material: own, local: new Matrix4() })
+  }
   let fits = true
   object.traverse((node) => {
-    if (!(node instanceof Mesh)) return
+    if (!(node instanceof Mesh) || merged.has(node)) return
     if (Array.isArray(node.material)) fits = false
     else {
       const local = inverse.clone().multiply(node.matrixWorld)

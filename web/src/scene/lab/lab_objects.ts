@@ -1,5 +1,6 @@
 import { Group, Matrix4, type Object3D, Quaternion, Vector3 } from 'three'
 import type { MeshSource } from '../robot/meshes'
+import { bodyMaterial } from '../robot/robot_body'
 import { type Pose, place } from '../stage/pose'
 import type { SceneHost } from '../stage/renderer'
 import { type Instance, Instances, partsOf } from './instances'
@@ -31,6 +32,8 @@ export class LabObjects {
   private readonly instances: Instances
   /** Geometries and materials of primitives, disposed of at the end. */
   private readonly made: { dispose(): void }[] = []
+  /** Of meshes that have their colours in their vertices. */
+  private readonly own = bodyMaterial(null)
   private readonly scratch = new Matrix4()
   private readonly scale = new Vector3()
   private readonly unit = new Vector3(1, 1, 1)
@@ -97,6 +100,7 @@ export class LabObjects {
     this.known.clear()
     this.instances.dispose()
     for (const each of this.made) each.dispose()
+    this.own.dispose()
   }
 
   private add(object: ShownObject): Entry {
@@ -189,12 +193,13 @@ export class LabObjects {
 
   private drawMesh(entry: Entry, uri: string, loaded: Object3D): void {
     if (!this.instances.has(uri)) {
-      const parts = partsOf(loaded)
+      const parts = partsOf(loaded, this.own)
       if (parts === null) {
         // A mesh with several materials is drawn alone.
         entry.root.add(loaded)
         return
       }
+      this.made.push(...parts.flatMap((part) => (part.material === this.own ? part.geometry : [])))
       this.instances.define(uri, parts)
     }
     entry.instance = { kind: uri, frame: entry.root, scale: this.unit, colour: null }

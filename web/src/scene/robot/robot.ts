@@ -6,6 +6,7 @@ import {
   type Material,
   Matrix4,
   Mesh,
+  MeshPhongMaterial,
   Object3D,
   Quaternion,
   Vector3,
@@ -117,9 +118,15 @@ export class SceneRobot {
     const last = this.root.joints[jointNames[jointNames.length - 1] ?? '']
     this.tip = this.root.links.tcp ?? this.root.links.tool0 ?? last ?? this.root
     this.tool = this.root.links.tool0 ?? this.tip
+    const painted = new Set<Material>()
     this.root.traverse((node) => {
-      if (node instanceof Mesh) this.adopt(node)
+      if (!(node instanceof Mesh)) return
+      painted.add(node.material as Material)
+      this.adopt(node)
     })
+    // urdf-loader takes the numbers of a description, which are sRGB, for light
+    for (const each of painted)
+      if (each instanceof MeshPhongMaterial) each.color.convertSRGBToLinear()
     this.ready = this.load(wanted, levels, meshes).then(() => this.merge(levels, meshes))
   }
 

@@ -250,7 +250,8 @@ function fits({ material, geometry }: Mesh): boolean {
   return geometry.getAttribute('position') !== undefined
 }
 
-function geometryOf(
+/** Return the parts as one geometry: colour and finish in the vertices, `links` as bones. */
+export function geometryOf(
   parts: readonly Part[],
   links: readonly Object3D[],
   atlas: Texture | null,

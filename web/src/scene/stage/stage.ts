@@ -8,7 +8,6 @@ import {
   type Object3D,
   PCFShadowMap,
   PerspectiveCamera,
-  PMREMGenerator,
   Quaternion,
   type Raycaster,
   Scene,
@@ -18,8 +17,8 @@ import {
   type WebGLRenderer,
 } from 'three'
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js'
-import { RoomEnvironment } from 'three/examples/jsm/environments/RoomEnvironment.js'
 import { Floor } from './floor'
+import { hallLight } from './hall'
 import { drawsInSoftware, matt, Pace, rendererOn } from './renderer'
 import { ShadowFit } from './shadow_fit'
 import { onTheme, reducedMotion, type SceneTheme, themeNow } from './theme'
@@ -60,7 +59,7 @@ export class Stage {
   private readonly pace: Pace
   private readonly controls: OrbitControls
   private readonly floor = new Floor()
-  private readonly sun = new DirectionalLight(0xffffff, 1.7)
+  private readonly sun = new DirectionalLight(0xffffff, 2.3)
   readonly shadow = new ShadowFit(this.sun, LIGHT)
   private readonly listeners = new Set<FrameListener>()
   private readonly themed = new Set<(theme: SceneTheme) => void>()
@@ -394,11 +393,7 @@ export class Stage {
       fill.position.set(-LIGHT.x, LIGHT.y * 0.35, -LIGHT.z)
       this.scene.add(new HemisphereLight(0xffffff, 0x9aa4b0, 1.7), fill)
     } else {
-      const generator = new PMREMGenerator(this.renderer)
-      const room = new RoomEnvironment()
-      this.scene.environment = generator.fromScene(room, 0.04).texture
-      room.dispose()
-      generator.dispose()
+      this.scene.environment = hallLight(this.renderer)
       this.sun.shadow.mapSize.set(2048, 2048)
       this.scene.add(new HemisphereLight(0xffffff, 0x8895a5, 0.2))
     }
@@ -409,7 +404,7 @@ export class Stage {
   private setTheme(theme: SceneTheme): void {
     this.theme = theme
     this.floor.setTheme(theme)
-    this.scene.environmentIntensity = theme.name === 'dark' ? 0.45 : 0.55
+    this.scene.environmentIntensity = theme.name === 'dark' ? 0.5 : 0.62
     for (const listener of this.themed) listener(theme)
     this.invalidate()
   }
