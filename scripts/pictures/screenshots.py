@@ -3,6 +3,7 @@
 
 python scripts/pictures/screenshots.py             all
 python scripts/pictures/screenshots.py upload lab  these pages
+python scripts/pictures/screenshots.py clip        the clip of the first tutorial, twice
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -41,6 +42,10 @@ FLAGS = ("--no-sandbox", "--enable-unsafe-swiftshader", "--use-angle=swiftshader
 SIZES = {"desktop": (1280, 860, 1.0), "phone": (390, 844, 1.5)}
 THEMES = ("light", "dark")
 QUALITY = 82
+# Of a clip: the window, and the pixels of the file.
+CLIP_SIZE = {"width": 1100, "height": 620}
+CLIP_PIXELS = (880, 496)
+CLIP_QUALITY = 60
 PASSWORD = "long enough to be one"
 # Software draws slowly on few cores, ms.
 PATIENCE_MS = 90_000
@@ -116,6 +121,35 @@ def marked(page: Page, stage: Stage) -> None:
         words = ("class", handed_in, "--rubric", rubric, "--out", stage.files / "marked")
         subprocess.run([sys.executable, "-m", "mrlab_ros.cli", *words], check=True)
     page.goto((stage.files / "marked" / "index.html").as_uri())
+
+
+def first_motion(page: Page, stage: Stage, steps: int = 40) -> Iterator[int]:
+    """The first tutorial: a file in degrees, the press that mends it, its motion.
+
+    Yields for how long each picture stands, ms; steps: pictures of the motion.
+    """
+    q = np.tile([0.0, -90.0, 90.0, -90.0, -90.0, 0.0], (401, 1))
+    q[:, 0] = 30 * (1 - np.cos(2 * np.pi * np.arange(401) / 400))
+    file = stage.files / "my_motion.mat"
+    savemat(file, {"q": q, "fs": 100.0})
+    start(page, stage)
+    yield 1500
+    page.locator("input[type=file]").set_input_files(file)
+    finding = page.locator(".finding[data-code=degrees]")
+    finding.wait_for()
+    UploadPage(page).wait_for_robot()
+    yield 2500
+    fix = finding.locator("button:has(svg)").first
+    fix.focus()
+    yield 700
+    fix.click()
+    finding.wait_for(state="detached")
+    UploadPage(page).wait_for_robot()
+    yield 1200
+    slider = page.locator("input[type=range]").first
+    for time_s in np.linspace(0, 4, steps):
+        slider.fill(f"{time_s:.2f}")
+        yield 100
 
 
 def trajectories(page: Page, stage: Stage) -> None:
@@ -200,6 +234,25 @@ def picture(page: Page) -> Image.Image:
     return Image.open(io.BytesIO(page.screenshot(timeout=PATIENCE_MS))).convert("RGB")
 
 
+def take_clip(browser: Browser, stage: Stage, cookies: Path) -> None:
+    """Write the clip of the first tutorial in the languages that it has."""
+    for locale in ("en-GB", "de-DE"):
+        context = browser.new_context(
+            viewport=CLIP_SIZE, locale=locale, reduced_motion="reduce", storage_state=cookies
+        )
+        page = context.new_page()
+        page.set_default_timeout(PATIENCE_MS)
+        lasts, taken = [], []
+        for stands_ms in first_motion(page, stage):
+            lasts.append(stands_ms)
+            taken.append(picture(page).resize(CLIP_PIXELS, Image.Resampling.LANCZOS))
+        file = IMAGES / f"first_motion-{locale[:2]}.webp"
+        rest = {"append_images": taken[1:], "duration": lasts, "loop": 0}
+        taken[0].save(file, save_all=True, quality=CLIP_QUALITY, method=6, **rest)
+        print(file.relative_to(ROOT), f"{file.stat().st_size / 1000:.0f} kB", flush=True)
+        context.close()
+
+
 def take(browsers: tuple[Browser, Browser], stage: Stage, cookies: Path, names: list[str]) -> None:
     """Write the pictures of the pages `names`; browsers: for pages without and with 3D."""
     IMAGES.mkdir(parents=True, exist_ok=True)
@@ -228,8 +281,8 @@ def take(browsers: tuple[Browser, Browser], stage: Stage, cookies: Path, names: 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("pages", nargs="*", metavar="page", help=", ".join(PAGES))
-    names = parser.parse_args().pages or list(PAGES)
+    parser.add_argument("pages", nargs="*", metavar="page", help=", ".join([*PAGES, "clip"]))
+    names = parser.parse_args().pages or [*PAGES, "clip"]
     expect.set_options(timeout=PATIENCE_MS)
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
         place = Path(folder)
@@ -248,7 +301,9 @@ def main() -> None:
             cookies = place / "cookies.json"
             context.storage_state(path=cookies)
             context.close()
-            take((plain, drawing), stage, cookies, names)
+            take((plain, drawing), stage, cookies, [name for name in names if name != "clip"])
+            if "clip" in names:
+                take_clip(drawing, stage, cookies)
         plain.close()
         drawing.close()
 
