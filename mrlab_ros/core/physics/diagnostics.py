@@ -112,6 +112,14 @@ OPENED_UNSEEN = Code(
     meaning="The physics stood still or was started again, and a gripper opened meanwhile; what "
     "it held lies where it was opened.",
 )
+CLOSED_UNSEEN = Code(
+    "closed_unseen",
+    "{robot} was told to close while the physics did not run, and closes where it is now.",
+    "Play it from before it closes.",
+    WARNING,
+    meaning="The physics stood still, and a gripper closed meanwhile; what it was to take lies "
+    "where it was.",
+)
 
 # why the lab itself removed an object
 

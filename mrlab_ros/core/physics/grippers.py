@@ -19,6 +19,7 @@ from mrlab_ros.core.base.geometry import (
     subtract,
 )
 from mrlab_ros.core.physics.diagnostics import (
+    CLOSED_UNSEEN,
     FIXED_OBJECT,
     HOLDS_ALREADY,
     HOLDS_NOTHING,
@@ -162,7 +163,8 @@ class Grippers:
         thing, in_hand = self._world_state.objects.get(robot.held), robot.in_hand
         opening = robot.opening(now_ns)
         if closed or thing is None or in_hand is None:
-            self._set_closed(robot, closed, now_ns)
+            unseen = CLOSED_UNSEEN(robot=robot.name) if closed else None
+            self._set_closed(robot, closed, now_ns, unseen)
             return
         said = OPENED_UNSEEN(object=thing.name, robot=robot.name)
         self._set_closed(robot, closed, now_ns, said)

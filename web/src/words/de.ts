@@ -1506,6 +1506,10 @@ export const diagnostics: Templates = {
     'Uhren: {offset:time} zwischen dem Gateway und diesem Rechner; erwartet: höchstens {limit:time}',
     'Schalte auf beiden die Zeitsynchronisation ein.',
   ],
+  closed_unseen: [
+    '{robot} sollte schließen, während die Physik nicht lief, und schließt, wo es jetzt ist.',
+    'Spiel die Bewegung ab einer Stelle ab, bevor es schließt.',
+  ],
   coarse_times: [
     'einfache Genauigkeit (single) kennt solche Zeiten nur in Schritten von {value:number}; sichere sie als double',
   ],

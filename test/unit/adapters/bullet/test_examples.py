@@ -7,7 +7,7 @@ import pytest
 from physics_stage import HANDOVER, LIBRARY, SCENES, Stage
 
 from mrlab_ros.core.base.clock import SECOND
-from mrlab_ros.core.physics.diagnostics import OPENED_UNSEEN
+from mrlab_ros.core.physics.diagnostics import CLOSED_UNSEEN, OPENED_UNSEEN
 from mrlab_ros.core.physics.grasp import kinds
 from mrlab_ros.core.physics.grasp.states import Grasp
 from mrlab_ros.core.physics.world_state import GraspChanged
@@ -69,6 +69,18 @@ def test_what_was_to_be_released_while_time_was_skipped_lies_where_it_was_releas
     (said,) = [e.reason for e in stage.events if isinstance(e, GraspChanged)]
     assert said == OPENED_UNSEEN(object="cube_1", robot="ur5e_1")
     assert not stage.hits()
+
+
+def test_what_was_to_be_taken_while_time_was_skipped_stays_where_it_is(stages):
+    stage = stages("pick_and_place", {"ur5e_1": "pick_and_place_ur5e"})
+    start = stage.place("cube_1")
+    stage.play(0.8)
+    stage.freeze(3.8)
+    stage.play(5.0)
+    assert stage.grasps("ur5e_1") == [Grasp.OPEN, Grasp.CLOSING, Grasp.EMPTY]
+    said = [e.reason for e in stage.events if isinstance(e, GraspChanged)]
+    assert said[1:] == [CLOSED_UNSEEN(robot="ur5e_1")] * 2
+    assert stage.place("cube_1") == pytest.approx(start, abs=0.001)
 
 
 def test_what_is_still_to_be_held_after_time_was_skipped_stays_in_the_hand(stages):
