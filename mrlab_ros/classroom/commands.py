@@ -13,7 +13,7 @@ from typing import Annotated
 
 import typer
 
-from mrlab_ros.classroom.diagnostics import OPTION_OUT_OF_RANGE
+from mrlab_ros.classroom.diagnostics import MATCH_NOT_READ, OPTION_OUT_OF_RANGE
 from mrlab_ros.commands.convert.options import with_options
 from mrlab_ros.commands.diagnostics import PAGE_NAME
 from mrlab_ros.commands.output import say_problem
@@ -60,6 +60,16 @@ def grade(
             "gradescope or folder."
         ),
     ] = "",
+    match: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="A file or student that could not be matched, and who it is; repeatable.",
+            metavar="WHAT=WHO",
+        ),
+    ] = None,
+    accept: Annotated[
+        bool, typer.Option("--accept", help="Take all proposals for what could not be matched.")
+    ] = False,
     pages: Annotated[
         bool, typer.Option("--pages/--no-pages", help="A page with 3D for each student.")
     ] = True,
@@ -78,6 +88,7 @@ def grade(
     from mrlab_ros.classroom import run
     from mrlab_ros.classroom.mark import read_rubric
     from mrlab_ros.classroom.setup import Bounds, MiB
+    from mrlab_ros.classroom.who import Decisions
 
     try:
         for option, value, least, most in (
@@ -89,6 +100,10 @@ def grade(
                 raise Misuse(
                     OPTION_OUT_OF_RANGE(option=option, value=value, least=least, most=most)
                 )
+        matches = [each.rpartition("=") for each in match or ()]
+        for each in matches:
+            if not each[1]:
+                raise Misuse(MATCH_NOT_READ(found=each[2]))
         read = read_rubric(rubric)
         setup = run.of_rubric(
             read,
@@ -100,6 +115,7 @@ def grade(
         request = run.Request(
             source, setup, out or source.with_name(f"{source.stem}-marked"), jobs, backend,
             scheduler, pseudonyms, as_json, fresh, csv_template, run.form_of(form),
+            decisions=Decisions(tuple((what, who) for what, _, who in matches), accept),
         )  # fmt: skip
         code = run.run(request)
     except LabError as error:

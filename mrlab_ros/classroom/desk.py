@@ -37,8 +37,17 @@ from mrlab_ros.classroom.mark import read_rubric
 from mrlab_ros.classroom.marks import changes, gradebook
 from mrlab_ros.classroom.marks.diagnostics import NOTHING_TO_UNDO
 from mrlab_ros.classroom.marks.exports import CANVAS_FORM, MOODLE_FORM
-from mrlab_ros.classroom.marks.journal import ADOPT, RELEASE, TAKE_BACK, Entry, State, refusal
+from mrlab_ros.classroom.marks.journal import (
+    ADOPT,
+    ASSIGN,
+    RELEASE,
+    TAKE_BACK,
+    Entry,
+    State,
+    refusal,
+)
 from mrlab_ros.classroom.shown import ClassFolder
+from mrlab_ros.classroom.who import sheet_of
 from mrlab_ros.core.base.diagnostic import Diagnostic, from_plain
 from mrlab_ros.core.base.errors import BadInput, LabError
 
@@ -119,7 +128,14 @@ class Desk:
         async with taken(body, folder.parent, name, most) as path:
             if name == job.RUBRIC:
                 await asyncio.to_thread(_named_beside, path)
+            if name == job.SHEET:
+                await asyncio.to_thread(self._check_sheet, path)
             os.replace(path, folder / name)
+
+    def _check_sheet(self, path: Path) -> None:
+        """Raise BadInput where a file is no platform's table."""
+        rubric = self.folder / SOURCES / job.RUBRIC
+        sheet_of(path, read_rubric(rubric).name if rubric.exists() else "")
 
     # runs
 
@@ -205,7 +221,7 @@ class Desk:
                 raise BadInput(why)
             return [entry]
 
-        if entry.key:
+        if entry.key and entry.did != ASSIGN:  # a file may be of somebody who is not in the class
             student = self.graded.entry(entry.key)
             if entry.points is not None and (
                 out := changes.out_of_range(student, entry.test, entry.points)
@@ -262,6 +278,15 @@ class Desk:
                     ],
                 })  # fmt: skip
         return found
+
+    def unmatched(self) -> list[dict[str, Any]]:
+        """Return what a teacher has to decide about, as the last run left it. decided: it was
+        decided since."""
+        state = self.journal.state()
+        return [
+            each | {"decided": each["what"] in (state.owners | state.rows)}
+            for each in self.graded.document().get("unmatched", ())
+        ]
 
     def table(self, name: str) -> Path:
         """Return the file of a table; raises BadInput before the release."""

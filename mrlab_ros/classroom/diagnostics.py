@@ -5,6 +5,12 @@ from mrlab_ros.core.base.diagnostic import INFO, WARNING, Code
 OPTION_OUT_OF_RANGE = Code(
     "option_out_of_range",
     "--{option} is {value:number}; expected {least:number} to {most:number}.",
+    page=False,
+)
+MATCH_NOT_READ = Code(
+    "match_not_read",
+    "'{found}' matches nothing; expected WHAT=WHO, such as run.mat=Jane Doe.",
+    page=False,
 )
 NO_SUBMISSIONS = Code(
     "no_submissions",
@@ -30,20 +36,24 @@ STOPPED = Code(
     "Stopped with {done:integer} of {all:integer} checked; they are kept.",
     "Run the same command to go on.",
     INFO,
-)
-WORKSHEET_FAILED = Code(
-    "worksheet_failed", "{file} cannot be read or {out} written: {why:problem}."
+    page=False,
 )
 WORKSHEET_WRITTEN = Code(
-    "worksheet_written", "The worksheet with the grades is {file}.", severity=INFO
+    "worksheet_written",
+    "The worksheet with the grades is {file}.",
+    severity=INFO,
+    page=False,
 )
 KEY_TABLE_NOT_READ = Code(
     "key_table_not_read",
     "The key table {file} cannot be read ({why:problem}); without it the pseudonyms would change.",
     "Mend it, or move it away to get new ones.",
+    page=False,
 )
 KEY_TABLE_NOT_WRITTEN = Code(
-    "key_table_not_written", "The key table {file} cannot be written: {why:problem}."
+    "key_table_not_written",
+    "The key table {file} cannot be written: {why:problem}.",
+    page=False,
 )
 GRADER_NOT_STARTED = Code("grader_not_started", "The process that checks did not start.")
 NO_ROBOT_IN_RUBRIC = Code(
@@ -72,7 +82,11 @@ ROBOT_NOT_SAID = Code(
 
 
 # the export
-NO_EXPORT = Code("no_export", "There is no folder or archive {file}; check the path and the name.")
+NO_EXPORT = Code(
+    "no_export",
+    "There is no folder or archive {file}; check the path and the name.",
+    page=False,
+)
 NO_ZIP = Code(
     "no_zip",
     "{file} is no zip archive that can be read ({why:problem}); expected the export as the system "
@@ -153,27 +167,35 @@ NO_WORKSHEET_GIVEN = Code(
 )
 NOT_WRITABLE = Code("not_writable", "{file} cannot be written: {why:problem}.")
 # processes that check
-UNKNOWN_BACKEND = Code("unknown_backend", "The backend is '{backend}'; expected {known:either}.")
+UNKNOWN_BACKEND = Code(
+    "unknown_backend",
+    "The backend is '{backend}'; expected {known:either}.",
+    page=False,
+)
 SCHEDULER_NEEDS_CLUSTER = Code(
     "scheduler_needs_cluster",
     "A scheduler needs the backend dask or ray; loky uses this machine alone.",
+    page=False,
 )
 WORKERS_DIFFER = Code(
     "workers_differ",
     "Workers at {address} have another MR-Lab than this machine[: {workers:list}]"
     "[ ({why:problem})].",
     "Install the same version on all machines.",
+    page=False,
 )
 SCHEDULER_NOT_REACHED = Code(
     "scheduler_not_reached",
     "The dask scheduler {address} is not reached ({why:problem}).",
     "Start one.",
     commands=("dask scheduler",),
+    page=False,
 )
 BACKEND_NOT_INSTALLED = Code(
     "backend_not_installed",
     "The backend {backend} needs packages that are not installed ({missing}).",
     "Install them.",
+    page=False,
 )
 
 
@@ -216,4 +238,5 @@ NO_CLASS_FILE = Code(
     "no_class_file",
     "There is no {file} in {folder}.",
     "Grade the submissions of a class into a folder, and name that one.",
+    page=False,
 )

@@ -62,8 +62,9 @@ def class_document(graded: GradedClass) -> dict[str, Any]:
             ],
         },
         "left_out": [
-            {"file": file, "why": plain(why)} for file, why in graded.left_out[:MOST_LEFT_OUT]
+            {"file": each.path, "why": plain(each.why)} for each in graded.left_out[:MOST_LEFT_OUT]
         ],
+        "unmatched": [each.plain() for each in graded.unmatched],
         "left_out_count": len(graded.left_out),
     }
 

@@ -6,7 +6,9 @@ import json
 import os
 import re
 import secrets
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import orjson
@@ -15,7 +17,7 @@ from mrlab_ros.app.check.file import CELLS
 from mrlab_ros.app.convert import SUFFIXES
 from mrlab_ros.classroom.diagnostics import KEY_TABLE_NOT_READ, KEY_TABLE_NOT_WRITTEN
 from mrlab_ros.classroom.marks.exports import Roster, Submission
-from mrlab_ros.classroom.marks.result import pseudonymous
+from mrlab_ros.classroom.marks.result import named, pseudonymous
 from mrlab_ros.core.base.errors import BadInput
 
 
@@ -46,8 +48,19 @@ def _ending(name: str) -> str:
     )
 
 
-def of_roster(roster: Roster, out: Path) -> tuple[Roster, Path, dict[str, Submission]]:
-    """Return the roster without names, the file beside the class that says who is who, and who."""
+@dataclass(frozen=True)
+class Pseudonyms:
+    """A roster without names. key_table: the file beside the class that says who is who; who: by
+    pseudonym; label: what a file or folder of the export is called."""
+
+    roster: Roster
+    key_table: Path
+    who: Mapping[str, Submission]
+    label: Callable[[str], str]
+
+
+def of_roster(roster: Roster, out: Path) -> Pseudonyms:
+    """Return the roster without names, and write who is who. Raises BadInput."""
     path = out.with_name(f"{out.name}-names.json")
     try:
         known = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
@@ -59,7 +72,16 @@ def of_roster(roster: Roster, out: Path) -> tuple[Roster, Path, dict[str, Submis
         name: {"name": s.name, "identifier": s.identifier, "email": s.email, "folder": s.folder}
         for name, s in who.items()
     }
-    content = {"secret": secret.hex(), "students": {**known.get("students", {}), **students}}
+    files = {
+        new.path: old.path
+        for new, old in zip(changed.left_out, roster.left_out, strict=True)
+        if old.entry is not None
+    }
+    content = {
+        "secret": secret.hex(),
+        "students": {**known.get("students", {}), **students},
+        "files": {**known.get("files", {}), **files},
+    }
     try:
         written = path.with_name(f".{path.name}-writing")
         descriptor = os.open(written, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600)
@@ -68,4 +90,4 @@ def of_roster(roster: Roster, out: Path) -> tuple[Roster, Path, dict[str, Submis
         os.replace(written, path)
     except OSError as error:
         raise BadInput(KEY_TABLE_NOT_WRITTEN(file=str(path), why=error.strerror)) from None
-    return changed, path, who
+    return Pseudonyms(changed, path, who, partial(named, secret=secret))

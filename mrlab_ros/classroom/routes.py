@@ -33,7 +33,7 @@ from mrlab_ros.gateway.people.person import CurrentPerson
 from mrlab_ros.gateway.store.answers import Strict
 from mrlab_ros.gateway.store.shelf import Shelf, shelf_of
 
-MOST_ACTS, MOST_LEFT_OUT = 200, 200
+MOST_ACTS, MOST_LEFT_OUT, MOST_UNMATCHED = 200, 200, 100
 NOT_MARKED: Mapping[str, Any] = {
     "title": "", "form": "", "rubric": {"robot": ""}, "students": [], "left_out": [],
 }  # fmt: skip
@@ -140,11 +140,34 @@ class LeftOut(BaseModel):
     why: CheckFinding
 
 
+class Unmatched(BaseModel):
+    """A file of nobody, or a student in no row of the platform's table. what: path, or the
+    student's key. proposal: a key, or the identifier of a row, empty: nobody is near; proposed:
+    the name there. decided: since the last run."""
+
+    kind: Literal["file", "student"]
+    what: str
+    name: str
+    why: CheckFinding
+    proposal: str
+    proposed: str
+    decided: bool
+
+
+class Row(BaseModel):
+    """A row of the platform's table that nobody has. key: of a submission that it would have."""
+
+    key: str
+    name: str
+    identifier: str
+
+
 class DeskState(BaseModel):
     """What stands on the desk. missing: files that the rubric names. form: that was said.
     proposed: differences, null: no marks are proposed. journal: the latest acts, newest first.
     locked, released: by whom; empty: not. differing: marks of second markers that do not hold.
-    before: the marks of an earlier run can hold again."""
+    before: the marks of an earlier run can hold again. rows: of the platform's table that nobody
+    has."""
 
     sources: list[Source]
     missing: list[str]
@@ -159,6 +182,8 @@ class DeskState(BaseModel):
     worksheet: bool
     before: bool
     left_out: list[LeftOut]
+    unmatched: list[Unmatched] = []
+    rows: list[Row] = []
 
 
 class Class(BaseModel):
@@ -184,9 +209,10 @@ Points = Annotated[float, Field(ge=-10_000, le=10_000, allow_inf_nan=False)]
 
 
 class NewAct(Strict):
-    """Something to do to marks. points: null takes a mark back."""
+    """Something to do to marks. points: null takes a mark back. assign gives the file `text` to
+    the student `key`, enrol the student `key` the row `text`; empty: nobody, or none."""
 
-    did: Literal["mark", "second", "comment", "lock", "undo"]
+    did: Literal["mark", "second", "comment", "assign", "enrol", "lock", "undo"]
     key: Annotated[str, Field(max_length=300)] = ""
     test: Annotated[str, Field(max_length=300)] = ""
     points: Points | None = None
@@ -256,6 +282,8 @@ def _overview(desk: Desk) -> Class:
                     {"file": each["path"], "why": each["why"]}
                     for each in found["left_out"][:MOST_LEFT_OUT]
                 ],
+                "unmatched": desk.unmatched()[:MOST_UNMATCHED] if found is not NOT_MARKED else [],
+                "rows": found.get("rows", []),
             },
         }
     )
@@ -300,7 +328,8 @@ async def take_back(desk: TheDesk, person: CurrentPerson) -> None:
 
 @router.post("/acts", status_code=204)
 async def act(desk: TheDesk, person: CurrentPerson, body: NewAct) -> None:
-    """Give a mark or a comment, mark as the second marker, lock all marks, or undo the last."""
+    """Give a mark or a comment, mark as the second marker, match a file or a row with a student,
+    lock all marks, or undo the last."""
     made = Entry(time.time(), person.name, **body.model_dump())
     await run_in_threadpool(desk.act, made)
 

@@ -9,8 +9,8 @@ import os
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePosixPath
 from typing import Any
 
@@ -21,7 +21,7 @@ from mrlab_ros.adapters import share
 from mrlab_ros.app.check import cell
 from mrlab_ros.app.check.file import CELLS
 from mrlab_ros.app.convert import SUFFIXES
-from mrlab_ros.classroom import grader, pseudonyms, words, worker
+from mrlab_ros.classroom import grader, pseudonyms, who, words, worker
 from mrlab_ros.classroom.diagnostics import (
     NO_SUBMISSIONS,
     PROCESSES_KILLED,
@@ -29,8 +29,6 @@ from mrlab_ros.classroom.diagnostics import (
     REFERENCE_NOT_READ,
     STOPPED,
     UNKNOWN_FORM,
-    WORKSHEET_FAILED,
-    WORKSHEET_WRITTEN,
 )
 from mrlab_ros.classroom.folder import (
     CHANGES,
@@ -56,6 +54,7 @@ from mrlab_ros.classroom.marks.diagnostics import (
 from mrlab_ros.classroom.marks.exports import (
     FORMS,
     REFERENCE,
+    LeftOut,
     Roster,
     Submission,
     file_label,
@@ -93,7 +92,7 @@ class Request:
 
     base: the folder of the class where `out` holds marks that are only proposed; its journal,
     results and evidence are read. final: a locked class is written once more. worksheet: the
-    filled template. progress: told how many are checked, of how many.
+    filled template; fills: it is written. progress: told how many are checked, of how many.
     """
 
     source: Path
@@ -110,6 +109,8 @@ class Request:
     base: Path | None = None
     final: bool = False
     worksheet: Path | None = None
+    fills: bool = True
+    decisions: who.Decisions = field(default_factory=who.Decisions)
     progress: Callable[[int, int], None] = lambda done, count: None
 
 
@@ -150,14 +151,18 @@ def marked(request: Request) -> tuple[GradedClass, Path | None, list[Diagnostic]
             metadata=export.metadata,
             form=request.form,
         )
-        left_out = (*roster.left_out, *export.problems)
-        roster = replace(roster, left_out=left_out)
+        unread = (LeftOut(path, why) for path, why in export.problems)
+        roster = replace(roster, left_out=(*roster.left_out, *unread))
         if not roster.submissions:
             raise BadInput(NO_SUBMISSIONS(file=str(request.source)))
         state, problems = _state(request, folder)
-        key_table, who = None, dict[str, Submission]()
-        if request.pseudonyms:
-            roster, key_table, who = pseudonyms.of_roster(roster, request.out)
+        sheet = who.sheet_of(request.template, rubric.name)
+        hidden = pseudonyms.of_roster(roster, request.out) if request.pseudonyms else None
+        matched = who.matched(
+            hidden.roster if hidden else roster, sheet, state,
+            JournalFile(request.base or request.out), request.decisions, hidden,
+        )  # fmt: skip
+        roster = matched.roster
         results = _results(request, roster, export, folder, state)
         students = tuple(
             changes.applied(Student(s, results[s.key]), state.columns(s.key), state.comment(s.key))
@@ -167,13 +172,17 @@ def marked(request: Request) -> tuple[GradedClass, Path | None, list[Diagnostic]
             problems.append(MARKS_CHANGED(count=count))
         if request.setup.pages:
             students = tuple(with_page(s, folder, share.directory()) for s in students)
-        reference = results.get(REFERENCE)
-        graded = GradedClass(rubric, roster.form, students, roster.left_out, reference)
+        graded = GradedClass(
+            rubric, roster.form, students, roster.left_out, results.get(REFERENCE),
+            matched.unmatched, matched.rows,
+        )  # fmt: skip
         _write(graded, folder)
-        if request.template is not None:  # it has names, so it is filled by them
-            named = [Student(who.get(s.submission.name, s.submission), s.result) for s in students]
-            problems += _fill(request, named, request.template)
-    return graded, key_table, problems
+        problems += matched.missing
+        if sheet is not None and request.fills:
+            beside = request.out.with_name(f"{request.out.name}-{sheet.name}")
+            place = request.worksheet or beside
+            problems += who.fill(sheet, students, matched.places, place)
+    return graded, matched.key_table, problems
 
 
 def form_of(name: str) -> str:
@@ -408,10 +417,10 @@ def _state(request: Request, folder: ResultsFolder) -> tuple[State, list[Diagnos
         return state, []
     found, problems = changes.found(table.decode("utf-8", "replace"), before)
     given = {s["key"]: changes.given_of(s) for s in before["students"]}
-    now, who = time.time(), getpass.getuser()
+    now, user = time.time(), getpass.getuser()
     new = [
         # a value that the test gave takes the change back
-        Entry(now, who, MARK, key, test, None if points == given[key][test] else points, TABLE)
+        Entry(now, user, MARK, key, test, None if points == given[key][test] else points, TABLE)
         for key, columns in found.items()
         for test, points in columns.items()
     ]
@@ -445,19 +454,3 @@ def _write(graded: GradedClass, folder: ResultsFolder) -> None:
     folder.write_json(CLASS, graded.document())
     folder.write_json(CHANGES, {"written": written})
     folder.write(INDEX, class_page(graded, share.directory()).encode())
-
-
-def _fill(request: Request, students: Sequence[Student], template: Path) -> list[Diagnostic]:
-    """Write Moodle's worksheet with the grades, beside the folder of the class or as asked."""
-    out = request.worksheet or request.out.with_name(f"{request.out.name}-{template.name}")
-    try:
-        content = template.read_bytes().decode("utf-8")
-        text, problems = gradebook.filled(
-            content, students, template.name, request.setup.rubric.name
-        )
-        out.write_text(text, encoding="utf-8", newline="")
-    except (OSError, UnicodeDecodeError) as error:
-        raise BadInput(
-            WORKSHEET_FAILED(file=str(template), out=str(out), why=str(error))
-        ) from None
-    return [WORKSHEET_WRITTEN(file=str(out)), *problems]

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
 from mrlab_ros.classroom.marks.gradebook import number, text
 from mrlab_ros.classroom.marks.graded import GradedClass
+from mrlab_ros.classroom.marks.matching import FILE, Unmatched
 from mrlab_ros.classroom.marks.result import FAILED, MARKED, NO_FILE, REFUSED, TO_REPEAT
 from mrlab_ros.classroom.rubrics.document import at
 from mrlab_ros.classroom.rubrics.marking import Flaw, Mark, Marks
@@ -40,6 +42,7 @@ def show(
     def say(text: str) -> None:
         console.print(text, soft_wrap=True)
 
+    _unmatched(graded.unmatched, console, say)
     students, figures = graded.students, graded.statistics()
     named = "a folder or file for each student" if graded.form == "folder" else graded.form
     say(f"{len(students)} students, read as {named} (--form changes that); {graded.rubric.name}")
@@ -49,8 +52,8 @@ def show(
     )
     if graded.left_out:
         console.print("\nleft out", style="bold")
-        for path, why in graded.left_out[:MOST_LEFT_OUT]:
-            say(f"  {path}: {why}")
+        for each in graded.left_out[:MOST_LEFT_OUT]:
+            say(f"  {each.path}: {each.why}")
         if len(graded.left_out) > MOST_LEFT_OUT:
             say(f"  and {len(graded.left_out) - MOST_LEFT_OUT} more")
     unmarked = [s for s in students if s.result.outcome != MARKED]
@@ -83,6 +86,24 @@ def show(
     say(f"{out}/index.html")
     if key_table is not None:
         say(f"who is who stands in {key_table} alone; keep it, and do not pass it on")
+
+
+def _unmatched(found: Sequence[Unmatched], console: Console, say: Callable[[str], None]) -> None:
+    """Print what could not be matched, with the proposals, before all else."""
+    if not found:
+        return
+    console.print("not matched", style="bold")
+    table = Table(box=None, show_header=False)
+    for each in found[:MOST_ROWS]:
+        near = f"{each.proposed} ({each.proposal})" if each.proposal else "nobody is near"
+        why = "is named as nobody's" if each.kind == FILE else "is not in the worksheet"
+        table.add_row(Text(each.name), why, Text(near))
+    console.print(table)
+    if len(found) > MOST_ROWS:
+        say(f"  and {len(found) - MOST_ROWS} more; class.json has all")
+    if any(each.proposal for each in found):
+        say("  --accept takes these proposals")
+    say("  --match 'FILE OR STUDENT=STUDENT OR ROW' decides one; with nothing behind =, nobody\n")
 
 
 OK, NOT = OUTCOME_STYLES["accepted"], OUTCOME_STYLES["rejected"]

@@ -292,20 +292,22 @@ def confine(bounds: Bounds) -> None:
 
 
 def work(warm: Warm, request: dict[str, Any]) -> None:
-    """Check one submission, in the forked process."""
-    confine(warm.setup.bounds)
+    """Check one submission, in the forked process; before the sandbox is shut nothing is its
+    fault."""
     folder, out = Path(request["folder"]), Path(request["out"])
-    tempfile.tempdir = str(out)
-    restrictions.shut(read=[folder, *warm.readable], write=[out], opens=True)
-    outcome = FAILED
+    outcome = TO_REPEAT
     try:
+        confine(warm.setup.bounds)
+        tempfile.tempdir = str(out)
+        restrictions.shut(read=[folder, *warm.readable], write=[out], opens=True)
+        outcome = FAILED
         warm.check(request, folder, out)
     except MemoryError:
         why = SUBMISSION_OUT_OF_MEMORY(limit=warm.setup.bounds.memory)
     except OSError as error:
         traceback.print_exc()
         found = lack(error)
-        if found is not None and found.is_shared:
+        if outcome == TO_REPEAT or (found is not None and found.is_shared):
             outcome, why = TO_REPEAT, MACHINE_REFUSED(why=error.strerror)
         else:
             why = SUBMISSION_FAILED(error=f"{type(error).__name__}: {error}")

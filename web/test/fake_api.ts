@@ -68,6 +68,8 @@ export const NO_CLASS: GradedClass = {
     worksheet: false,
     before: false,
     left_out: [],
+    unmatched: [],
+    rows: [],
   },
 }
 const FOUND = {

@@ -132,8 +132,9 @@ def shut(*, read: Iterable[Path] = (), write: Iterable[Path] = (), opens: bool =
     """Let this thread and all that it starts reach no more than is named here, for good.
 
     They connect nowhere, start no program and signal nobody. read, write: folders and files; those
-    to write to can be read too. opens: they may open what these name; else nothing at all. Raises
-    OSError where the kernel has a layer and does not grant it.
+    to write to can be read too, and what is gone meanwhile is not read. opens: they may open what
+    these name; else nothing at all. Raises OSError where the kernel has a layer and does not grant
+    it.
     """
     rules = [(path, TO_READ) for path in read] + [(path, TO_WRITE) for path in write]
     if rules and not opens:
@@ -208,7 +209,12 @@ def _restrict_files(rules: Sequence[tuple[Path, int]]) -> None:
     ruleset = _call(CREATE_RULESET, attributes, size, 0)
     try:
         for path, rights in rules:
-            at = os.open(path, os.O_PATH | os.O_CLOEXEC)
+            try:
+                at = os.open(path, os.O_PATH | os.O_CLOEXEC)
+            except FileNotFoundError:
+                if rights == TO_READ:
+                    continue
+                raise
             try:
                 known = rights & files if os.path.isdir(path) else rights & files & OF_FILES
                 _call(ADD_RULE, ruleset, RULE_PATH_BENEATH, struct.pack("<Qi", known, at), 0)

@@ -22,6 +22,9 @@ NEWEST_TAKEN = Code(
     "[: {files:list}].",
     severity=INFO,
 )
+FILE_ASSIGNED = Code(
+    "file_assigned", "{file} was given to this student by a teacher.", severity=INFO
+)
 CHANGED_MARK = Code(
     "changed_mark",
     "[{test}: ]{before:number} was changed to {after:number} by a teacher.",
@@ -43,6 +46,7 @@ MARKS_CHANGED = Code(
     "Marks of {count:count submission|submissions} were changed by hand; they are kept.",
     "Write the value of the test back into the table to undo a change.",
     INFO,
+    page=False,
 )
 CLASS_IS_LOCKED = Code(
     "class_is_locked", "{who} locked the marks of this class; undo that before you change one."
@@ -116,3 +120,10 @@ MAXIMUM_DIFFERS = Code(
     severity=WARNING,
 )
 NOT_IN_WORKSHEET = Code("not_in_worksheet", "{student} is not in the worksheet.", severity=WARNING)
+UNKNOWN_MATCH = Code(
+    "unknown_match",
+    "'{found}' is neither a file or student that could not be matched, nor somebody of this class"
+    "[; did you mean {near}?]",
+    "Name a file as it is listed, and a student by key, name or number.",
+    page=False,
+)

@@ -87,17 +87,28 @@ class Submission:
     @property
     def sent(self) -> str:
         """Return the name of the file, by which Canvas takes feedback; empty for a pseudonym."""
-        paths = [entry.path for entry in self.candidates if self.identifier]
-        return PurePosixPath(paths[0]).name if paths else ""
+        names = [PurePosixPath(e.path).name for e in self.candidates if self.identifier]
+        named = (name for name in names if self.form != CANVAS_FORM or CANVAS.fullmatch(name))
+        return next(named, "")
+
+
+@dataclass(frozen=True)
+class LeftOut:
+    """A file that belongs to nobody. entry: it may hold a motion of somebody; None: it is no such
+    file."""
+
+    path: str
+    why: Diagnostic
+    entry: Entry | None = None
 
 
 @dataclass(frozen=True)
 class Roster:
-    """All submissions of an export, by name. left_out: path and why of what belongs to nobody."""
+    """All submissions of an export, by name, and what belongs to nobody."""
 
     form: str
     submissions: tuple[Submission, ...]
-    left_out: tuple[tuple[str, Diagnostic], ...] = ()
+    left_out: tuple[LeftOut, ...] = ()
 
 
 @dataclass
@@ -143,7 +154,8 @@ def recognise(
         found = _plain(parts[top:], suffixes) if form == FOLDER else _named(parts, form)
         if found is None:
             why = NO_MOTION_FILE() if form == FOLDER else NOT_NAMED_AS_BY(form=form)
-            left_out.append((entry.path, why))
+            may = entry if _ending(entry.path, suffixes) else None
+            left_out.append(LeftOut(entry.path, why, may))
             continue
         one, rest = found
         known = students.setdefault((one.name, one.identifier), one)

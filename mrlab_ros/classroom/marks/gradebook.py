@@ -8,26 +8,26 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from mrlab_ros.classroom.marks import matching
 from mrlab_ros.classroom.marks.diagnostics import (
     GRADE_TO_REPEAT,
     MAXIMUM_DIFFERS,
     NO_WORKSHEET,
-    NOT_IN_WORKSHEET,
 )
-from mrlab_ros.classroom.marks.exports import CANVAS_FORM, ILIAS_FORM, MOODLE_FORM
 from mrlab_ros.classroom.marks.graded import Student
+from mrlab_ros.classroom.marks.matching import Person
 from mrlab_ros.classroom.marks.result import MARKED, TO_REPEAT, Result
 from mrlab_ros.classroom.rubrics.rubric import Rubric
 from mrlab_ros.core.base.diagnostic import Diagnostic, from_plain
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.foreign_text import for_table
 
-PLATFORMS = (MOODLE_FORM, CANVAS_FORM, ILIAS_FORM)
 BOM = "\ufeff"  # by which Excel takes a table for UTF-8
-NUMBER = re.compile(r"\d+")
 # Columns of Moodle's worksheet in English and German, of Canvas' gradebook, and of ILIAS' file of
 # marks (status.csv), where a row counts once it is marked as changed.
 IDENTIFIERS = ("identifier", "kennung", "login", "id")
+NAMES = ("full name", "vollständiger name", "student", "name")
+LAST, FIRST = ("lastname", "nachname", "last name"), ("firstname", "vorname", "first name")
 GRADES = ("grade", "bewertung", "mark")
 MOST = ("maximum grade", "bestwertung")
 COMMENTS = ("feedback comments", "feedback als kommentar", "comment")
@@ -75,63 +75,80 @@ def number(value: float) -> str:
     return f"{value:.6g}"
 
 
-def filled(
-    template: str, students: Sequence[Student], name: str, title: str = ""
-) -> tuple[str, list[Diagnostic]]:
-    """Return a platform's table with the grades in it, and what did not fit.
+class Sheet:
+    """A platform's table: Moodle's grading worksheet, Canvas' gradebook or ILIAS' marks."""
 
-    It is Moodle's grading worksheet, Canvas' gradebook or ILIAS' file of marks; students are known
-    by the number or login that the export's names have. title: of the rubric, by which a column of
-    Canvas is chosen where there are several. Cells that are not grades or comments stay as they
-    are. Raises BadInput where it is no such table.
-    """
-    content = template.removeprefix(BOM)
-    first = content.partition("\n")[0]
-    delimiter = max(",;\t", key=first.count)
-    rows = list(csv.reader(io.StringIO(content), delimiter=delimiter))
-    heads = [head.strip().lower() for head in rows[0]] if rows else []
-    identifier, grade = _column(heads, IDENTIFIERS), _column(heads, GRADES)
-    grade = _assignment(heads, title) if grade is None else grade
-    if identifier is None or grade is None:
-        raise BadInput(NO_WORKSHEET(file=name, count=len(heads), columns=heads))
-    most, comments = _column(heads, MOST), _column(heads, COMMENTS)
-    changed = _column(heads, CHANGED)
-    by_number = {s.submission.identifier: s for s in students if s.submission.identifier}
-    met, maxima, repeated = set(), set(), []
-    for row in rows[1:]:
-        if row and row[0].strip().lower() == POSSIBLE:
-            of = students[0].result.of if students else 0.0
-            if len(row) > grade and _differs(row[grade], of):
-                maxima.add((row[grade], of))
-            continue
-        said = row[identifier].strip() if len(row) > identifier else ""
-        number_in = NUMBER.search(said)
-        student = by_number.get(said) or (number_in and by_number.get(number_in[0]))
-        if not student:
-            continue
-        met.add(student.key)
-        if student.result.outcome == TO_REPEAT:
-            repeated.append(GRADE_TO_REPEAT(student=student.submission.name))
-            continue
-        row += [""] * (len(heads) - len(row))
-        points = number(student.result.points)
-        row[grade] = points.replace(".", ",") if delimiter == ";" else points
-        if most is not None and _differs(row[most], student.result.of):
-            maxima.add((row[most], student.result.of))
-        if changed is not None:
-            row[changed] = "1"
-        if comments is not None:
-            row[comments] = str(cell(comment(student.result)))
-    problems = [MAXIMUM_DIFFERS(found=found, points=of) for found, of in sorted(maxima)]
-    problems += repeated
-    problems += [
-        NOT_IN_WORKSHEET(student=s.submission.name)
-        for s in students
-        if s.key not in met and s.submission.form in PLATFORMS
-    ]
-    written = io.StringIO()
-    csv.writer(written, delimiter=delimiter, lineterminator="\r\n").writerows(rows)
-    return (BOM if template.startswith(BOM) else "") + written.getvalue(), problems
+    def __init__(self, template: str, name: str, title: str = "") -> None:
+        """Raise BadInput where it is no such table.
+
+        title: of the rubric, by which a column of Canvas is chosen where there are several.
+        """
+        self.name = name
+        content = template.removeprefix(BOM)
+        first = content.partition("\n")[0]
+        self._start = BOM if template.startswith(BOM) else ""
+        self._delimiter = max(",;\t", key=first.count)
+        self._rows = list(csv.reader(io.StringIO(content), delimiter=self._delimiter))
+        heads = [head.strip().lower() for head in self._rows[0]] if self._rows else []
+        identifier, grade = _column(heads, IDENTIFIERS), _column(heads, GRADES)
+        grade = _assignment(heads, title) if grade is None else grade
+        if identifier is None or grade is None:
+            raise BadInput(NO_WORKSHEET(file=name, count=len(heads), columns=heads))
+        self._heads, self._identifier, self._grade = heads, identifier, grade
+
+    @property
+    def people(self) -> tuple[Person, ...]:
+        """Return who has a row; the identifier is what the row says."""
+        one, last, first = (_column(self._heads, names) for names in (NAMES, LAST, FIRST))
+        parts = [one] if one is not None else [at for at in (first, last) if at is not None]
+        found = []
+        for row in self._rows[1:]:
+            said, name = self._said(row), " ".join(row[at] for at in parts if at < len(row))
+            if said:
+                found.append(Person(matching.key_of(name, said), name.strip() or said, said))
+        return tuple(found)
+
+    def filled(
+        self, students: Sequence[Student], places: Mapping[str, str]
+    ) -> tuple[str, list[Diagnostic]]:
+        """Return the table with the grades in it, and what did not fit.
+
+        places: identifier of a row, by key of a student. Cells that are not grades or comments
+        stay as they are.
+        """
+        most, comments = _column(self._heads, MOST), _column(self._heads, COMMENTS)
+        changed, grade = _column(self._heads, CHANGED), self._grade
+        by_row = {places[s.key]: s for s in students if places.get(s.key)}
+        maxima, problems = set(), []
+        rows = [list(row) for row in self._rows]
+        for row in rows[1:]:
+            if row and row[0].strip().lower() == POSSIBLE:
+                of = students[0].result.of if students else 0.0
+                if len(row) > grade and _differs(row[grade], of):
+                    maxima.add((row[grade], of))
+                continue
+            student = by_row.get(self._said(row))
+            if not student:
+                continue
+            if student.result.outcome == TO_REPEAT:
+                problems.append(GRADE_TO_REPEAT(student=student.submission.name))
+                continue
+            row += [""] * (len(self._heads) - len(row))
+            points = number(student.result.points)
+            row[grade] = points.replace(".", ",") if self._delimiter == ";" else points
+            if most is not None and _differs(row[most], student.result.of):
+                maxima.add((row[most], student.result.of))
+            if changed is not None:
+                row[changed] = "1"
+            if comments is not None:
+                row[comments] = str(cell(comment(student.result)))
+        differ = [MAXIMUM_DIFFERS(found=found, points=of) for found, of in sorted(maxima)]
+        written = io.StringIO()
+        csv.writer(written, delimiter=self._delimiter, lineterminator="\r\n").writerows(rows)
+        return self._start + written.getvalue(), [*differ, *problems]
+
+    def _said(self, row: Sequence[str]) -> str:
+        return row[self._identifier].strip() if len(row) > self._identifier else ""
 
 
 def comment(result: Result) -> str:

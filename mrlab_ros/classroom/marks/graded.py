@@ -9,11 +9,12 @@ from dataclasses import dataclass
 from statistics import fmean, median
 from typing import Any
 
-from mrlab_ros.classroom.marks.exports import REFERENCE, Submission
+from mrlab_ros.classroom.marks.exports import REFERENCE, LeftOut, Submission
+from mrlab_ros.classroom.marks.matching import Person, Unmatched
 from mrlab_ros.classroom.marks.result import TO_REPEAT, Result
 from mrlab_ros.classroom.marks.similarity import Similar, similar
 from mrlab_ros.classroom.rubrics.rubric import Rubric
-from mrlab_ros.core.base.diagnostic import Diagnostic, plain
+from mrlab_ros.core.base.diagnostic import plain
 
 SCHEMA = "mrlab.class.1"
 BINS = 10
@@ -65,14 +66,17 @@ class Statistics:
 
 @dataclass(frozen=True)
 class GradedClass:
-    """All that a class' pages and files are made from. left_out: path and why of files that are
-    nobody's. reference: the result of the solution, None without one."""
+    """All that a class' pages and files are made from. left_out: files that are nobody's;
+    reference: the result of the solution, None without one. unmatched: what a teacher has to
+    decide; rows: of the platform's table that nobody has."""
 
     rubric: Rubric
     form: str
     students: tuple[Student, ...]
-    left_out: tuple[tuple[str, Diagnostic], ...] = ()
+    left_out: tuple[LeftOut, ...] = ()
     reference: Result | None = None
+    unmatched: tuple[Unmatched, ...] = ()
+    rows: tuple[Person, ...] = ()
 
     def statistics(self) -> Statistics:
         """Return the figures of the class."""
@@ -153,7 +157,12 @@ class GradedClass:
                     for g in common.groups
                 ],
             },
-            "left_out": [{"path": path, "why": plain(why)} for path, why in self.left_out],
+            "left_out": [{"path": e.path, "why": plain(e.why)} for e in self.left_out],
+            "unmatched": [each.plain() for each in self.unmatched],
+            "rows": [
+                {"key": row.key, "name": row.name, "identifier": row.identifier}
+                for row in self.rows
+            ],
         }
 
     def _tests(self, results: Sequence[Result]) -> list[LostTest]:

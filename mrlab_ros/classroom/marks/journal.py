@@ -14,15 +14,18 @@ from mrlab_ros.classroom.marks.diagnostics import (
 )
 from mrlab_ros.core.base.diagnostic import Diagnostic
 
-MARK, SECOND, COMMENT, LOCK, RELEASE, UNDO, ADOPT, TAKE_BACK = ACTS = (
-    "mark", "second", "comment", "lock", "release", "undo", "adopt", "take_back",
+MARK, SECOND, COMMENT, ASSIGN, ENROL, LOCK, RELEASE, UNDO, ADOPT, TAKE_BACK = ACTS = (
+    "mark", "second", "comment", "assign", "enrol", "lock", "release", "undo", "adopt",
+    "take_back",
 )  # fmt: skip
 
 
 @dataclass(frozen=True)
 class Entry:
     """One act. at: s since 1970. key, test: whose mark, test "points": all of them. points: None
-    takes a mark back. text: reason of a mark, or the comment; empty: no comment."""
+    takes a mark back. text: reason of a mark, or the comment; empty: no comment. ASSIGN gives the
+    file `text` to the student `key`, empty: to nobody; ENROL the student `key` the row `text` of
+    the platform's table, empty: none."""
 
     at: float
     who: str
@@ -35,12 +38,15 @@ class Entry:
 
 @dataclass
 class State:
-    """What holds. marks, seconds: by key and test; comments by key. locked, released: by whom.
-    done: acts that can be undone, the last one first to go."""
+    """What holds. marks, seconds: by key and test; comments by key. owners: keys by path of files;
+    rows: of the platform's table, by key. locked, released: by whom. done: acts that can be
+    undone, the last one first to go."""
 
     marks: dict[str, dict[str, Entry]] = field(default_factory=dict)
     seconds: dict[str, dict[str, Entry]] = field(default_factory=dict)
     comments: dict[str, Entry] = field(default_factory=dict)
+    owners: dict[str, str] = field(default_factory=dict)
+    rows: dict[str, str] = field(default_factory=dict)
     locked: Entry | None = None
     released: Entry | None = None
     done: list[Entry] = field(default_factory=list)
@@ -74,6 +80,10 @@ def state_of(entries: Iterable[Entry]) -> State:
             state.comments[entry.key] = entry
             if not entry.text:
                 del state.comments[entry.key]
+        elif entry.did == ASSIGN:
+            state.owners[entry.text] = entry.key
+        elif entry.did == ENROL:
+            state.rows[entry.key] = entry.text
         else:
             state.locked = state.locked or entry
             state.released = entry if entry.did == RELEASE else state.released

@@ -9,7 +9,7 @@ import base64
 import hashlib
 import hmac
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from mrlab_ros.classroom.marks.diagnostics import UNREADABLE
@@ -76,6 +76,7 @@ def without_marks(rubric: Rubric, outcome: str, why: Diagnostic, file: str = "")
     return Result(outcome, plain(why), marks.plain(), marks.public().plain(), file)
 
 
+FILE_LENGTH = 8
 LENGTH = 4  # letters and digits; more where two students would have the same
 READABLE = bytes.maketrans(b"IO", b"89")  # base32 without what is mistaken for another
 
@@ -91,10 +92,19 @@ def pseudonymous(roster: Roster, secret: bytes) -> tuple[Roster, dict[str, Submi
         changed.append(renamed(submission, name, f"student-{code.lower()}"))
     changed.sort(key=lambda s: s.key)
     left_out = tuple(
-        (f"file {n}", UNREADABLE() if _names_a_file(why) else why)
-        for n, (_, why) in enumerate(roster.left_out, 1)
+        replace(
+            each,
+            path=f"file {n}" if each.entry is None else named(each.path, secret),
+            why=UNREADABLE() if _names_a_file(each.why) else each.why,
+        )
+        for n, each in enumerate(roster.left_out, 1)
     )
     return Roster(roster.form, tuple(changed), left_out), who
+
+
+def named(path: str, secret: bytes) -> str:
+    """Return a name for a file or folder of an export that says nothing, always the same one."""
+    return f"file {_coded(path, secret)[:FILE_LENGTH]}"
 
 
 def _names_a_file(why: Diagnostic) -> bool:
@@ -105,11 +115,13 @@ def _identity(submission: Submission) -> str:
     return "\n".join((submission.name, submission.identifier, submission.email))
 
 
+def _coded(text: str, secret: bytes) -> str:
+    mac = hmac.new(secret, text.encode("utf-8", "surrogatepass"), hashlib.sha256).digest()
+    return base64.b32encode(mac).translate(READABLE).decode().rstrip("=")
+
+
 def _codes(identities: Sequence[str], secret: bytes) -> list[str]:
-    digests = []
-    for identity in identities:
-        mac = hmac.new(secret, identity.encode(), hashlib.sha256).digest()
-        digests.append(base64.b32encode(mac).translate(READABLE).decode().rstrip("="))
+    digests = [_coded(identity, secret) for identity in identities]
     length = LENGTH
     while len({d[:length] for d in digests}) < len(set(digests)) and length < 32:
         length += 1

@@ -11,7 +11,7 @@ import numpy as np
 from small_lab import make
 
 from mrlab_ros.adapters.trajectories import formats
-from mrlab_ros.classroom.marks.diagnostics import NO_FILE_HANDED_IN
+from mrlab_ros.classroom.marks.diagnostics import NO_FILE_HANDED_IN, NOT_IN_WORKSHEET
 from mrlab_ros.classroom.rubrics import diagnostics
 from mrlab_ros.core.base.diagnostic import Severity, plain
 from mrlab_ros.core.checking.diagnostics import CHECK_READY, COLLISION
@@ -67,7 +67,14 @@ def make_class(folder: Path, frames: int = 50) -> Path:
         "reference": {k: v for k, v in reference.items() if k not in ("key", "name")},
         "students": students,
         "left_out": [],
-    }
+        "unmatched": [
+            {
+                "kind": "student", "what": "ben", "name": "Ben", "proposal": "Participant 2",
+                "proposed": "Ben Ott", "why": plain(NOT_IN_WORKSHEET(student="Ben")),
+            }
+        ],
+        "rows": [{"key": "ben-ott-2", "name": "Ben Ott", "identifier": "Participant 2"}],
+    }  # fmt: skip
     (folder / "trajectories").mkdir(parents=True, exist_ok=True)
     (folder / "class.json").write_text(json.dumps(document))
     for number, key in enumerate(("reference", "anna", "ben")):

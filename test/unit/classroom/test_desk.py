@@ -30,7 +30,9 @@ tests:
   - {name: Takes the cube, expect: grasps cube_1 between 1 s and 4 s, points: 2}
   - {name: In time, expect: cycle < 30 s, points: POINTS}
 """
-SHEET = "Identifier,Full name,Grade,Maximum Grade\nParticipant 1,Anna,,3\nParticipant 2,Ben,,3\n"
+SHEET = "Identifier,Full name,Grade,Maximum Grade\n" + "".join(
+    f"Participant {n},{name},,3\n" for n, name in enumerate(("Anna", "Ben", "Cem Roe"), 1)
+)
 
 
 @pytest.fixture
@@ -55,6 +57,7 @@ def export():
     with zipfile.ZipFile(content, "w") as archive:
         archive.write(PICK, "Anna_1_assignsubmission_file_/run.mat")
         archive.writestr("Ben_2_assignsubmission_file_/run.mat", b"no workspace")
+        archive.write(PICK, "by mail/roe_cem.mat")
     return content.getvalue()
 
 
@@ -122,6 +125,13 @@ def test_a_class_is_marked_changed_marked_again_released_and_downloaded(gateway,
     )
     assert act(second, did="undo").status_code == 204
 
+    # a file of nobody is of somebody who is in the table, and then marked like the others
+    (stray,) = shown["desk"]["unmatched"]
+    assert (stray["what"], stray["proposed"], stray["decided"]) == ("by mail", "Cem Roe", False)
+    assigned = act(teacher, did="assign", key=stray["proposal"], text=stray["what"])
+    assert assigned.status_code == 204
+    assert teacher.get("/api/class").json()["desk"]["unmatched"][0]["decided"] is True
+
     # another rubric: the differences are shown, nothing is simulated, and the mark by hand holds
     evidence = {p.name: p.read_bytes() for p in (tmp_path / "class" / "evidence").iterdir()}
     hand_in(teacher, "rubric.yaml", RUBRIC.replace("POINTS", "4").encode())
@@ -129,18 +139,21 @@ def test_a_class_is_marked_changed_marked_again_released_and_downloaded(gateway,
     shown = ran(teacher)
     assert [s["points"] for s in shown["submissions"]] == [3, 1.5]
     changed = shown["desk"]["proposed"]
-    assert [(d["name"], d["before"], d["after"]) for d in changed] == [("Anna", 3, 6)]
+    assert [(d["name"], d["before"], d["after"]) for d in changed] == [
+        ("Anna", 3, 6), ("Cem Roe", None, 6),
+    ]  # fmt: skip
     assert teacher.send("POST", "/api/class/proposed").status_code == 202
     shown = ran(teacher)
-    assert [s["points"] for s in shown["submissions"]] == [6, 1.5]
-    assert shown["desk"]["proposed"] is None
+    assert [s["points"] for s in shown["submissions"]] == [6, 1.5, 6]
+    assert (shown["desk"]["proposed"], shown["desk"]["unmatched"]) == (None, [])
     folder = tmp_path / "class" / "evidence"
-    assert {p.name: p.read_bytes() for p in folder.iterdir()} == evidence
+    after = {p.name: p.read_bytes() for p in folder.iterdir()}
+    assert {name: after[name] for name in evidence} == evidence
 
     # the marks of the run before hold again, with those that were given by hand; and once more
     assert teacher.send("POST", "/api/class/before").status_code == 202
     shown = ran(teacher)
-    assert [s["points"] for s in shown["submissions"]] == [3, 1.5]
+    assert [s["points"] for s in shown["submissions"]] == [3, 1.5, 3]
     assert (shown["desk"]["before"], shown["desk"]["journal"][0]["did"]) == (False, "take_back")
     again = teacher.send("POST", "/api/class/before")
     assert again.json()["error"]["code"] == "nothing_to_undo"
@@ -149,8 +162,8 @@ def test_a_class_is_marked_changed_marked_again_released_and_downloaded(gateway,
     ran(teacher)
     teacher.send("POST", "/api/class/proposed")
     shown = ran(teacher)
-    assert [s["points"] for s in shown["submissions"]] == [6, 1.5]
-    assert {p.name: p.read_bytes() for p in folder.iterdir()} == evidence
+    assert [s["points"] for s in shown["submissions"]] == [6, 1.5, 6]
+    assert {p.name: p.read_bytes() for p in folder.iterdir()} == after
 
     # released: one total everywhere, and no change any more
     assert teacher.get("/api/class/feedback.zip").json()["error"]["code"] == "not_released"
@@ -160,9 +173,9 @@ def test_a_class_is_marked_changed_marked_again_released_and_downloaded(gateway,
     assert [note["code"] for note in shown["desk"]["run"]["notes"]] == ["maximum_differs"]
     assert act(teacher, **mark).json()["error"]["code"] == "class_is_locked"
     rows = list(csv.DictReader(io.StringIO(teacher.get("/api/class/grades.csv").text[1:])))
-    assert [row["points"] for row in rows] == ["6", "1.5"]
+    assert [row["points"] for row in rows] == ["6", "1.5", "6"]
     sheet = teacher.get("/api/class/worksheet.csv").text
-    assert [row["Grade"] for row in csv.DictReader(io.StringIO(sheet))] == ["6", "1.5"]
+    assert [row["Grade"] for row in csv.DictReader(io.StringIO(sheet))] == ["6", "1.5", "6"]
     with zipfile.ZipFile(io.BytesIO(teacher.get("/api/class/feedback.zip").content)) as archive:
         place = "Ben_2_assignsubmission_file_/feedback.txt"
         assert archive.namelist().count("Anna_1_assignsubmission_file_/feedback.html") == 1

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import json
 import signal
+from types import SimpleNamespace
 
 import pytest
 from refusals import refused
 
+from mrlab_ros.classroom import worker
 from mrlab_ros.classroom.diagnostics import WORKERS_DIFFER
 from mrlab_ros.classroom.grader import Grader, _check_versions, fingerprint
 from mrlab_ros.classroom.marks.result import FAILED, TO_REPEAT
@@ -51,3 +54,16 @@ def test_workers_of_a_changed_copy_are_noticed():
     _check_versions(Cluster(a=fingerprint(), b=fingerprint()), "tcp://x")
     with refused(WORKERS_DIFFER, workers=["b"]):
         _check_versions(Cluster(a=fingerprint(), b="another"), "tcp://x")
+
+
+def test_what_fails_before_the_sandbox_is_shut_is_to_be_repeated(tmp_path, monkeypatch):
+    def fails(**_):
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(worker.tempfile, "tempdir", None)
+    monkeypatch.setattr(worker, "confine", lambda _: None)
+    monkeypatch.setattr(worker.restrictions, "shut", fails)
+    warm = SimpleNamespace(setup=Setup(Rubric("empty", ()), SceneDocument()), readable=())
+    worker.work(warm, {"folder": str(tmp_path), "out": str(tmp_path)})
+    found = json.loads((tmp_path / worker.RESULT).read_bytes())
+    assert (found["outcome"], found["found"]["code"]) == (TO_REPEAT, "machine_refused")

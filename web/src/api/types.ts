@@ -348,6 +348,10 @@ export interface ClassDesk {
   /** The marks of the run before can hold again. */
   readonly before: boolean
   readonly left_out: readonly { readonly file: string; readonly why: Diagnostic }[]
+  /** What a teacher has to decide about. */
+  readonly unmatched: readonly Unmatched[]
+  /** Rows of the platform's table that nobody has. */
+  readonly rows: readonly PlatformRow[]
 }
 
 /** The course that a class belongs to. */
@@ -425,11 +429,42 @@ export interface ClassDifference {
   }[]
 }
 
+/** A file of nobody, or a student in no row of the platform's table. */
+export interface Unmatched {
+  readonly kind: 'file' | 'student'
+  /** Path of the file, or the student's key. */
+  readonly what: string
+  readonly name: string
+  readonly why: Diagnostic
+  /** A student's key, or the identifier of a row; empty: nobody is near. */
+  readonly proposal: string
+  readonly proposed: string
+  /** Since the last run. */
+  readonly decided: boolean
+}
+
+export interface PlatformRow {
+  /** Of the submission that it would have. */
+  readonly key: string
+  readonly name: string
+  readonly identifier: string
+}
+
 export interface ClassAct {
   /** s since 1970 */
   readonly at: number
   readonly who: string
-  readonly did: 'mark' | 'second' | 'comment' | 'lock' | 'release' | 'undo' | 'adopt' | 'take_back'
+  readonly did:
+    | 'mark'
+    | 'second'
+    | 'comment'
+    | 'assign'
+    | 'enrol'
+    | 'lock'
+    | 'release'
+    | 'undo'
+    | 'adopt'
+    | 'take_back'
   /** Of the student; empty: of all. */
   readonly name: string
   readonly test: string

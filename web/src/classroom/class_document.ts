@@ -16,6 +16,13 @@ export interface ClassDocument {
   readonly similar: SimilarMotions
   readonly left_out: readonly { readonly file: string; readonly why: Diagnostic }[]
   readonly left_out_count: number
+  /** Files of nobody, and students in no row of the platform's table. */
+  readonly unmatched: readonly {
+    readonly name: string
+    readonly why: Diagnostic
+    /** The name that is nearest; empty: none. */
+    readonly proposed: string
+  }[]
 }
 
 interface ClassTest {

@@ -327,5 +327,7 @@ function told({ did, who, name, test, points, text }: ClassAct): string {
       ? w.acts.mark(who, name, of, number(points), text)
       : w.acts.second(who, name, of, number(points))
   }
+  if (did === 'assign') return w.acts.assign(who, text, name || w.nobody)
+  if (did === 'enrol') return w.acts.enrol(who, name, text || w.nobody)
   return did === 'comment' ? w.acts.comment(who, name, text) : w.acts[did](who)
 }

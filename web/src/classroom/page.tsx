@@ -19,6 +19,7 @@ import { Desk } from './desk'
 import { HandIn } from './hand_in'
 import { Marks } from './marks'
 import { PlayInLab } from './play_in_lab'
+import { Unmatched } from './unmatched'
 
 interface Loaded {
   readonly key: string
@@ -158,6 +159,7 @@ function Graded() {
       <section class="stack">
         <h1>{graded.value.title || words.value.nav.grades}</h1>
         {graded.value.marked && <p>{w.none}</p>}
+        <Unmatched steps={steps} />
         <Desk steps={steps} />
       </section>
     )
@@ -198,6 +200,7 @@ function Graded() {
           <p class="second tiny">{w.keys}</p>
         </div>
       </header>
+      <Unmatched steps={steps} />
       <Desk steps={steps} />
       <div class="verdict-columns">
         <div class="verdict-side stack">

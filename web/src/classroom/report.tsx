@@ -68,6 +68,21 @@ export function ClassReport({ graded }: { graded: ClassDocument }) {
         }
         foot={[w.claim]}
       >
+        {graded.unmatched.length > 0 && (
+          <section class="card unmatched">
+            <h2>{w.unmatched(graded.unmatched.length)}</h2>
+            <ul class="small">
+              {graded.unmatched.map(({ name, why, proposed }) => (
+                <li key={name}>
+                  <bdi>{name}</bdi>
+                  <span>
+                    {say(why).message} {proposed && w.proposal(proposed)}
+                  </span>
+                </li>
+              ))}
+            </ul>
+          </section>
+        )}
         <div class="class-cards">
           <Histogram graded={graded} />
           <Lost graded={graded} />

@@ -201,6 +201,8 @@ export const words: Words = {
       reference: 'Musterlösung',
       late: 'verspätet',
       leftOut: (count) => `Ausgelassene Dateien: ${count}`,
+      unmatched: (count) => `Nicht zugeordnet: ${count}`,
+      proposal: (name) => `Am ähnlichsten: ${name}`,
       alike: 'Fast gleich',
       nobodyAlike: 'Keine zwei sind fast gleich.',
       sameFile: 'dieselbe Datei',
@@ -763,7 +765,18 @@ export const words: Words = {
       filled: 'Bewertungstabelle (CSV)',
       journal: 'Verlauf',
       leftOut: (count) => `Dateien, die zu niemandem gehören: ${count}`,
+      unmatched: (count) => `Nicht zugeordnet: ${count}`,
+      itIs: (name) => `Es ist ${name}`,
+      allProposals: 'Alle Vorschläge annehmen',
+      somebodyElse: 'Jemand anders',
+      noProposal: 'Niemand ist ähnlich.',
+      whoIsIt: 'Wer ist es?',
+      ofItsOwn: 'eine eigene Abgabe',
+      nobody: 'niemand',
+      decided: 'Bewerte noch einmal, um zugeordnete Dateien zu prüfen.',
       acts: {
+        assign: (who, file, name) => `${who}: ${file} ist von ${name}`,
+        enrol: (who, name, row) => `${who}: ${name} ist ${row} der Tabelle`,
         mark: (who, name, test, points, text) => `${who}: ${name}, ${test}: ${points}. ${text}`,
         taken: (who, name, test) => `${who}: ${name}, ${test}: wie der Test sie gab`,
         second: (who, name, test, points) => `${who}, Zweitprüfung: ${name}, ${test}: ${points}`,
@@ -1144,10 +1157,6 @@ export const diagnostics: Templates = {
   at_start: ['am Start'],
   back_at_begin: ['wieder am Anfang; wartet, bis es frei ist'],
   back_at_home: ['in seiner Grundstellung; wartet, bis es frei ist'],
-  backend_not_installed: [
-    'Das Backend {backend} braucht Pakete, die nicht installiert sind ({missing}).',
-    'Installiere sie.',
-  ],
   bad_asset_attachment: [
     'Der Anhang {found} gehört nicht zu einer Datei des Labors; erwartet wird JSON mit size, sha256, media_type und offset.',
   ],
@@ -1737,6 +1746,7 @@ export const diagnostics: Templates = {
   ],
   field_refused: ["'{field}' ist {found}: {why:problem}"],
   field_unknown: ["'{field}' gibt es nicht"],
+  file_assigned: ['{file} hat eine Lehrperson dieser Abgabe zugeordnet.'],
   file_changed_meanwhile: [
     'sie wurde während des Lesens geändert; sichere sie vollständig und versuche es noch einmal',
   ],
@@ -2159,10 +2169,6 @@ export const diagnostics: Templates = {
   ],
   mark_not_sent: ['Die Punkte von {student} kamen im Kurs nicht an: {why:problem}.'],
   mark_without_reason: ['Geänderte Punkte brauchen einen Grund; nenne ihn in wenigen Worten.'],
-  marks_changed: [
-    'Die Punkte von {count:count Abgabe|Abgaben} wurden von Hand geändert; sie bleiben so.',
-    'Schreibe die Punkte des Tests wieder in die Tabelle, um eine Änderung zurückzunehmen.',
-  ],
   marks_of_another_form: [
     'Diese Punkte gehören nicht zu dem, was hier abgegeben wurde; der Kurs weiß nicht, wessen sie sind.',
     'Bewerte das Abgegebene, oder nimm die Bewertungstabelle.',
@@ -2435,10 +2441,6 @@ export const diagnostics: Templates = {
     'Dieses Gateway zeigt keine Klasse.',
     'Starte das Labor mit dem Ordner einer bewerteten Klasse.',
   ],
-  no_class_file: [
-    'In {folder} gibt es kein {file}.',
-    'Bewerte die Abgaben einer Klasse in einen Ordner, und nenne diesen.',
-  ],
   no_class_folder: [
     '{folder} enthält {found} und ist kein Ordner einer früher bewerteten Klasse; nimm einen leeren oder einen neuen Ordner.',
   ],
@@ -2460,7 +2462,6 @@ export const diagnostics: Templates = {
     "Den Endeffektor '{end_effector}' gibt es nicht; es gibt: {known:list}, oder none für den bloßen Flansch.",
     "[Meinst du '{close}'?]",
   ],
-  no_export: ['Einen Ordner oder ein Archiv {file} gibt es nicht; prüfe den Pfad und den Namen.'],
   no_export_format: [
     "Das Format '{format}' wird nicht geschrieben[; gemeint ist vielleicht {close}].",
     'Wähle eines von diesen: {known:list}.',
@@ -2549,13 +2550,6 @@ export const diagnostics: Templates = {
     '{file} ist eine Zelle mehrerer Roboter, und die Rubrik ist für einen {robot}; lass robot: in einer Rubrik für Zellen weg.',
   ],
   grader_not_started: ['Der Prozess, der prüft, ist nicht gestartet.'],
-  key_table_not_read: [
-    'Die Schlüsseltabelle {file} ist nicht lesbar ({why:problem}); ohne sie würden sich die Pseudonyme ändern.',
-    'Repariere sie, oder verschiebe sie, um neue zu bekommen.',
-  ],
-  key_table_not_written: [
-    'Die Schlüsseltabelle {file} kann nicht geschrieben werden: {why:problem}.',
-  ],
   no_file: ['Es gibt keine Datei.'],
   no_robot_in_rubric: [
     "'{file}' sagt nicht, für welchen Roboter sie ist; nenne einen in der Rubrik: robot: ur5e",
@@ -2600,9 +2594,6 @@ export const diagnostics: Templates = {
   objects_taken_out: ['Aus der Szene entfernt: {objects:list}.'],
   of_reference: ['{rubric}: Referenz: {why:problem}.'],
   of_rubric: ['{rubric}: {why:problem}.'],
-  option_out_of_range: [
-    '--{option} ist {value:number}; erwartet wird {least:number} bis {most:number}.',
-  ],
   other_joints: [
     "'{file}' hat die Gelenke {joints:list}; erwartet werden die von {model}.",
     'Wandle die ursprüngliche Datei noch einmal um.',
@@ -2665,10 +2656,6 @@ export const diagnostics: Templates = {
   ],
   stands_still: ['{robot} bewegt sich nicht.'],
   stop_event: ['{robot}: {said:problem}'],
-  stopped_class: [
-    'Abgebrochen: {done:integer} von {all:integer} sind geprüft und bleiben erhalten.',
-    'Starte denselben Befehl noch einmal, um fortzufahren.',
-  ],
   stops_awaited: [
     'Die Ereignisse von {bag} werden noch gelesen.',
     'Versuch es gleich noch einmal.',
@@ -2694,15 +2681,7 @@ export const diagnostics: Templates = {
   ],
   unpacking_not_started: ['Der Prozess, der entpackt, startet nicht: {why:problem}.'],
   unreadable_submission: ['Keine Datei dieser Abgabe lässt sich lesen.'],
-  workers_differ: [
-    'Worker bei {address} haben ein anderes MR-Lab als dieser Rechner[: {workers:list}][ ({why:problem})].',
-    'Installiere auf allen Rechnern dieselbe Version.',
-  ],
-  worksheet_failed: [
-    '{file} ist nicht lesbar, oder {out} kann nicht geschrieben werden: {why:problem}.',
-  ],
   page_not_written: ['{file} kann nicht geschrieben werden: {why:problem}.'],
-  worksheet_written: ['Die Bewertungstabelle ist {file}.'],
   no_number: ['sie ist {found:problem}, wo eine reelle Zahl erwartet wird'],
   no_numbers: ['sie enthält keine Zeile mit Zahlen'],
   no_object_checked: ['In dem, was geprüft wurde, gibt es keinen Gegenstand {object}.'],
@@ -3691,13 +3670,6 @@ export const diagnostics: Templates = {
     '{place:problem} enthält {parts:list}; eine Zelle hat nur Systeme.',
     'Lade sie als Szene.',
   ],
-  scheduler_needs_cluster: [
-    'Ein Scheduler braucht das Backend dask oder ray; loky benutzt nur diesen Rechner.',
-  ],
-  scheduler_not_reached: [
-    'Der Scheduler {address} von dask ist nicht erreichbar ({why:problem}).',
-    'Starte einen.',
-  ],
   second_cannot_read: ['{reader} kann sie nicht lesen ({error})'],
   second_finds: [
     '{reader} findet {second}, wo {first} gelesen wurde (Zeile {row:integer}, Spalte {column:integer}[, Seite {page:integer}]; {count:integer} von {total:integer} Werten sind verschieden)',
@@ -4095,7 +4067,6 @@ export const diagnostics: Templates = {
   units_unknown: [
     "in ihrer Zeile mit Einheiten steht '{found}', und diese Einheit ist hier nicht bekannt",
   ],
-  unknown_backend: ["Das Backend ist '{backend}'; erwartet: {known:either}."],
   unknown_class: ['diese Klasse kennt nur MATLAB'],
   unknown_class_number: [
     "'{variable}' hat die Klassennummer {found:integer}; die schreibt MATLAB nie",

@@ -147,6 +147,8 @@ export const en = {
       reference: 'Reference solution',
       late: 'late',
       leftOut: (count: number) => `Files left out: ${count}`,
+      unmatched: (count: number) => `Could not be matched: ${count}`,
+      proposal: (name: string) => `Nearest: ${name}`,
       alike: 'Nearly the same',
       nobodyAlike: 'No two are nearly the same.',
       sameFile: 'the same file',
@@ -708,7 +710,19 @@ export const en = {
       filled: 'Grading worksheet (CSV)',
       journal: 'Journal',
       leftOut: (count: number) => `Files that belong to nobody: ${count}`,
+      unmatched: (count: number) => `Could not be matched: ${count}`,
+      itIs: (name: string) => `It is ${name}`,
+      allProposals: 'Take all proposals',
+      somebodyElse: 'Somebody else',
+      noProposal: 'Nobody is near.',
+      whoIsIt: 'Who is it?',
+      ofItsOwn: 'a submission of its own',
+      nobody: 'nobody',
+      decided: 'Mark again to check the files that have a student now.',
       acts: {
+        assign: (who: string, file: string, name: string) => `${who}: ${file} is of ${name}`,
+        enrol: (who: string, name: string, row: string) =>
+          `${who}: ${name} is ${row} of the table`,
         mark: (who: string, name: string, test: string, points: string, text: string) =>
           `${who}: ${name}, ${test}: ${points}. ${text}`,
         taken: (who: string, name: string, test: string) =>

@@ -118,6 +118,8 @@ def test_who_is_to_be_repeated_has_no_mark_and_no_share_in_the_mean():
     assert GradedClass(RUBRIC, "folder", (STUDENTS[0], again)).statistics().mean == 7.5
     moodle = Student(Submission("ben", "Ben", "Moodle", "2"), again.result)
     sheet = "Identifier,Grade\nParticipant 2,\n"
-    filled, problems = gradebook.filled(sheet, [moodle], "sheet.csv")
+    filled, problems = gradebook.Sheet(sheet, "sheet.csv").filled(
+        [moodle], {"ben": "Participant 2"}
+    )
     assert filled.splitlines()[1] == "Participant 2,"
     assert [p.code for p in problems] == ["grade_to_repeat"]

@@ -72,7 +72,7 @@ def test_gradescope_says_who_sent_a_submission():
 def test_a_folder_around_all_is_no_student_and_junk_is_nobodys():
     found = students("hw1/a.mat", "hw1/b.mat", "hw1/readme.txt", "__MACOSX/hw1/._a.mat")
     assert [s.name for s in found.submissions] == ["a", "b"]
-    assert [(p, why.code) for p, why in found.left_out] == [("hw1/readme.txt", "no_motion_file")]
+    assert [(e.path, e.why.code) for e in found.left_out] == [("hw1/readme.txt", "no_motion_file")]
 
 
 def test_who_sent_no_motion_is_in_the_class_all_the_same():
