@@ -1,5 +1,5 @@
 import { useEffect, useRef, useState } from 'preact/hooks'
-import type { ClassAct, ClassDifference } from '../api/types'
+import type { ClassAct, ClassDifference } from '../api/class_types'
 import { Button, ButtonLink } from '../design/button'
 import { Select } from '../design/field'
 import { Icon } from '../design/icons'

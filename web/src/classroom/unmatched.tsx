@@ -1,5 +1,5 @@
 import { useState } from 'preact/hooks'
-import type { Unmatched as One } from '../api/types'
+import type { Unmatched as One } from '../api/class_types'
 import { Button } from '../design/button'
 import { Select } from '../design/field'
 import { showToast } from '../design/toast'
