@@ -42,8 +42,8 @@ function Stops({ stops, player, enabled }: StopsProps) {
   if (stops.length === 0) return null
   return (
     <ol class="lab-load-list lab-stops" aria-label={words.value.report.events}>
-      {stops.map((stop) => (
-        <li key={stop.time}>
+      {stops.map((stop, i) => (
+        <li key={i}>
           <button
             type="button"
             class={`lab-load-item lab-stop lab-stop-${stop.severity} small`}
