@@ -19,12 +19,19 @@ const OUTCOME_STATES = {
 } as const satisfies Record<string, StateName>
 const OUTCOME_ICONS = { accepted: 'complete', rejected: 'error', ambiguous: 'warning' } as const
 
+interface OutcomeProps {
+  readonly outcome: keyof typeof OUTCOME_STATES
+  /** True if it is taken with a warning: it then looks like one. */
+  readonly doubted?: boolean
+}
+
 /** The outcome of a file. */
-export function OutcomeChip({ outcome }: { outcome: keyof typeof OUTCOME_STATES }) {
-  const look = OUTCOME_STATES[outcome].toLowerCase().replace('_', '-')
+export function OutcomeChip({ outcome, doubted = false }: OutcomeProps) {
+  const like = doubted && outcome === 'accepted' ? 'ambiguous' : outcome
+  const look = OUTCOME_STATES[like].toLowerCase().replace('_', '-')
   return (
     <span class={`chip chip-${look}`}>
-      <Icon name={OUTCOME_ICONS[outcome]} />
+      <Icon name={OUTCOME_ICONS[like]} />
       {words.value.outcomes[outcome]}
     </span>
   )

@@ -58,7 +58,7 @@ export function Verdict({ flow, result, file }: VerdictProps) {
       <header class="verdict-head">
         <div class="grow stack-8">
           <div class="row">
-            <OutcomeChip outcome={conversion.outcome} />
+            <OutcomeChip outcome={conversion.outcome} doubted={causeOf(result) > 0} />
             <span class="second small verdict-file">{file.name}</span>
             {flow.canUndo.value && (
               <Button look="quiet" icon="undo" onClick={() => flow.undo()}>
