@@ -21,6 +21,8 @@ const THICK = 2.2
 const SIDE = 512
 const CELL = 48
 const COLUMNS = Math.floor(SIDE / CELL)
+/** The last row is for shapes: at an edge a neighbour is seen faintly. */
+const CELLS = COLUMNS * COLUMNS
 const SIZE = TEXT.small * TEXELS
 /** px from a cell's left edge to its glyph. */
 const INSET = 6
@@ -35,6 +37,11 @@ interface Cell {
 interface Glyph extends Cell {
   /** mm */
   readonly wide: number
+}
+
+/** Return the left top corner of a cell of the atlas, px. */
+function cornerOf(cell: number): { readonly x: number; readonly y: number } {
+  return { x: (cell % COLUMNS) * CELL, y: Math.floor(cell / COLUMNS) * CELL }
 }
 
 /** All glyphs of texts that change with the time, painted once for all panels. */
@@ -59,9 +66,16 @@ class Atlas {
       toneMapped: false,
       vertexColors: true,
     })
-    const { u, v } = this.of('█')
-    this.solid = { u: u + CELL / 2 / SIDE, v: v - CELL / 2 / SIDE }
-    this.disc = this.of('●')
+    const context = this.canvas.getContext('2d')
+    if (context !== null) context.fillStyle = '#ffffff'
+    const box = cornerOf(CELLS - 1)
+    context?.fillRect(box.x, box.y, CELL, CELL)
+    this.solid = { u: (box.x + CELL / 2) / SIDE, v: 1 - (box.y + CELL / 2) / SIDE }
+    const disc = cornerOf(CELLS - 3)
+    context?.beginPath()
+    context?.arc(disc.x + CELL / 2, disc.y + CELL / 2, CELL / 2 - 1, 0, 2 * Math.PI)
+    context?.fill()
+    this.disc = { u: disc.x / SIDE, v: 1 - disc.y / SIDE }
     for (const letter of FIRST) this.of(letter)
   }
 
@@ -70,21 +84,14 @@ class Atlas {
     const known = this.glyphs.get(letter)
     if (known !== undefined) return known
     const context = this.canvas.getContext('2d')
-    const place = Math.min(this.glyphs.size, COLUMNS * COLUMNS - 1)
-    const x = (place % COLUMNS) * CELL
-    const y = Math.floor(place / COLUMNS) * CELL
+    const { x, y } = cornerOf(Math.min(this.glyphs.size, CELLS - COLUMNS - 1))
     let wide = SIZE / 2
     if (context !== null) {
       context.font = `600 ${SIZE}px ${FONT}`
       context.fillStyle = '#ffffff'
       context.textBaseline = 'middle'
       context.clearRect(x, y, CELL, CELL)
-      if (letter === '█') context.fillRect(x, y, CELL, CELL)
-      else if (letter === '●') {
-        context.beginPath()
-        context.arc(x + CELL / 2, y + CELL / 2, CELL / 2 - 1, 0, 2 * Math.PI)
-        context.fill()
-      } else context.fillText(letter, x + INSET, y + CELL / 2)
+      context.fillText(letter, x + INSET, y + CELL / 2)
       // figures of one width: a number does not tremble
       wide = context.measureText(/\d/.test(letter) ? '0' : letter).width
       this.texture.needsUpdate = true
