@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
-
-import numpy as np
 
 from mrlab_ros.app.show import ingredients, still_text
 from mrlab_ros.app.show.page import page
@@ -16,18 +14,29 @@ from mrlab_ros.classroom.folder import FEEDBACK, PAGES, ResultsFolder
 from mrlab_ros.classroom.marks.exports import REFERENCE
 from mrlab_ros.classroom.marks.graded import SCHEMA, GradedClass, Student
 from mrlab_ros.classroom.marks.result import MARKED, MOST_PATH, REFUSED, TO_REPEAT, Result
+from mrlab_ros.classroom.marks.ways import drawn
 from mrlab_ros.core.base.diagnostic import plain
 
 MOST_FINDINGS, MOST_TESTS = 6, 8
 MOST_LEFT_OUT = 200
-# Points of the ways of all tools: those of a large class have fewer each.
-MOST_POINTS, LEAST_EACH = 60_000, 12
+# Points of the ways of all tools: those of a large class have fewer each, in coarser steps (m).
+MOST_POINTS, LEAST_EACH = 40_000, 9
+FINE, COARSE = 0.001, 0.008
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """How finely the ways are drawn. points: of each, at most; step: m."""
+
+    points: int
+    step: float
 
 
 def class_document(graded: GradedClass) -> dict[str, Any]:
     """Return the class: a row a student, what is common, and who is alike."""
     rubric, figures, common = graded.rubric, graded.statistics(), graded.similar()
     each = max(MOST_POINTS // max(len(graded.students), 1), LEAST_EACH)
+    finely = Drawn(min(each, MOST_PATH), FINE if each >= MOST_PATH else COARSE)
     return {
         "schema": SCHEMA,
         "title": rubric.name,
@@ -35,6 +44,7 @@ def class_document(graded: GradedClass) -> dict[str, Any]:
         "robot": rubric.robot,
         "scene": rubric.scene,
         "points": rubric.points,
+        "step": round(finely.step * 1e3),
         "tests": [
             {"name": test.name, "points": test.points, "hidden": test.hidden}
             for test in rubric.tests
@@ -50,8 +60,10 @@ def class_document(graded: GradedClass) -> dict[str, Any]:
                 for one in figures.findings[:MOST_FINDINGS]
             ],
         },
-        "students": [_row(student, each) for student in graded.students],
-        "reference": None if graded.reference is None else _result(REFERENCE, graded.reference),
+        "students": [_row(student, finely) for student in graded.students],
+        "reference": None
+        if graded.reference is None
+        else _result(REFERENCE, graded.reference, finely),
         "similar": {
             "threshold": common.threshold,
             "usual": common.usual,
@@ -69,10 +81,10 @@ def class_document(graded: GradedClass) -> dict[str, Any]:
     }
 
 
-def _row(student: Student, points: int) -> dict[str, Any]:
+def _row(student: Student, finely: Drawn) -> dict[str, Any]:
     one, result = student.submission, student.result
     return {
-        **_result(student.key, result, points),
+        **_result(student.key, result, finely),
         "name": one.name,
         "identifier": one.identifier,
         "late": one.late,
@@ -80,12 +92,8 @@ def _row(student: Student, points: int) -> dict[str, Any]:
     }
 
 
-def _result(key: str, result: Result, points: int = MOST_PATH) -> dict[str, Any]:
-    """Return what became of a submission; path: mm, of so many points, page: relative to the
-    class' own."""
-    path = np.array(result.path) * 1e3
-    if len(path) > points:
-        path = path[np.linspace(0, len(path) - 1, points).round().astype(int)]
+def _result(key: str, result: Result, finely: Drawn) -> dict[str, Any]:
+    """Return what became of a submission; page: relative to the class' own."""
     return {
         "key": key,
         "marked": result.outcome in (MARKED, REFUSED),
@@ -96,7 +104,7 @@ def _result(key: str, result: Result, points: int = MOST_PATH) -> dict[str, Any]
         "duration": result.duration,
         "marks": [_mark(mark) for mark in result.marks["tests"]],
         "page": f"pages/{key}.html" if result.has_page else None,
-        "path": path.round().astype(int).tolist(),
+        "path": drawn(result.path, finely.points, finely.step),
     }
 
 

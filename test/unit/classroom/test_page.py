@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import orjson
 
 from mrlab_ros.app.show.page import Code, page
 from mrlab_ros.classroom.marks.diagnostics import NO_FILE_HANDED_IN, NO_MOTION_FILE
-from mrlab_ros.classroom.marks.exports import Entry, recognise
+from mrlab_ros.classroom.marks.exports import Entry, LeftOut, recognise
 from mrlab_ros.classroom.marks.graded import GradedClass, Student
 from mrlab_ros.classroom.marks.result import MARKED, NO_FILE, Result, without_marks
+from mrlab_ros.classroom.marks.ways import drawn
 from mrlab_ros.classroom.page import class_document, text_of
 from mrlab_ros.classroom.rubrics.diagnostics import NOTHING_TOUCHED
 from mrlab_ros.classroom.rubrics.marking import Mark, Marks
@@ -39,18 +41,18 @@ def graded():
     submissions = recognise([Entry(p) for p in PATHS], (".mat",)).submissions
     students = tuple(Student(s, r) for s, r in zip(submissions, results, strict=True))
     return GradedClass(
-        RUBRIC, "Moodle", students, (("x.txt", NO_MOTION_FILE()),), reference=result
+        RUBRIC, "Moodle", students, (LeftOut("x.txt", NO_MOTION_FILE()),), reference=result
     )
 
 
-def test_a_row_leads_to_its_page_and_has_its_way_in_millimetres():
+def test_a_row_leads_to_its_page_and_has_its_way():
     found = orjson.loads(orjson.dumps(class_document(graded())))
     anna, joerg = found["students"]
     assert (anna["page"], anna["marked"]) == (f"pages/{anna['key']}.html", True)
-    assert anna["path"] == [[100, 200, 300], [100, 200, 400]]
+    assert (found["step"], anna["path"]) == (1, drawn(((0.1, 0.2, 0.3), (0.1, 0.2, 0.4)), 2, 1e-3))
     assert (anna["marks"][0]["passed"], anna["marks"][0]["time"]) == (False, 1.5)
     assert joerg["said"]["code"] == "no_file_handed_in"
-    assert (joerg["page"], joerg["marked"], joerg["path"]) == (None, False, [])
+    assert (joerg["page"], joerg["marked"], joerg["path"]) == (None, False, "")
     assert found["reference"]["page"] == "pages/reference.html"
     assert found["tests"][0]["hidden"]
     assert found["left_out_count"] == 1
@@ -68,10 +70,11 @@ def test_the_text_has_a_row_a_student_and_no_name_runs():
     assert "&lt;script&gt;\\u202e · 0" in shown
 
 
-def test_the_ways_of_a_large_class_have_fewer_points_each():
+def test_the_ways_of_a_large_class_have_fewer_points_in_coarser_steps():
     one = graded().students[0]
-    way = tuple((i / 1e3, 0.0, 0.0) for i in range(64))
+    way = tuple((0.0, math.sin(i / 6), i / 60) for i in range(64))
     many = (replace(one, result=replace(one.result, path=way)),) * 5000
-    for students, points in ((many[:30], 64), (many, 12)):
-        path = class_document(replace(graded(), students=students))["students"][-1]["path"]
-        assert (len(path), path[0], path[-1]) == (points, [0, 0, 0], [63, 0, 0])
+    for students, points, step in ((many[:30], 64, 1), (many, 9, 8)):
+        found = class_document(replace(graded(), students=students))
+        assert found["step"] == step
+        assert found["students"][-1]["path"] == drawn(way, points, step / 1e3)

@@ -9,6 +9,8 @@ export interface ClassDocument {
   readonly robot: string
   readonly scene: string
   readonly points: number
+  /** mm, of the ways */
+  readonly step: number
   readonly tests: readonly ClassTest[]
   readonly statistics: ClassStatistics
   readonly students: readonly ClassStudent[]
@@ -57,8 +59,8 @@ export interface ClassResult {
   readonly marks: readonly ClassMark[]
   /** Relative to this page; null: none. */
   readonly page: string | null
-  /** Of the tool, mm in the world; empty: no motion. */
-  readonly path: readonly (readonly number[])[]
+  /** Of the tool, as `wayOf` reads it; empty: no motion. */
+  readonly path: string
 }
 
 export interface ClassMark {

@@ -4,7 +4,8 @@ import { Icon } from '../design/icons'
 import { Notice } from '../design/notice'
 import { printing } from '../report/fold'
 import { Page } from '../report/page'
-import { type Scale, scaleOf, Thumbnail, type Way } from '../report/plot/thumbnail'
+import { type Scale, scaleOf, Thumbnail } from '../report/plot/thumbnail'
+import { type Way, wayOf } from '../report/plot/way'
 import { say } from '../words/diagnostic'
 import { number, words } from '../words/words'
 import type { ClassDocument, ClassMark, ClassResult, ClassStudent } from './class_document'
@@ -23,24 +24,27 @@ const STATES = {
 } as const
 type State = keyof typeof STATES
 
-/** Scale and solution with which the paths of the class are drawn. */
-const Drawn = createContext<{ readonly scale: Scale; readonly reference: Way }>({
-  scale: scaleOf([]),
-  reference: [],
-})
+/** The ways of the class by key, their scale, and the solution's. */
+const Drawn = createContext<{
+  readonly ways: ReadonlyMap<string, Way>
+  readonly scale: Scale
+  readonly reference: Way
+}>({ ways: new Map(), scale: scaleOf([]), reference: [] })
 
 /** The report of a graded class: common mistakes, a row for each student, and similar
  * submissions. */
 export function ClassReport({ graded }: { graded: ClassDocument }) {
   const w = words.value.report.class
   const { students, reference, statistics } = graded
-  const drawn = useMemo(
-    () => ({
-      scale: scaleOf([...students.map(({ path }) => path), reference?.path ?? []]),
-      reference: reference?.path ?? [],
-    }),
-    [students, reference],
-  )
+  const drawn = useMemo(() => {
+    const all = reference ? [...students, reference] : students
+    const ways = new Map(all.map(({ key, path }) => [key, wayOf(path, graded.step)]))
+    return {
+      ways,
+      scale: scaleOf([...ways.values()]),
+      reference: (reference && ways.get(reference.key)) ?? [],
+    }
+  }, [graded])
   useEffect(() => {
     document.documentElement.dataset.ready = 'true'
   }, [])
@@ -379,15 +383,16 @@ function Cell({ mark, marked, page }: { mark: ClassMark; marked: boolean; page: 
 }
 
 function Picture({ result, spots = true }: { result: ClassResult; spots?: boolean }) {
-  const { scale, reference } = useContext(Drawn)
-  const { path, marks, duration, page } = result
-  if (path.length === 0) return null
+  const { ways, scale, reference } = useContext(Drawn)
+  const { key, marks, duration, page } = result
+  const way = ways.get(key) ?? []
+  if (way.length === 0) return null
   const lost = marks.flatMap(({ time, passed }) =>
     spots && time !== null && !passed && duration ? [time / duration] : [],
   )
   return (
     <Linked to={page}>
-      <Thumbnail way={path} reference={reference} scale={scale} lost={lost} />
+      <Thumbnail way={way} reference={reference} scale={scale} lost={lost} />
       <span class="spoken">{words.value.report.class.motion}</span>
     </Linked>
   )

@@ -19,7 +19,7 @@ function row(change: Partial<ClassStudent>): ClassStudent {
     marks: [mark(1, true)],
     notes: [],
     page: null,
-    path: [],
+    path: '',
     said,
     ...change,
   }

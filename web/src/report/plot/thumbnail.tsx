@@ -1,29 +1,19 @@
 /** Small pictures of the ways of tools, all of a class in one scale, beside the reference's. */
 
+import { alongWay, type Way } from './way'
+
 const WIDTH = 104
 const HEIGHT = 72
 const MARGIN = 7
-// The view is from the front right and above, like that of the other pictures.
-const RIGHT = [-0.6, 0.8, 0] as const
-const UP = [-0.36, -0.27, 0.89] as const
 // Of the points at each end that may lie outside of the picture.
 const OUTSIDE = 0.02
 const LEAST = 50 // mm
 const MOST = 1000 // ways that the scale is taken from
 
-/** Points in the world, mm. */
-export type Way = readonly (readonly number[])[]
-type Flat = readonly [number, number]
-
-function flat([x = 0, y = 0, z = 0]: readonly number[]): Flat {
-  const along = ([a, b, c]: readonly [number, number, number]) => a * x + b * y + c * z
-  return [along(RIGHT), along(UP)]
-}
-
 /** Scale of the paths of a class in a picture. */
 export interface Scale {
   readonly factor: number
-  readonly middle: Flat
+  readonly middle: readonly [number, number]
 }
 
 function within(values: number[]): readonly [number, number] {
@@ -35,7 +25,7 @@ function within(values: number[]): readonly [number, number] {
 /** Return the scale in which the ways of a class can be compared by eye. */
 export function scaleOf(ways: readonly Way[]): Scale {
   const step = Math.max(1, Math.floor(ways.length / MOST))
-  const points = ways.filter((_, i) => i % step === 0).flatMap((way) => way.map(flat))
+  const points = ways.filter((_, i) => i % step === 0).flat()
   const [left, right] = within(points.map(([x]) => x))
   const [low, high] = within(points.map(([, y]) => y))
   const factor = Math.min(
@@ -55,8 +45,7 @@ interface ThumbnailProps {
 
 /** A path with a dot at its begin and a ring at its end. */
 export function Thumbnail({ way, reference, scale, lost = [] }: ThumbnailProps) {
-  const place = (point: readonly number[]): Flat => {
-    const [x, y] = flat(point)
+  const place = ([x = 0, y = 0]: readonly number[]): readonly [number, number] => {
     const [middleX, middleY] = scale.middle
     return [WIDTH / 2 + (x - middleX) * scale.factor, HEIGHT / 2 - (y - middleY) * scale.factor]
   }
@@ -68,19 +57,17 @@ export function Thumbnail({ way, reference, scale, lost = [] }: ThumbnailProps) 
           .join(),
       )
       .join(' ')
-  const last = way.length - 1
-  const spots = new Set(lost.map((share) => Math.min(Math.max(Math.round(share * last), 0), last)))
-  const circle = (index: number, kind: string, r: number) => {
-    const [cx, cy] = place(way[index] ?? [])
-    return <circle key={`${kind} ${index}`} class={kind} cx={cx} cy={cy} r={r} />
+  const circle = (point: readonly number[], kind: string, r: number) => {
+    const [cx, cy] = place(point)
+    return <circle key={`${kind} ${cx} ${cy}`} class={kind} cx={cx} cy={cy} r={r} />
   }
   return (
     <svg class="way-picture" viewBox={`0 0 ${WIDTH} ${HEIGHT}`} aria-hidden="true">
       {reference.length > 0 && <polyline class="compared" points={line(reference)} />}
       <polyline class="curve way" points={line(way)} />
-      {circle(last, 'end', 4)}
-      {circle(0, 'begin', 3)}
-      {[...spots].map((index) => circle(index, 'spot', 4))}
+      {circle(way.at(-1) ?? [], 'end', 4)}
+      {circle(way[0] ?? [], 'begin', 3)}
+      {[...new Set(lost)].map((share) => circle(alongWay(way, share), 'spot', 4))}
     </svg>
   )
 }
