@@ -26,6 +26,7 @@ from mrlab_ros.core.conversion.diagnostics import (
     JUMP_FULL_TURN,
     NO_MOTION,
     REPEATED_PIECES,
+    RESAMPLED,
     TOO_MANY_ROWS,
     TRAJECTORY_TAKEN,
     WAYPOINTS,
@@ -368,6 +369,8 @@ def _against_robot(
         turned = {f.joint for f in turns}
         jumps = [f for f in found if not (f.code == DISCONTINUITY.code and f.joint in turned)]
         found = [*turns, *jumps]
+    if any(n.code == RESAMPLED.code for n in notes):
+        found = [motion_checks.with_own_times(f) for f in found]
     if any(n.code == WAYPOINTS.code for n in notes):
         # the time between waypoints is not known, so their speed is not either
         return [f for f in found if f.code != "velocity_limit"]

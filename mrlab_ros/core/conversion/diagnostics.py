@@ -840,11 +840,17 @@ VELOCITY_LIMIT = Code(
     "velocity_limit",
     "{joint} moves at {value:measure} in row {first_row:integer} ({time:time}); {model} reaches "
     "{limit:measure}; it is too fast in {count:count step|steps}.",
-    "Use more samples for the motion, or check that {rate:number} rows a second is right: at "
-    "{slower:number} the robot can follow.",
+    "Make the motion {times:number} times as long[, or check that {rate:number} rows a second is "
+    "right: at {slower:number} the robot can follow].",
     severity=WARNING,
     meaning="A joint moves faster than the robot can.",
-    fixes=(("frame_rate", "{slower:g}", "fs = {slower:g}; save('traj.mat', 'q', 'fs', '-v7')"),),
+    fixes=(
+        (
+            "frame_rate",
+            "{slower:g}",
+            "q = {name:matlab}; fs = {slower:g}; save('traj.mat', 'q', 'fs', '-v7')",
+        ),
+    ),
 )
 DISCONTINUITY = Code(
     "discontinuity",

@@ -120,7 +120,30 @@ def against_robot(
     elif jumps:
         parts = _between(sorted(jumps), len(positions), variable)
         findings = [replace(f, fixes=parts) if f.code == "discontinuity" else f for f in findings]
-    return sorted(findings, key=lambda found: found.code != "jump_2pi")
+    return sorted(_at_one_rate(findings), key=lambda found: found.code != "jump_2pi")
+
+
+def _at_one_rate(findings: list[Diagnostic]) -> list[Diagnostic]:
+    """Return the findings, in which each joint that is too fast names the rate that suits all."""
+    too_fast = [f for f in findings if f.code == "velocity_limit"]
+    if not too_fast:
+        return findings
+    slower = min(float(f.values["slower"]) for f in too_fast)
+    times = float(too_fast[0].values["rate"]) / slower
+    said = []
+    for found in too_fast:
+        again = VELOCITY_LIMIT(**{**found.values, "slower": slower, "times": times})
+        (fix,) = again.fixes
+        line = fix.matlab.removeprefix("q = q; ")
+        said.append(replace(again, fixes=(replace(fix, matlab=line),)))
+    return [f for f in findings if f not in too_fast] + said
+
+
+def with_own_times(finding: Diagnostic) -> Diagnostic:
+    """Return a finding of frames that were made of points with times: no rate slows these."""
+    if finding.code != "velocity_limit":
+        return finding
+    return VELOCITY_LIMIT(**{**finding.values, "rate": None, "slower": None}, fixes=())
 
 
 def _range(
@@ -187,6 +210,7 @@ def _steps(
             unit="rad/s",
             rate=frame_rate,
             slower=_slower(joint.max_velocity / largest),
+            times=largest / reach,
             model=robot,
             count=too_fast,
             **place,
@@ -300,7 +324,7 @@ def of_columns(finding: Diagnostic) -> Diagnostic:
         replace(
             fix,
             value=re.sub(r"\(([^()]*), :\)$", r"(:, \1)", fix.value),
-            matlab=re.sub(r"^(?=(\w+)[ (].*=)", r"\1 = \1.'; ", fix.matlab),
+            matlab=re.sub(r"^(?=(\w+)[ (][^;]*=[^;]*\b\1\b)", r"\1 = \1.'; ", fix.matlab),
         )
         for fix in finding.fixes
     )

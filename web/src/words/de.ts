@@ -4133,7 +4133,7 @@ export const diagnostics: Templates = {
   velocities_of: ['das sind die Geschwindigkeiten ihrer Spalten {columns}'],
   velocity_limit: [
     '{joint} bewegt sich in Zeile {first_row:integer} ({time:time}) mit {value:measure}; {model} erreicht {limit:measure}; zu schnell ist das Gelenk in {count:count Schritt|Schritten}.',
-    'Nimm mehr Messpunkte für die Bewegung, oder prüfe, ob {rate:number} Zeilen pro Sekunde stimmen: Mit {slower:number} kann der Roboter folgen.',
+    'Mach die Bewegung {times:number}-mal so lang[, oder prüfe, ob {rate:number} Zeilen pro Sekunde stimmen: Mit {slower:number} kann der Roboter folgen].',
   ],
   version_gone: [
     'Die Datei der Version {version:integer} ist nicht mehr in {place}.',

@@ -56,6 +56,31 @@ def test_two_jumps_are_left_by_the_longest_part_between_them():
         assert convert(var("q", q), variable=part).outcome is Outcome.ACCEPTED
 
 
+@pytest.mark.parametrize("name", ["q", "arm_motion"])
+def test_the_rate_that_is_advised_once_ends_what_is_too_fast_in_any_joint(name):
+    fast = var(name, Q), var("fs", [1000.0])
+    too_fast = [d for d in convert(*fast).diagnostics if d.code == "velocity_limit"]
+    assert len({d.joint for d in too_fast}) > 2
+    (fix,) = {d.fixes for d in too_fast}
+    assert fix[0].option == "frame_rate"
+    rate = float(fix[0].value)
+    for mended in (convert(*fast, frame_rate=rate), convert(var("q", Q), var("fs", [rate]))):
+        assert mended.outcome is Outcome.ACCEPTED
+        assert "velocity_limit" not in codes(mended)
+    saved = f"fs = {rate:g}; save('traj.mat', 'q', 'fs', '-v7')"
+    assert fix[0].matlab == (saved if name == "q" else f"q = {name}; {saved}")
+    (times,) = {d.values["times"] for d in too_fast}
+    slow = convert(var("q", Q), var("t", T * 50.0 / 1000.0 * times), resample=True)
+    assert "velocity_limit" not in codes(slow)
+
+
+def test_no_rate_is_advised_where_points_keep_their_times():
+    fast = var("q", Q), var("t", T * 50.0 / 1000.0)
+    too_fast = [d for d in convert(*fast, resample=True).diagnostics if d.code == "velocity_limit"]
+    assert too_fast
+    assert not any(d.fixes or "slower" in d.values for d in too_fast)
+
+
 def test_a_part_of_a_part_is_written_as_a_part_of_the_matrix():
     assert joining.rows_of("q", 2, 9) == "q(2:9, :)"
     assert joining.rows_of("q(151:300, :)", 2, 150) == "q(152:300, :)"
