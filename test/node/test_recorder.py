@@ -18,6 +18,7 @@ from typing import Any
 
 import pytest
 import small_lab
+import yaml
 from child_process import HOST, start_child
 from diagnostic_msgs.msg import DiagnosticArray
 from graph import Graph, Inbox, wait_for
@@ -48,6 +49,7 @@ from mrlab_ros.adapters.trajectories.formats import chunks, parse
 from mrlab_ros.app.diagnostics import RECORDED, RECORDING_WITH_GAP
 from mrlab_ros.app.recorder import recorder as use_case
 from mrlab_ros.core.base.diagnostics import BAD_POSITION
+from mrlab_ros.core.bridge import rules
 from mrlab_ros.core.recording import recorder as entries
 from mrlab_ros.core.recording.diagnostics import (
     BAD_REPLAY_RATE,
@@ -68,8 +70,10 @@ from mrlab_ros.core.recording.diagnostics import (
     TOUR_STOP,
 )
 from mrlab_ros.core.recording.metadata import QosProfile, Topic
+from mrlab_ros.core.recording.topics import LAB_TOPICS, Topics
 from mrlab_ros.messages import qos, trajectories
 from mrlab_ros.messages.definitions import definition
+from mrlab_ros.messages.qos import message_class
 from mrlab_ros.messages.status import INSTANT
 from mrlab_ros.nodes.recorder import recording, replaying
 from mrlab_ros.nodes.recorder.diagnostics import (
@@ -161,6 +165,35 @@ def test_a_recording_holds_what_was_said_also_by_who_came_later(graph, recorder,
     assert "/ur5e_2/unwanted" not in Bag(folder).topics
     assert [file.path.name for file in Bag(folder).files] == ["class_0.mcap", "class_1.mcap"]
     assert Bag(folder).troubles == []
+
+
+def test_what_displays_send_is_asked_for_and_held(graph, recorder, states):
+    """The bridge brings a topic of displays into the graph while somebody there subscribes."""
+    topics = rules.parse(
+        yaml.safe_load((directory() / "config" / "bridge.yaml").read_text())
+    ).topics
+    sent = [each for each in topics if each.direction is rules.Direction.IN]
+    taken_in_any_case = {"/moves", "/latency/clients"}  # by lab and bridge
+    wanted = {
+        each.name: each.type
+        for each in sent
+        if each.name in Topics(LAB_TOPICS) and each.name not in taken_in_any_case
+    }
+    assert {"/presence", "/look_here"} <= wanted.keys()
+    folder = start(graph, "")
+    made = {}
+    for name, kind in wanted.items():
+        wait_for(lambda name=name: graph.client.count_subscribers(name), f"who wants {name}")
+        made[name] = graph.client.create_publisher(message_class(kind), name, qos.STREAM)
+    for name, each in made.items():
+        wait_for(lambda name=name: graph.client.count_subscribers(name) > 1, "the recorder")
+        each.publish(message_class(wanted[name])())
+    wait_for(
+        lambda: {m.topic for m in Bag(folder).messages(topics=set(wanted))} == set(wanted),
+        "a message of each on the disk",
+    )
+    order(graph, "stop")
+    assert not any(map(graph.client.count_subscribers, wanted))
 
 
 def test_a_clock_that_is_set_back_does_not_keep_messages_from_the_disk(

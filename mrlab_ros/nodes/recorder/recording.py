@@ -43,7 +43,10 @@ PRESENT_NS = SECOND // 2
 # A stamp that is so far in the future is of before the clock was set back, ns.
 AHEAD_NS = SECOND // 10
 # What displays send comes into the graph only while somebody subscribes to it.
-ASKED_FOR = {"/look_here": "mrlab_msgs/msg/LookHere"}
+ASKED_FOR = {
+    "/look_here": "mrlab_msgs/msg/LookHere",
+    "/presence": "mrlab_msgs/msg/Presence",
+}
 # Messages kept for the recorder while a disk or the machine stalls: 10 s at 100 Hz.
 DEPTH = 1000
 
