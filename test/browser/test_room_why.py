@@ -53,8 +53,9 @@ def test_each_hop_that_fails_is_named_in_the_page_and_in_the_headset(
     page = headset.page
     page.evaluate(WRITTEN)
 
-    def written(words: str) -> None:
-        headset.wait_for(f"window.written.join(' ').includes('{words}')")
+    def written(*found: str) -> None:
+        for words in found:
+            headset.wait_for(f"window.written.join(' ').includes('{words}')")
         page.evaluate("window.written.length = 0")
 
     # No robot; then access to the room is refused, and granted at the second try.
@@ -68,8 +69,7 @@ def test_each_hop_that_fails_is_named_in_the_page_and_in_the_headset(
 
     # A room that nobody set up, in a headset whose places are all taken.
     headset.act(BOARD, "tab room")
-    written("keeps no more places")
-    written("The headset knows no table or wall")
+    written("keeps no more places", "The headset knows no table or wall")
     lab.done("spawn", "ur5e")
     headset.wait_for("room.handles.size === 1")
 

@@ -39,6 +39,8 @@ def test_what_got_worse_stands_at_the_top_of_the_page(tmp_path: Path) -> None:
     for better in (True, False):
         for row in table["rows"]:
             row[key] *= 1e-3 if better else 1e6
+            # Whatever else was measured may be worse today than a moment ago.
+            row.update({other: 1e9 for other in row if other.endswith(" ms") and other != key})
         figures.write_text(json.dumps(kept))
         done = ran(
             "run.py", "--touch", "--compare", str(figures), "--page", str(page), "kinematics"
