@@ -40,6 +40,7 @@ THIN = 300_000
 # Before anything is measured, s.
 WARM_S = 3.0
 UPLOADED_S = 180.0
+CLIENTS = (30, 60, 120, 200)
 MOTION = ROOT / "examples" / "quintic_ur5e.mat"
 PAGES = ("/", "/trajectories", "/lab")
 PAINTS = """() => Object.fromEntries(
@@ -92,8 +93,11 @@ class Servers:
         self._clients = bundle("clients.ts", folder / "clients.mjs", "node")
         self._seconds, self._warm_s = seconds, min(WARM_S, 2 * seconds)
         self.endpoint = free_endpoint()
+        # All clients are one person's, who may open fewer pages.
+        limits = folder / "limits.yaml"
+        limits.write_text(f"pages_each: {max(CLIENTS)}\n")
         self.gateway: Gateway = stack.enter_context(
-            gateway(folder / "state", self.endpoint, "--pages", pages)
+            gateway(folder / "state", self.endpoint, "--pages", pages, "--limits", limits)
         )
         self._cookie = self.gateway.cookie()
         self.plain_port, self.port = free_port(), int(self.gateway.url.rsplit(":", 1)[1])
@@ -161,8 +165,14 @@ def ages(size: Size) -> list[dict[str, Any]]:
         for robots in size.some((1, 13)):
             with zenoh_lab(servers.endpoint, robots, 72):
                 for way, port in ((LINK, servers.port), (PLAIN, servers.plain_port)):
-                    found = servers.in_node(way, port, 30, robots * 72)
-                    rows.append({"case": f"30 clients, {robots} robot(s) x 72 Hz", **found})
+                    found = servers.in_node(way, port, CLIENTS[0], robots * 72)
+                    rows.append(
+                        {"case": f"{CLIENTS[0]} clients, {robots} robot(s) x 72 Hz", **found}
+                    )
+        with zenoh_lab(servers.endpoint, 13, 72):
+            for clients in size.of((), CLIENTS[1:3], CLIENTS[1:]):
+                found = servers.in_node(LINK, servers.port, clients, 13 * 72)
+                rows.append({"case": f"{clients} clients, 13 robots x 72 Hz", **found})
     return rows
 
 
