@@ -26,7 +26,6 @@ from mrlab_ros.classroom.diagnostics import (
     NO_WORKSHEET_GIVEN,
     NOT_RELEASED,
     NOTHING_PROPOSED,
-    REFERENCE_BESIDE,
     SOURCE_NAME,
     SOURCE_TOO_LARGE,
     SOURCES_MISSING,
@@ -108,7 +107,7 @@ class Desk:
         path = self.folder / SOURCES / job.RUBRIC
         if not path.exists():
             return []
-        rubric = read_rubric(path)
+        rubric = read_rubric(path, beside=True)
         reference = Path(rubric.reference)
         return [reference.name] if rubric.reference and not reference.exists() else []
 
@@ -127,7 +126,7 @@ class Desk:
         folder.mkdir(parents=True, exist_ok=True)
         async with taken(body, folder.parent, name, most) as path:
             if name == job.RUBRIC:
-                await asyncio.to_thread(_named_beside, path)
+                await asyncio.to_thread(read_rubric, path)
             if name == job.SHEET:
                 await asyncio.to_thread(self._check_sheet, path)
             os.replace(path, folder / name)
@@ -351,11 +350,3 @@ def _place(form: str, student: Mapping[str, Any], ending: str) -> str:
     if form == MOODLE_FORM and not folder:
         folder = f"{student['name']}_{student['identifier']}_assignsubmission_file_"
     return f"{folder or student['key']}/feedback.{ending}"
-
-
-def _named_beside(path: Path) -> None:
-    """Raise BadInput where a rubric cannot be read or names files in other folders."""
-    rubric = read_rubric(path)
-    for name in (rubric.reference, rubric.scene if "/" in rubric.scene else ""):
-        if name and Path(name).parent != path.parent:
-            raise BadInput(REFERENCE_BESIDE(file=Path(name).name))

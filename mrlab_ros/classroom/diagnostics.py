@@ -145,11 +145,6 @@ SOURCE_NAME = Code(
     "source_name", "'{file}' is no name of a file beside a rubric; expected one without folders."
 )
 SOURCE_TOO_LARGE = Code("source_too_large", "{file} is larger than {most:bytes}.")
-REFERENCE_BESIDE = Code(
-    "reference_beside",
-    "The rubric names {file}; a rubric that is handed in here names files beside it, without "
-    "folders.",
-)
 SOURCES_MISSING = Code(
     "sources_missing",
     "There is no {what:choice export=export|rubric=rubric} yet; hand it in first.",

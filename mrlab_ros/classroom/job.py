@@ -66,7 +66,7 @@ def work(folder: Path, how: str, form: str) -> list[Diagnostic]:
 
 def setup_of(sources: Path, *, pages: bool) -> Setup:
     """Return how a class is checked by the rubric among its sources. Raises LabError."""
-    rubric = read_rubric(sources / RUBRIC)
+    rubric = read_rubric(sources / RUBRIC, beside=True)
     scene = scene_of(rubric.scene, share.directory())
     return of_rubric(rubric, scene, Options(), Bounds(), pages=pages)
 

@@ -6,7 +6,7 @@ Scenes and references that a rubric names are relative to its file.
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
+from pathlib import Path, PureWindowsPath
 
 from mrlab_ros.adapters.yaml_files import read_with_lines
 from mrlab_ros.app.check.file import CELLS, CheckedFile, Setting, check_file, entry_of, scene_of
@@ -99,15 +99,20 @@ def mark_file(
 SCENES = (".yaml", ".yml", ".json")
 
 
-def read_rubric(path: Path) -> Rubric:
+def read_rubric(path: Path, *, beside: bool = False) -> Rubric:
     """Return the rubric in a file, its reference and the file of its scene as paths from here.
 
-    Raises BadInput that names every mistake with its line.
+    beside: they lie beside the rubric, whatever folders it names. Raises BadInput that names every
+    mistake with its line.
     """
+
+    def place(named: str) -> str:
+        return str(path.parent / (PureWindowsPath(named).name if beside else named))
+
     content, lines = read_with_lines(path)
     rubric = document.parse(content, str(path), lines)
     scene = rubric.scene
     if scene and (Path(scene).suffix in SCENES or "/" in scene):
-        scene = str(path.parent / scene)
-    reference = str(path.parent / rubric.reference) if rubric.reference else ""
+        scene = place(scene)
+    reference = place(rubric.reference) if rubric.reference else ""
     return replace(rubric, name=rubric.name or path.stem, scene=scene, reference=reference)

@@ -40,6 +40,8 @@ export class ClassSteps {
   readonly place = computed(() =>
     this.submissions.value.findIndex(({ key }) => key === this.current.value?.key),
   )
+  /** How often other motions may have come to hold since the page was opened. */
+  readonly runs = signal(0)
   private readonly key = signal('')
   private readonly motions = new Map<string, Promise<MotionDocument>>()
 
@@ -51,6 +53,11 @@ export class ClassSteps {
       if (this.graded.value === null) {
         const { run, proposed } = graded.desk
         this.deskOpen.value = !graded.marked || run?.running === true || proposed !== null
+      }
+      const before = this.graded.value?.desk.run
+      if (before?.running && before.how !== 'propose' && !graded.desk.run?.running) {
+        this.motions.clear()
+        this.runs.value += 1
       }
       this.graded.value = graded
       this.problem.value = ''

@@ -43,6 +43,7 @@ function useMotions(steps: ClassSteps, current: Submission | null): Loaded | nul
   const [loaded, setLoaded] = useState<Loaded | null>(null)
   const key = current?.key ?? ''
   const compares = steps.graded.value?.reference?.motion ?? false
+  const runs = steps.runs.value
   useEffect(() => {
     if (current === null || !current.motion) return
     let here = true
@@ -59,7 +60,7 @@ function useMotions(steps: ClassSteps, current: Submission | null): Loaded | nul
     return () => {
       here = false
     }
-  }, [steps, key, compares])
+  }, [steps, key, compares, runs])
   return loaded?.key === key ? loaded : null
 }
 

@@ -2614,9 +2614,6 @@ export const diagnostics: Templates = {
     '{rubric}: Die Referenz {file} nennt die Bewegung {motion}, die nicht neben ihr liegt.',
     'Lege die Bewegungen der Zelle neben sie.',
   ],
-  reference_beside: [
-    'Die Rubrik nennt {file}; wird sie hier abgegeben, nennt sie Dateien neben sich, ohne Ordner.',
-  ],
   reference_not_marked: [
     '{rubric}: Die Referenz {file} kann nicht bewertet werden[: {why:problem}].',
   ],

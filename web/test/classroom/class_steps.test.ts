@@ -1,5 +1,6 @@
 // @vitest-environment jsdom
 import { expect, test, vi } from 'vitest'
+import type { ClassRun } from '../../src/api/class_types'
 import type { GradedClass, Submission } from '../../src/api/types'
 import {
   ClassSteps,
@@ -59,14 +60,18 @@ const CLASS: GradedClass = {
 }
 
 function stepsOf(graded: GradedClass) {
+  let shown = graded
   const motion = vi.fn(async (_url: string) => fakeMotion({ verdict: 'accepted', message: '' }))
   const steps = new ClassSteps({
-    gradedClass: async () => graded,
+    gradedClass: async () => shown,
     motion,
     classSource: async () => {},
     classDo: async () => {},
   })
-  return { steps, motion }
+  const shows = (other: GradedClass) => {
+    shown = other
+  }
+  return { steps, motion, shows }
 }
 
 test('a class is stepped through from its first to its last, and no further', async () => {
@@ -109,6 +114,23 @@ test('the next motion is fetched ahead, the solution once, and few are kept', as
   expect(motion).toHaveBeenCalledTimes(11)
   await steps.motion('ben')
   expect(motion).toHaveBeenCalledTimes(12)
+})
+
+test('a run after which other marks hold brings its motions', async () => {
+  const run = (how: ClassRun['how'], running: boolean) => ({
+    ...CLASS,
+    desk: { ...CLASS.desk, run: { how, running, done: 0, all: 0, problem: null, notes: [] } },
+  })
+  const { steps, motion, shows } = stepsOf(CLASS)
+  for (const how of ['propose', 'hold'] as const)
+    for (const running of [true, false]) {
+      shows(run(how, running))
+      await steps.load()
+      await steps.motion('anna')
+      expect([steps.runs.value, motion.mock.calls.length]).toEqual(
+        how === 'hold' && !running ? [1, 2] : [0, 1],
+      )
+    }
 })
 
 test('n and p step where nobody types', () => {
