@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import hashlib
 import json
+import shutil
 import struct
+import subprocess
+import sys
 import xml.etree.ElementTree as ET
 from pathlib import Path
 from typing import Any
 
 import pytest
 import yaml
+from generated_meshes import SURFACE, TRIANGLES
 
 from mrlab_ros.adapters.assets.files import AssetFiles
 from mrlab_ros.adapters.robots import library
@@ -19,7 +23,8 @@ from mrlab_ros.adapters.robots.library import RobotLibrary
 
 ROBOTS = Path(__file__).resolve().parents[4] / "robots"
 LIBRARY = RobotLibrary(ROBOTS, ROBOTS / "none")
-DETAILS = ROBOTS.parent / "scripts" / "bodies" / "details"
+BODIES = ROBOTS.parent / "scripts" / "bodies"
+DETAILS = BODIES / "details"
 MODELS = sorted(path.parent for path in ROBOTS.rglob("lod"))
 BUDGETS = {"near": (400_000, 40_000), "far": (100_000, 4_000)}  # bytes, triangles
 SMALL, FEW = 1.4, 15_000  # m of reach; triangles of what is smaller
@@ -114,3 +119,51 @@ def test_levels_keep_their_budgets_and_show_the_same_links(folder: Path) -> None
         assert {node["name"] for node in roots} == links
         # a link's own frame: it can be put below the frame of a description as it is
         assert not any({"translation", "rotation", "scale", "matrix"} & set(n) for n in roots)
+
+
+@pytest.mark.slow
+def test_the_maker_of_levels_makes_what_is_shipped(tmp_path: Path) -> None:
+    robot = "kuka_kr10_r900_2"
+    for part in ("robot.yaml", "meshes"):
+        copy = shutil.copytree if (ROBOTS / robot / part).is_dir() else shutil.copyfile
+        (tmp_path / robot).mkdir(exist_ok=True)
+        copy(ROBOTS / robot / part, tmp_path / robot / part)
+    command = [sys.executable, BODIES / "levels.py", "--out", tmp_path, robot]
+    subprocess.run(command, check=True, capture_output=True, timeout=300)
+    for level in BUDGETS:
+        made, shipped = (
+            document(at / robot / "lod" / f"{level}.glb") for at in (tmp_path, ROBOTS)
+        )
+        for key in ("asset", "materials"):
+            assert made[key] == shipped[key]
+        for ours, theirs in zip(_bodies(made), _bodies(shipped), strict=True):
+            assert ours["name"] == theirs["name"]
+            assert ours["triangles"] == pytest.approx(theirs["triangles"], rel=TRIANGLES)
+            assert ours["corners"] == pytest.approx(theirs["corners"], abs=SURFACE * ours["size"])
+
+
+def _bodies(found: dict[str, Any]) -> list[dict[str, Any]]:
+    """Return name, number of triangles and corners, m, of what is drawn on each link."""
+    result = []
+    for node in found["nodes"]:
+        if "mesh" in node:
+            (primitive,) = found["meshes"][node["mesh"]]["primitives"]
+            places = found["accessors"][primitive["attributes"]["POSITION"]]
+            corners = [
+                low + scale * value
+                for end in ("min", "max")
+                for low, scale, value in zip(
+                    node["translation"], node["scale"], places[end], strict=True
+                )
+            ]
+            triangles = found["accessors"][primitive["indices"]]["count"] // 3
+            size = max(high - low for low, high in zip(corners[:3], corners[3:], strict=True))
+            result.append(
+                {
+                    "name": node["name"],
+                    "triangles": triangles,
+                    "corners": corners,
+                    "size": size,
+                }
+            )
+    return result
