@@ -14,11 +14,13 @@ from mrlab_ros.classroom.folder import FEEDBACK, PAGES, ResultsFolder
 from mrlab_ros.classroom.marks.exports import REFERENCE
 from mrlab_ros.classroom.marks.graded import SCHEMA, GradedClass, Student
 from mrlab_ros.classroom.marks.result import MARKED, MOST_PATH, REFUSED, TO_REPEAT, Result
+from mrlab_ros.classroom.marks.similarity import distances
 from mrlab_ros.classroom.marks.ways import drawn
 from mrlab_ros.core.base.diagnostic import plain
 
 MOST_FINDINGS, MOST_TESTS = 6, 8
 MOST_LEFT_OUT = 200
+MOST_PAIRED = 40  # students of the picture of pairs
 # Points of the ways of all tools: those of a large class have fewer each, in coarser steps (m).
 MOST_POINTS, LEAST_EACH = 40_000, 9
 FINE, COARSE = 0.001, 0.008
@@ -36,6 +38,7 @@ def class_document(graded: GradedClass) -> dict[str, Any]:
     """Return the class: a row a student, what is common, and who is alike."""
     rubric, figures, common = graded.rubric, graded.statistics(), graded.similar()
     each = max(MOST_POINTS // max(len(graded.students), 1), LEAST_EACH)
+    paired = [key for group in common.groups for key in group.keys][:MOST_PAIRED]
     finely = Drawn(min(each, MOST_PATH), FINE if each >= MOST_PATH else COARSE)
     return {
         "schema": SCHEMA,
@@ -72,6 +75,8 @@ def class_document(graded: GradedClass) -> dict[str, Any]:
                 {"keys": list(group.keys), "apart": group.apart, "equal": group.equal}
                 for group in common.groups
             ],
+            "paired": paired,
+            "apart": distances(graded.signatures(), paired),
         },
         "left_out": [
             {"file": each.path, "why": plain(each.why)} for each in graded.left_out[:MOST_LEFT_OUT]

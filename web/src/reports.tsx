@@ -1,6 +1,6 @@
 import type { ComponentChild } from 'preact'
 import type { ClassDocument } from './classroom/class_document'
-import { ClassReport } from './classroom/report'
+import { ClassReport } from './classroom/report/report'
 import { type CheckDocument, CheckReport } from './report/check'
 import type { Picture } from './report/findings'
 import { type MarkedMotion, MotionReport } from './report/motion'

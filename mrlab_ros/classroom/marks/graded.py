@@ -95,9 +95,13 @@ class GradedClass:
             tuple(_common(results)),
         )
 
+    def signatures(self) -> dict[str, Sequence[Sequence[float]]]:
+        """Return the signatures of all motions, by student."""
+        return {s.key: s.result.signature for s in self.students if s.result.signature}
+
     def similar(self) -> Similar:
         """Return which motions are nearly the same."""
-        signatures = {s.key: s.result.signature for s in self.students if s.result.signature}
+        signatures = self.signatures()
         digests = {s.key: s.result.sha256 for s in self.students if s.result.sha256}
         return similar(signatures, digests, self.reference.signature if self.reference else ())
 

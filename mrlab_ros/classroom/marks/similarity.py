@@ -115,6 +115,23 @@ def similar(
     return Similar(groups, widest, max(usual_of, default=None), tuple(sorted(as_reference)))
 
 
+def distances(
+    signatures: Mapping[str, Sequence[Sequence[float]]], keys: Sequence[str]
+) -> list[list[float | None]]:
+    """Return how far each of `keys` is from those before it, deg RMS; None: their motions cannot
+    be compared."""
+    rows = [np.array(signatures.get(key, ()), dtype=float) for key in keys]
+    return [
+        [
+            round(float(np.sqrt(((one - other) ** 2).mean())), 4)
+            if one.size and one.shape == other.shape
+            else None
+            for other in rows[:place]
+        ]
+        for place, one in enumerate(rows)
+    ]
+
+
 def _limit(usual: float | None) -> float:
     return MOST if usual is None else max(min(MOST, USUAL * usual), LEAST)
 

@@ -5,15 +5,17 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
+import numpy as np
 import orjson
 
 from mrlab_ros.app.show.page import Code, page
 from mrlab_ros.classroom.marks.diagnostics import NO_FILE_HANDED_IN, NO_MOTION_FILE
-from mrlab_ros.classroom.marks.exports import Entry, LeftOut, recognise
+from mrlab_ros.classroom.marks.exports import Entry, LeftOut, recognise, renamed
 from mrlab_ros.classroom.marks.graded import GradedClass, Student
 from mrlab_ros.classroom.marks.result import MARKED, NO_FILE, Result, without_marks
+from mrlab_ros.classroom.marks.similarity import SAMPLES
 from mrlab_ros.classroom.marks.ways import drawn
-from mrlab_ros.classroom.page import class_document, text_of
+from mrlab_ros.classroom.page import MOST_PAIRED, class_document, text_of
 from mrlab_ros.classroom.rubrics.diagnostics import NOTHING_TOUCHED
 from mrlab_ros.classroom.rubrics.marking import Mark, Marks
 from mrlab_ros.classroom.rubrics.rubric import Outcome, Rubric, Test
@@ -78,3 +80,21 @@ def test_the_ways_of_a_large_class_have_fewer_points_in_coarser_steps():
         found = class_document(replace(graded(), students=students))
         assert found["step"] == step
         assert found["students"][-1]["path"] == drawn(way, points, step / 1e3)
+
+
+def test_the_picture_of_pairs_has_a_few_of_a_large_class():
+    one = graded().students[0]
+    rows = np.zeros((SAMPLES, 6))
+
+    def student(n):
+        found = rows + (n // 2 if n < 100 else 1000 + n)
+        result = replace(one.result, signature=found.tolist(), sha256=f"{n}")
+        return replace(one, submission=renamed(one.submission, f"s{n}", f"s{n:03}"), result=result)
+
+    similar = class_document(replace(graded(), students=tuple(map(student, range(200)))))[
+        "similar"
+    ]
+    assert len(similar["groups"]) == 50
+    assert len(similar["paired"]) == MOST_PAIRED
+    assert similar["paired"][:4] == ["s000", "s001", "s002", "s003"]
+    assert similar["apart"][:3] == [[], [0.0], [1.0, 1.0]]

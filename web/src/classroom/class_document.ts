@@ -79,7 +79,7 @@ export interface ClassStudent extends ClassResult {
 }
 
 /** Degrees RMS. usual: null: too few to say; as_reference: how many are as the solution. */
-interface SimilarMotions {
+export interface SimilarMotions {
   readonly threshold: number
   readonly usual: number | null
   readonly as_reference: number
@@ -88,4 +88,8 @@ interface SimilarMotions {
     readonly apart: number
     readonly equal: boolean
   }[]
+  /** Keys of those in the picture of pairs, group by group. */
+  readonly paired: readonly string[]
+  /** How far each is from those before it; null: not to be compared. */
+  readonly apart: readonly (readonly (number | null)[])[]
 }

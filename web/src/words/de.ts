@@ -207,6 +207,9 @@ export const words: Words = {
       nobodyAlike: 'Keine zwei sind fast gleich.',
       sameFile: 'dieselbe Datei',
       apart: (degrees) => `höchstens ${degrees}° entfernt`,
+      pairs: 'Dunkler ist ähnlicher. Ein Klick zeigt zwei nebeneinander.',
+      pairApart: (degrees) => `${degrees}° entfernt`,
+      pairFigures: (points, seconds) => `${points} Punkte, ${seconds} s`,
       andMore: (count) => `und ${count} weitere`,
       andMoreGroups: (count) => `und ${count} weitere Gruppen`,
       howAlike: (threshold, usual) =>

@@ -153,6 +153,9 @@ export const en = {
       nobodyAlike: 'No two are nearly the same.',
       sameFile: 'the same file',
       apart: (degrees: string) => `${degrees}° apart at most`,
+      pairs: 'Darker is more alike. A press shows two side by side.',
+      pairApart: (degrees: string) => `${degrees}° apart`,
+      pairFigures: (points: string, seconds: string) => `${points} points, ${seconds} s`,
       andMore: (count: number) => `and ${count} more`,
       andMoreGroups: (count: number) => `and ${count} more groups`,
       howAlike: (threshold: string, usual: string | null) =>

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mrlab_ros.classroom.marks.similarity import SAMPLES, signature, similar
+from mrlab_ros.classroom.marks.similarity import SAMPLES, distances, signature, similar
 
 
 def motion(seed, frames=400, around=None, far=1.0):
@@ -75,3 +75,10 @@ def test_another_order_gives_the_same_and_what_stands_still_too():
     again = dict(sorted(motions.items(), reverse=True))
     assert found(motions) == found(again)
     assert signature(motions["still"]).shape == (SAMPLES, 6)
+
+
+def test_each_has_a_distance_from_those_before_it_where_there_is_one():
+    signatures = {"a": signature(motion(1)), "b": signature(motion(1) + np.radians(3.0))}
+    signatures["short"] = signature(motion(1)[:, :5])
+    rows = distances(signatures, ["a", "short", "b", "nobody"])
+    assert rows == [[], [None], [pytest.approx(3.0, abs=1e-3), None], [None, None, None]]

@@ -1,4 +1,4 @@
-import type { ClassStudent } from './class_document'
+import type { ClassStudent } from '../class_document'
 
 /** Filters of the rows of a class. */
 export const FILTERS = ['', 'lost', 'unchecked', 'late', 'alike'] as const

@@ -1,20 +1,19 @@
-import { createContext } from 'preact'
-import { useContext, useEffect, useMemo, useRef, useState } from 'preact/hooks'
-import { Icon } from '../design/icons'
-import { Notice } from '../design/notice'
-import { printing } from '../report/fold'
-import { Page } from '../report/page'
-import { type Scale, scaleOf, Thumbnail } from '../report/plot/thumbnail'
-import { type Way, wayOf } from '../report/plot/way'
-import { say } from '../words/diagnostic'
-import { number, words } from '../words/words'
-import type { ClassDocument, ClassMark, ClassResult, ClassStudent } from './class_document'
+import { useEffect, useMemo, useRef, useState } from 'preact/hooks'
+import { Icon } from '../../design/icons'
+import { Notice } from '../../design/notice'
+import { printing } from '../../report/fold'
+import { Page } from '../../report/page'
+import { scaleOf } from '../../report/plot/thumbnail'
+import { wayOf } from '../../report/plot/way'
+import { say } from '../../words/diagnostic'
+import { number, words } from '../../words/words'
+import type { ClassDocument, ClassMark, ClassResult, ClassStudent } from '../class_document'
+import { Alike } from './alike'
 import { type Column, FILTERS, type Filter, isShown, sorted } from './class_rows'
+import { Drawn, Linked, Picture } from './ways'
 
 // Rows that are drawn at once; as many again come where the last of them is scrolled to.
 const ROWS = 24
-const MOST_GROUPS = 60
-const MOST_MEMBERS = 12
 const HISTOGRAM = { width: 480, height: 150, base: 128 }
 const STATES = {
   passed: ['complete', 'good'],
@@ -23,13 +22,6 @@ const STATES = {
   none: ['circle', 'none'],
 } as const
 type State = keyof typeof STATES
-
-/** The ways of the class by key, their scale, and the solution's. */
-const Drawn = createContext<{
-  readonly ways: ReadonlyMap<string, Way>
-  readonly scale: Scale
-  readonly reference: Way
-}>({ ways: new Map(), scale: scaleOf([]), reference: [] })
 
 /** The report of a graded class: common mistakes, a row for each student, and similar
  * submissions. */
@@ -315,10 +307,6 @@ function Students({ graded }: { graded: ClassDocument }) {
   )
 }
 
-function Linked({ to, children }: { to: string | null; children: preact.ComponentChildren }) {
-  return to === null ? <span>{children}</span> : <a href={to}>{children}</a>
-}
-
 function Row({ result, student }: { result: ClassResult; student: ClassStudent | null }) {
   const w = words.value.report
   const { marked, duration, page } = result
@@ -379,65 +367,5 @@ function Cell({ mark, marked, page }: { mark: ClassMark; marked: boolean; page: 
         </span>
       </Linked>
     </td>
-  )
-}
-
-function Picture({ result, spots = true }: { result: ClassResult; spots?: boolean }) {
-  const { ways, scale, reference } = useContext(Drawn)
-  const { key, marks, duration, page } = result
-  const way = ways.get(key) ?? []
-  if (way.length === 0) return null
-  const lost = marks.flatMap(({ time, passed }) =>
-    spots && time !== null && !passed && duration ? [time / duration] : [],
-  )
-  return (
-    <Linked to={page}>
-      <Thumbnail way={way} reference={reference} scale={scale} lost={lost} />
-      <span class="spoken">{words.value.report.class.motion}</span>
-    </Linked>
-  )
-}
-
-function Alike({ graded }: { graded: ClassDocument }) {
-  const w = words.value.report.class
-  const { groups, threshold, usual, as_reference } = graded.similar
-  const byKey = useMemo(
-    () => new Map(graded.students.map((student) => [student.key, student])),
-    [graded],
-  )
-  const more = groups.length - MOST_GROUPS
-  return (
-    <section class="card alike">
-      <h2>{w.alike}</h2>
-      {groups.length === 0 && <p class="small">{w.nobodyAlike}</p>}
-      <ol class="groups">
-        {groups.slice(0, MOST_GROUPS).map(({ keys, equal, apart }) => (
-          <li key={keys.join()}>
-            <p class="second small">{equal ? w.sameFile : w.apart(number(apart, 2))}</p>
-            <ul>
-              {keys.slice(0, MOST_MEMBERS).map((key) => {
-                const student = byKey.get(key)
-                return (
-                  student && (
-                    <li key={key} data-alike={key}>
-                      <Picture result={student} spots={false} />
-                      <Linked to={student.page}>
-                        <bdi>{student.name}</bdi>
-                      </Linked>
-                    </li>
-                  )
-                )
-              })}
-              {keys.length > MOST_MEMBERS && <li>{w.andMore(keys.length - MOST_MEMBERS)}</li>}
-            </ul>
-          </li>
-        ))}
-        {more > 0 && <li>{w.andMoreGroups(more)}</li>}
-      </ol>
-      <p class="second small">
-        {w.howAlike(number(threshold), usual === null ? null : number(usual))}
-        {as_reference > 0 && ` ${w.asReference(as_reference)}`}
-      </p>
-    </section>
   )
 }

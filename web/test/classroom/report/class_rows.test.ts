@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest'
-import type { ClassStudent } from '../../src/classroom/class_document'
-import { isShown, sorted } from '../../src/classroom/class_rows'
+import type { ClassStudent } from '../../../src/classroom/class_document'
+import { isShown, sorted } from '../../../src/classroom/report/class_rows'
 
 const said = { code: '', message: '' } as ClassStudent['said']
 const mark = (points: number, passed = false) => ({ points, passed, time: null, found: said })
