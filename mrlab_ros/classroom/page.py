@@ -22,8 +22,8 @@ MOST_FINDINGS, MOST_TESTS = 6, 8
 MOST_LEFT_OUT = 200
 MOST_PAIRED = 40  # students of the picture of pairs
 # Points of the ways of all tools: those of a large class have fewer each, in coarser steps (m).
-MOST_POINTS, LEAST_EACH = 40_000, 9
-FINE, COARSE = 0.001, 0.008
+MOST_POINTS, LEAST_EACH = 40_000, 8
+FINE, COARSE = 0.001, 0.01
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,10 @@ def class_document(graded: GradedClass) -> dict[str, Any]:
                 for one in figures.findings[:MOST_FINDINGS]
             ],
         },
-        "students": [_row(student, finely) for student in graded.students],
+        "students": [
+            _row(s, replace(finely, points=MOST_PATH) if s.key in paired else finely)
+            for s in graded.students
+        ],
         "reference": None
         if graded.reference is None
         else _result(REFERENCE, graded.reference, finely),

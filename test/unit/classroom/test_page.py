@@ -76,7 +76,7 @@ def test_the_ways_of_a_large_class_have_fewer_points_in_coarser_steps():
     one = graded().students[0]
     way = tuple((0.0, math.sin(i / 6), i / 60) for i in range(64))
     many = (replace(one, result=replace(one.result, path=way)),) * 5000
-    for students, points, step in ((many[:30], 64, 1), (many, 9, 8)):
+    for students, points, step in ((many[:30], 64, 1), (many, 8, 10)):
         found = class_document(replace(graded(), students=students))
         assert found["step"] == step
         assert found["students"][-1]["path"] == drawn(way, points, step / 1e3)
