@@ -9,6 +9,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
+import yaml
 import yourdfpy
 import zenoh
 from child_process import HOST, start_child
@@ -87,9 +88,12 @@ def test_a_urdf_has_the_end_effector_that_its_key_names(bridge, session):
     assert "Did you mean 'parallel_gripper'" in reason
 
 
+LIBRARY = yaml.safe_load((Path(__file__).parents[2] / "config" / "objects.yaml").read_text())
+
+
 def test_each_type_of_object_can_be_drawn(bridge, session):
     objects = document(session, "assets/objects.json")["objects"]
-    assert len(objects) == 24
+    assert {entry["id"] for entry in objects} == set(LIBRARY["objects"])
     for entry in objects:
         assert entry["shape"] or entry["mesh"], entry["id"]
         if entry["mesh"]:
