@@ -247,6 +247,7 @@ class RobotLibrary:
             joints=joints,
             home=home,
             chain=chain,
+            others=tuple(other for other in self.ids() if other != robot_id),
         )
 
 

@@ -324,7 +324,7 @@ def _checked(
     if workspace.confirm is not None and variable.values is not None:
         # before the joints are copied, as the second reader needs memory as well
         workspace.confirm(sources)
-    notes += questions.asked(workspace, variable, survey.name(variable), robot, options)
+    notes += questions.asked(workspace, variable, survey.name(variable), robot, options, file)
     layout = lay_out(chosen, survey, options, notes)
     points = layout.arm
     layout, rate = resampling.at_a_rate(

@@ -48,9 +48,14 @@ ANSWERS = frozenset(("question", "ambiguous", "names_other", "robot_stated", "mo
 
 
 def asked(
-    workspace: Workspace, variable: Variable, name: Name, robot: RobotModel, options: Options
+    workspace: Workspace,
+    variable: Variable,
+    name: Name,
+    robot: RobotModel,
+    options: Options,
+    file: str,
 ) -> list[Diagnostic]:
-    """Return what has to be asked about a matrix before it is laid out: errors and warnings.
+    """Return what has to be asked about a matrix of a file before it is laid out.
 
     A person who named the matrix has answered: then nothing of it is an error.
     """
@@ -58,7 +63,10 @@ def asked(
         return []
     said = statements.about(workspace, first_path(variable.path))
     joints = len(robot.joints)
-    found = [*_robots(workspace, variable, robot), *_motors(said, variable, name, joints)]
+    robots = _robots(workspace, variable, robot)
+    if not robots and not options.variable:
+        robots = _robots_of_names(variable, robot, file)
+    found = [*robots, *_motors(said, variable, name, joints)]
     if not options.columns:
         found += _orders(said, variable, robot)
     if options.variable:
@@ -188,6 +196,23 @@ def _robots(workspace: Workspace, variable: Variable, robot: RobotModel) -> list
             )
         )
     return found
+
+
+def _robots_of_names(variable: Variable, robot: RobotModel, file: str) -> list[Diagnostic]:
+    """Return a warning where the name of the matrix or of its file means another robot."""
+    named = ((name, statements.robot_named(name, robot)) for name in (variable.path, file))
+    return [
+        ROBOT_STATED(
+            severity=Severity.WARNING,
+            variable=variable.path,
+            source=name,
+            words=words[:80],
+            model=robot.id,
+            fixes=_yes(variable),
+        )
+        for name, words in named
+        if words
+    ][:1]
 
 
 def _motors(

@@ -30,7 +30,7 @@ class RobotModel:
     """A robot model of the library.
 
     home: (J,) rad, in joint order. payload: kg. reach: m, as its vendor defines it. chain leads
-    from base_link through all joints to tool0.
+    from base_link through all joints to tool0. others: ids of the other robots of its library.
     """
 
     id: str
@@ -42,6 +42,7 @@ class RobotModel:
     joints: tuple[Joint, ...]
     home: Array
     chain: KinematicChain
+    others: tuple[str, ...] = ()
 
     @cached_property
     def joint_names(self) -> tuple[str, ...]:

@@ -40,6 +40,7 @@ OURS = (
     Class.MOTION, Class.ROLE, Class.KEPT, Class.ABOUT, Class.ARM, Class.UNIT_FLAG,
 )  # fmt: skip
 MOST_TEXTS = 2000
+MODEL = re.compile(r"(?=.*\d)(?=.*[^\W\d]).{3,}")
 
 
 @dataclass(frozen=True)
@@ -303,6 +304,25 @@ def robot_claims(workspace: Workspace, robot: RobotModel) -> list[RobotClaim]:
         elif models and not any(m in own or any(o.startswith(m) for o in own) for m in models):
             found.append(RobotClaim(v.path, v.text.strip(), other_maker=False))
     return found
+
+
+def robot_named(name: str, robot: RobotModel) -> str:
+    """Return the words by which a name, as of a file, means another robot of the library.
+
+    Words of models have letters and digits (kr6, r900); empty where the chosen robot has as many
+    of the name's words as any other.
+    """
+    said = _models(name)
+    own = said & _models(f"{robot.id} {robot.product}")
+    best = max((said & _models(other) for other in robot.others), key=len, default=set())
+    return " ".join(sorted(best, key=name.lower().find)) if len(best) > len(own) else ""
+
+
+def _models(text: str) -> set[str]:
+    """Return the words of models in a text, also those that are written apart (KR 6)."""
+    words = [word for word in re.split(r"[\W_]+", text.lower()) if word]
+    pairs = (a + b for a, b in itertools.pairwise(words) if a.isalpha() and b.isdigit())
+    return {word for word in (*words, *pairs) if MODEL.fullmatch(word)}
 
 
 def _series(word: str, known: Collection[str]) -> str:

@@ -1,5 +1,7 @@
 """Every refusal carries what mends it: applied, the file is accepted or has another problem."""
 
+from dataclasses import replace
+
 import converter_corpus as corpus
 import numpy as np
 import pytest
@@ -28,10 +30,10 @@ def motion(rows=300, joints=6, reach=1.0):
     return reach * corpus.law(rows)[:, None] * np.linspace(0.2, 1.0, joints) - 0.3
 
 
-def convert(*variables, robot=ARM, **options):
+def convert(*variables, robot=ARM, file="traj.mat", **options):
     workspace = Workspace("fake", variables, 0, "0" * 64)
     return conversion_convert.convert(
-        "traj.mat", lambda: workspace, Options(**options), robot, COEFFICIENTS, created_ns=1
+        file, lambda: workspace, Options(**options), robot, COEFFICIENTS, created_ns=1
     )
 
 
@@ -358,3 +360,28 @@ def test_limits_beside_a_motion_are_harmless():
     limits = {"q_min": Q.min(0) - 1, "q_max": Q.max(0) + 1, "v_max": Q.max(0) * 0 + 3}
     result = convert(var("q", Q), *(var(name, [n]) for name, n in limits.items()))
     assert not result.trajectory.warnings
+
+
+@pytest.mark.parametrize(
+    ("file", "path", "words"),
+    [
+        ("left_ax7_pick.mat", "q", "ax7"),
+        ("AX 7 L900.mat", "q", "ax7 l900"),
+        ("traj.mat", "q_ax7", "ax7"),
+        ("bx9_l900.mat", "q", ""),
+        ("like_ax7_for_bx9.mat", "q", ""),
+        ("run2_2024_maker.mat", "q", ""),
+        ("traj.mat", "q", ""),
+    ],
+)
+def test_a_name_that_means_another_robot_of_the_library_is_doubted(file, path, words):
+    arm = replace(ARM, id="maker_bx9_l900_2", product="BX 9 L900-2", others=("maker_ax7_l900",))
+    result = convert(var(path, Q), file=file, robot=arm)
+    assert result.outcome is Outcome.ACCEPTED
+    said = [d for d in result.diagnostics if d.code == "robot_stated"]
+    assert [d.values["words"] for d in said] == ([words] if words else [])
+    for doubt in said:
+        assert doubt.severity is Severity.WARNING
+        assert doubt.fixes[0].option == "variable"
+        named = convert(var(path, Q), file=file, robot=arm, variable=doubt.fixes[0].value)
+        assert "robot_stated" not in codes(named)
