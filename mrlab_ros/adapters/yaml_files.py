@@ -108,12 +108,14 @@ def read_yaml(path: Path, *, empty: bool = False, loader: Any = Loader) -> dict[
     return content
 
 
-def read_with_lines(path: Path) -> tuple[object, dict[tuple[str | int, ...], int]]:
+def read_with_lines(path: Path, name: str = "") -> tuple[object, dict[tuple[str | int, ...], int]]:
     """Return what a YAML file holds, and the line of each entry by the keys that lead to it.
 
-    Raises BadInput where it is no YAML, or a key is there twice.
+    name: what errors call it; empty: the path. Raises BadInput where it is no YAML, or a key is
+    there twice.
     """
-    check_file(path)
+    origin = name or str(path)
+    check_file(path, origin)
     lines: dict[tuple[str | int, ...], int] = {}
     seen: set[int] = set()
 
@@ -130,7 +132,7 @@ def read_with_lines(path: Path) -> tuple[object, dict[tuple[str | int, ...], int
             for key, each in node.value:
                 name, line = str(key.value), key.start_mark.line + 1
                 if (*keys, name) in lines:
-                    raise BadInput(KEY_TWICE(file=str(path), line=line, key=name))
+                    raise BadInput(KEY_TWICE(file=origin, line=line, key=name))
                 lines[(*keys, name)] = line
                 walk(each, (*keys, name))
 
@@ -140,11 +142,11 @@ def read_with_lines(path: Path) -> tuple[object, dict[tuple[str | int, ...], int
         walk(node, ())
         return yaml.load(text, Loader=Loader), lines
     except OSError as error:
-        raise BadInput(FILE_UNREADABLE(file=str(path), why=_reason(error))) from None
+        raise BadInput(FILE_UNREADABLE(file=origin, why=_reason(error))) from None
     except UnicodeDecodeError:
-        raise BadInput(NOT_UTF8(file=str(path))) from None
+        raise BadInput(NOT_UTF8(file=origin)) from None
     except (yaml.YAMLError, ValueError, RecursionError) as error:
-        raise not_yaml(str(path), error) from None
+        raise not_yaml(origin, error) from None
 
 
 def not_yaml(file: str, error: Exception) -> BadInput:

@@ -126,7 +126,7 @@ class Desk:
         folder.mkdir(parents=True, exist_ok=True)
         async with taken(body, folder.parent, name, most) as path:
             if name == job.RUBRIC:
-                await asyncio.to_thread(read_rubric, path)
+                await asyncio.to_thread(read_rubric, path, beside=True)
             if name == job.SHEET:
                 await asyncio.to_thread(self._check_sheet, path)
             os.replace(path, folder / name)

@@ -102,15 +102,16 @@ SCENES = (".yaml", ".yml", ".json")
 def read_rubric(path: Path, *, beside: bool = False) -> Rubric:
     """Return the rubric in a file, its reference and the file of its scene as paths from here.
 
-    beside: they lie beside the rubric, whatever folders it names. Raises BadInput that names every
-    mistake with its line.
+    beside: they lie beside the rubric, whatever folders it names, and errors name no folder.
+    Raises BadInput that names every mistake with its line.
     """
 
     def place(named: str) -> str:
         return str(path.parent / (PureWindowsPath(named).name if beside else named))
 
-    content, lines = read_with_lines(path)
-    rubric = document.parse(content, str(path), lines)
+    origin = path.name if beside else str(path)
+    content, lines = read_with_lines(path, origin)
+    rubric = document.parse(content, origin, lines)
     scene = rubric.scene
     if scene and (Path(scene).suffix in SCENES or "/" in scene):
         scene = place(scene)

@@ -204,3 +204,5 @@ def test_files_stay_in_their_folder(gateway, name):
     answer = teacher.send("PUT", "/api/class/sources/rubric.yaml", content=rubric.encode())
     assert answer.status_code == 204
     assert teacher.get("/api/class").json()["desk"]["missing"] == ["passwd"]
+    answer = teacher.send("PUT", "/api/class/sources/rubric.yaml", content=b"PK\xff")
+    assert answer.json()["error"]["values"]["file"] == "rubric.yaml"
