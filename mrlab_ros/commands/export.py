@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from mrlab_ros.commands import completion
-from mrlab_ros.commands.convert.options import with_options
+from mrlab_ros.commands.convert.options import ModelOfFile, ToolOfFile, with_options
 from mrlab_ros.commands.diagnostics import EXPORTED
 from mrlab_ros.commands.output import AsJson, say
 from mrlab_ros.core.conversion.options import Options
@@ -31,16 +30,8 @@ def export(
     file: Annotated[
         Path, typer.Argument(help="Workspace, table, trajectory file, or recorded bag.")
     ],
-    robot: Annotated[
-        str,
-        typer.Option(
-            help="Robot that a workspace or a table is for, such as ur5e.",
-            autocompletion=completion.models,
-        ),
-    ] = "",
-    end_effector: Annotated[
-        str, typer.Option(help="End effector; empty: none.", autocompletion=completion.tools)
-    ] = "",
+    robot: ModelOfFile = "",
+    end_effector: ToolOfFile = "",
     to: Annotated[To, typer.Option(help="rrd: robots that move, and curves, for Rerun.")] = To.rrd,
     output: Annotated[
         Path | None,

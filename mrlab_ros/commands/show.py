@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from mrlab_ros.commands import completion
-from mrlab_ros.commands.convert.options import with_options
+from mrlab_ros.commands.convert.options import ModelOfFile, ToolOfFile, with_options
 from mrlab_ros.commands.diagnostics import BAG_OF_REPORT_GONE, PAGE_NAME, REPORT_WITHOUT_BAG
 from mrlab_ros.commands.output import AsJson
 from mrlab_ros.core.base.errors import BadInput, WrongUsage
@@ -29,16 +28,8 @@ def show(
         Path,
         typer.Argument(help="Workspace, table, trajectory file, recorded bag, or its report."),
     ],
-    robot: Annotated[
-        str,
-        typer.Option(
-            help="Robot that a workspace or a table is for, such as ur5e.",
-            autocompletion=completion.models,
-        ),
-    ] = "",
-    end_effector: Annotated[
-        str, typer.Option(help="End effector; empty: none.", autocompletion=completion.tools)
-    ] = "",
+    robot: ModelOfFile = "",
+    end_effector: ToolOfFile = "",
     output: Annotated[
         Path | None,
         typer.Option("--out", "--output", "-o", help="The page; none: FILE with .html, here."),

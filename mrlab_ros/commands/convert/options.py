@@ -10,8 +10,21 @@ from typing import Annotated, Any
 
 import typer
 
+from mrlab_ros.commands import completion
 from mrlab_ros.core.base.foreign_text import for_shell
 from mrlab_ros.core.conversion.options import Options
+
+# Of commands that take files of motions and recorded bags alike.
+ModelOfFile = Annotated[
+    str,
+    typer.Option(
+        help="Robot that a workspace or a table is for, such as ur5e.",
+        autocompletion=completion.models,
+    ),
+]
+ToolOfFile = Annotated[
+    str, typer.Option(help="End effector; empty: none.", autocompletion=completion.tools)
+]
 
 # Options of the command line whose field of Options is called otherwise.
 FIELDS = {"rate": "frame_rate"}
