@@ -32,15 +32,10 @@ from mrlab_ros.adapters.robots.importing.robot import (
     ID,
     Face,
     centres,
-    drop_nothing,
     keep_still,
     new_folder,
+    opened,
     turn_fingers,
-)
-from mrlab_ros.adapters.robots.importing.source import (
-    MeshFinder,
-    description_text,
-    packages_around,
 )
 from mrlab_ros.adapters.robots.library import MESH_PREFIX, RobotLibrary
 from mrlab_ros.core.base.diagnostic import Diagnostic
@@ -78,13 +73,9 @@ def import_end_effector(
         raise BadInput(BAD_ROBOT_ID(robot=tool_id))
     if tool_id in (*library.ids(), *library.end_effectors()):
         raise BadInput(ROBOT_ID_TAKEN(robot=tool_id))
-    packages = packages_around(source) | dict(packages)
-    text = description_text(source, packages, arguments)
-    find = MeshFinder(source.parent, packages)
-    root = urdf.parse(text, source.name)
+    root, find = opened(source, packages, arguments)
     product = root.get("name") or tool_id
     root.set("name", tool_id)
-    drop_nothing(root)
     found = checks.check_tree(root, source.name)
     if checks.errors(found):
         return ImportedTool(found)

@@ -94,14 +94,10 @@ def import_robot(
         raise BadInput(BAD_ROBOT_ID(robot=robot_id))
     if robot_id in library.ids():
         raise BadInput(ROBOT_ID_TAKEN(robot=robot_id))
-    packages = packages_around(source) | dict(packages)
-    text = description_text(source, packages, arguments)
-    find = MeshFinder(source.parent, packages)
-    root = urdf.parse(text, source.name)
+    root, find = opened(source, packages, arguments)
     if not root.get("name"):
         # Bullet loads no robot without one.
         root.set("name", robot_id)
-    drop_nothing(root)
     tree = checks.check_tree(root, source.name)
     if checks.errors(tree):
         return Imported(tree)
@@ -142,7 +138,17 @@ def import_robot(
     return Imported(found, parts, closing)
 
 
-def drop_nothing(root: ET.Element) -> None:
+def opened(
+    source: Path, packages: Mapping[str, Path], arguments: Sequence[str]
+) -> tuple[ET.Element, MeshFinder]:
+    """Return a description without empty shapes, and what finds its meshes. Raises BadInput."""
+    packages = packages_around(source) | dict(packages)
+    root = urdf.parse(description_text(source, packages, arguments), source.name)
+    _drop_nothing(root)
+    return root, MeshFinder(source.parent, packages)
+
+
+def _drop_nothing(root: ET.Element) -> None:
     """Drop shapes of no size at all, which exporters write for links without a shape."""
     for link in root.iterfind("link"):
         for shape in (*link.findall("visual"), *link.findall("collision")):
