@@ -79,7 +79,9 @@ def found(
                 continue
             value = _number(text)
             if value is None:
-                problems.append(CHANGED_MARK_NOT_READ(student=key, test=column, found=text))
+                problems.append(
+                    CHANGED_MARK_NOT_READ(student=students[key]["name"], test=column, found=text)
+                )
             elif number(value) == number(points):
                 continue
             elif why := out_of_range(students[key], column, value):
@@ -101,7 +103,7 @@ def out_of_range(student: Mapping[str, Any], column: str, points: float) -> Diag
     if least <= points <= most:
         return None
     return CHANGED_MARK_OUT_OF_RANGE(
-        student=student["key"], test=column, found=points, least=least, most=most
+        student=student["name"], test=column, found=points, least=least, most=most
     )
 
 
