@@ -31,7 +31,7 @@ ROUND = 0.75  # of the sectors in which a round slice is that even
 SHORTEST = 0.02  # m, of a round part that has a collar
 WIDE = (0.05, 0.004, 0.009)  # of the radius; at least and at most, m
 PROUD, CHAMFER, INTO = 0.0012, 0.0007, 0.004  # m
-BURIED = 0.2  # of the light: less reaches collars that are inside the next link
+BURIED = 0.3  # of the light: less reaches collars that are inside the next link
 
 
 def collars(

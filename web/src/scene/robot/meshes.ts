@@ -1,7 +1,4 @@
 import { type BufferGeometry, type Material, Mesh, type Object3D, Texture } from 'three'
-import { GLTFLoader } from 'three/examples/jsm/loaders/GLTFLoader.js'
-
-const PACKING = 'EXT_meshopt_compression'
 
 /** Delivers the meshes that a URDF or an object names by URI. */
 export interface MeshSource {
@@ -28,11 +25,9 @@ async function fetchMesh(uri: string): Promise<ArrayBuffer> {
   return answer.arrayBuffer()
 }
 
-/** Reads each file once: GLB directly, STL, Collada and OBJ by loaders that are fetched when
- * needed. */
+/** Reads each file once. What reads it is fetched when needed: beside a GLB, after others. */
 export class MeshLibrary implements MeshSource {
   private readonly known = new Map<string, Promise<Object3D>>()
-  private readonly gltf = new GLTFLoader()
 
   constructor(private readonly bytes: MeshBytes = fetchMesh) {}
 
@@ -51,15 +46,12 @@ export class MeshLibrary implements MeshSource {
   }
 
   private async read(uri: string): Promise<Object3D> {
-    const bytes = await this.bytes(uri)
     const suffix = uri.slice(uri.lastIndexOf('.') + 1).toLowerCase()
-    if (suffix === 'glb' || suffix === 'gltf' || isGlb(bytes)) {
-      if (isPacked(bytes)) {
-        const { readPacked } = await import('./packed_meshes')
-        return readPacked(bytes)
-      }
-      return (await this.gltf.parseAsync(bytes, '')).scene
-    }
+    const glb = () => import('./glb_meshes')
+    const beside = suffix === 'glb' || suffix === 'gltf' ? glb() : null
+    beside?.catch(() => undefined) // told below, where the file itself has come
+    const bytes = await this.bytes(uri)
+    if (beside !== null || isGlb(bytes)) return (await (beside ?? glb())).readGlb(bytes)
     const { readOther } = await import('./other_meshes')
     return readOther(suffix, bytes, uri)
   }
@@ -67,14 +59,6 @@ export class MeshLibrary implements MeshSource {
 
 function isGlb(bytes: ArrayBuffer): boolean {
   return bytes.byteLength > 4 && new DataView(bytes).getUint32(0, true) === 0x46546c67
-}
-
-/** Return whether a GLB's buffers are packed: the decoder is fetched only then. */
-function isPacked(bytes: ArrayBuffer): boolean {
-  const head = new DataView(bytes)
-  if (bytes.byteLength < 20 || !isGlb(bytes)) return false
-  const length = Math.min(head.getUint32(12, true), bytes.byteLength - 20)
-  return new TextDecoder().decode(new Uint8Array(bytes, 20, length)).includes(PACKING)
 }
 
 /** Free the geometries, materials and textures below an object. */

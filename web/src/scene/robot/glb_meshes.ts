@@ -30,9 +30,9 @@ export interface Painted {
   readonly drawings?: readonly Drawing[]
 }
 
-/** Read a packed robot: a node a link, each with the colour, light and finish of its vertices, and
- * with a picture of the drawings on it. */
-export async function readPacked(bytes: ArrayBuffer): Promise<Object3D> {
+/** Read a GLB; of a packed robot a node a link, each with the colour, light and finish of its
+ * vertices, and with a picture of the drawings on it. */
+export async function readGlb(bytes: ArrayBuffer): Promise<Object3D> {
   const loader = new GLTFLoader().setMeshoptDecoder(MeshoptDecoder)
   paletteInsteadOfTextures(loader)
   const { scene } = await loader.parseAsync(bytes, '')

@@ -1,6 +1,6 @@
 import { BufferAttribute, BufferGeometry, Mesh } from 'three'
 import { expect, test } from 'vitest'
-import { type Painted, paint } from '../../../src/scene/robot/packed_meshes'
+import { type Painted, paint } from '../../../src/scene/robot/glb_meshes'
 
 const PAINTED: Painted = {
   palette: [
