@@ -198,14 +198,12 @@ def _fault(error: Exception) -> Diagnostic:
 def refused(error: OSError | MemoryError) -> tuple[Diagnostic, int]:
     """Return what to do where the machine refuses, and the exit code: of other errors BROKEN."""
     from mrlab_ros.commands.diagnostics import DISK_REFUSES, UNNAMED_FILE
-    from mrlab_ros.core.base.machine import Lack, lack, lacking
+    from mrlab_ros.core.base.machine import lacking, remedy
 
-    found, said = lack(error), lacking(error)
-    may = found is Lack.READ_ONLY or isinstance(error, PermissionError)
-    if isinstance(error, OSError) and (may or (found is not None and found.is_room)):
+    said = lacking(error)
+    if isinstance(error, OSError) and (helps := remedy(error)) is not None:
         file = error.filename or UNNAMED_FILE()
-        remedy = "may" if may else "room"
-        return DISK_REFUSES(file=file, why=error.strerror, remedy=remedy), 1
+        return DISK_REFUSES(file=file, why=error.strerror, remedy=helps), 1
     return (_fault(error), BROKEN) if said is None else (said, 1)
 
 

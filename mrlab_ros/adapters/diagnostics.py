@@ -23,6 +23,8 @@ FILE_UNREADABLE = Code(
 FILE_UNWRITABLE = Code(
     "file_unwritable",
     "{file} cannot be written: {why:problem}.",
+    "[{remedy:choice room=Make room on that disk, or name a folder on another one."
+    "|may=Check who may write there, or name another folder.}]",
     meaning="The operating system refuses to write a file.",
 )
 NO_ROOM_ON_DISK = Code(

@@ -15,6 +15,7 @@ from typing import Any
 
 from mrlab_ros.adapters.diagnostics import COPY_KEPT, NOT_SET_ASIDE, SET_ASIDE
 from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.base.machine import lacking
 from mrlab_ros.core.runtime import journal_format
 
 
@@ -105,7 +106,8 @@ class Journal:
             try:
                 self._write(self._path, journal_format.pack(self._number + 1, content))
             except OSError as error:
-                said = f"{self._path} cannot be written, a restart will not know: {error.strerror}"
+                why = lacking(error) or error.strerror
+                said = f"{self._path} cannot be written, a restart will not know: {why}"
                 if said != self._failed:
                     self._log(said)
                 self._failed = said

@@ -9,6 +9,11 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import BinaryIO
 
+from mrlab_ros.adapters.diagnostics import FILE_UNWRITABLE
+from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.machine import remedy
+
 TEMPORARY = ".writing-"  # with which the names of files begin that are not whole
 
 
@@ -16,8 +21,40 @@ TEMPORARY = ".writing-"  # with which the names of files begin that are not whol
 def replaced(path: Path, mode: int = 0o666) -> Iterator[BinaryIO]:
     """Yield a file that takes the place of `path` at the end; an error leaves the old one.
 
-    mode: what the umask leaves of it is the new file's. Raises OSError.
+    mode: what the umask leaves of it is the new file's. A link stays, what it names is replaced;
+    what is no file, such as /dev/stdout, is written as it is. Raises OSError that names `path`.
     """
+    try:
+        if path.exists() and not path.is_file():
+            with open(path, "wb") as file:
+                yield file
+        else:
+            with _beside(Path(os.path.realpath(path)), mode) as file:
+                yield file
+    except OSError as error:
+        if error.filename is None or TEMPORARY in str(error.filename):
+            error.filename, error.filename2 = str(path), None
+        raise
+
+
+def write_text(path: Path, text: str) -> None:
+    """Write a text as a whole, and the folder that it needs; raise BadInput where that fails."""
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with replaced(path) as file:
+            file.write(text.encode())
+    except OSError as error:
+        raise BadInput(unwritable(path, error)) from None
+
+
+def unwritable(path: Path, error: OSError) -> Diagnostic:
+    """Return what is said where a file or a folder cannot be written."""
+    why = error.strerror or str(error)
+    return FILE_UNWRITABLE(file=str(path), why=why, remedy=remedy(error))
+
+
+@contextmanager
+def _beside(path: Path, mode: int) -> Iterator[BinaryIO]:
     new = path.with_name(f"{TEMPORARY}{secrets.token_hex(8)}")
     flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC
     try:

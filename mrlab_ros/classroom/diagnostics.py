@@ -160,7 +160,6 @@ NO_WORKSHEET_GIVEN = Code(
     "no_worksheet_given",
     "The platform's table was not handed in; hand it in, undo the release, and release again.",
 )
-NOT_WRITABLE = Code("not_writable", "{file} cannot be written: {why:problem}.")
 # processes that check
 UNKNOWN_BACKEND = Code(
     "unknown_backend",

@@ -12,12 +12,11 @@ from typing import Any
 
 import orjson
 
-from mrlab_ros.adapters.whole_file import replaced
+from mrlab_ros.adapters.whole_file import replaced, unwritable
 from mrlab_ros.classroom.diagnostics import (
     CLASS_RUNS,
     NO_CLASS_FILE,
     NO_CLASS_FOLDER,
-    NOT_WRITABLE,
 )
 from mrlab_ros.core.base.diagnostic import Fix
 from mrlab_ros.core.base.errors import BadInput, Misuse
@@ -47,10 +46,10 @@ def check(folder: Path) -> None:
         strange = [p.name for p in folder.iterdir() if p.name not in OWN]
     except FileNotFoundError as error:
         if not folder.absolute().parent.is_dir():
-            raise BadInput(NOT_WRITABLE(file=str(folder), why=error.strerror)) from None
+            raise BadInput(unwritable(folder, error)) from None
         return
     except OSError as error:
-        raise BadInput(NOT_WRITABLE(file=str(folder), why=error.strerror)) from None
+        raise BadInput(unwritable(folder, error)) from None
     if strange and not (folder / CLASS).is_file():
         make = Fix(command="mrlab class SUBMISSIONS --rubric RUBRIC.yaml --out FOLDER")
         raise BadInput(NO_CLASS_FILE(file=CLASS, folder=str(folder), fixes=(make,)))
@@ -72,7 +71,7 @@ class ResultsFolder:
             for name in FOLDERS:
                 (path / name).mkdir(parents=True, exist_ok=True)
         except OSError as error:
-            raise BadInput(NOT_WRITABLE(file=str(path), why=error.strerror)) from None
+            raise BadInput(unwritable(path, error)) from None
 
     @contextmanager
     def alone(self) -> Iterator[None]:
@@ -92,7 +91,7 @@ class ResultsFolder:
             with replaced(path) as file:
                 file.write(content)
         except OSError as error:
-            raise BadInput(NOT_WRITABLE(file=str(path), why=error.strerror)) from None
+            raise BadInput(unwritable(path, error)) from None
 
     def write_json(self, name: str, document: dict[str, Any]) -> None:
         """Write a mapping as a JSON file, as people read it."""

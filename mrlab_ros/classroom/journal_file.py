@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import fcntl
 import json
 import os
@@ -9,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
 
-from mrlab_ros.classroom.diagnostics import NOT_WRITABLE
+from mrlab_ros.adapters.whole_file import unwritable
 from mrlab_ros.classroom.folder import JOURNAL
 from mrlab_ros.classroom.marks.journal import Entry, State, state_of
 from mrlab_ros.core.base.errors import BadInput
@@ -28,7 +29,7 @@ class JournalFile:
         except FileNotFoundError:
             return []
         except OSError as error:
-            raise BadInput(NOT_WRITABLE(file=str(self.path), why=error.strerror)) from None
+            raise BadInput(unwritable(self.path, error)) from None
         found = []
         for line in text.splitlines():
             try:
@@ -45,16 +46,22 @@ class JournalFile:
         """Append the acts that are made from what holds, while nobody else does; return what holds
         then. Raises BadInput, and what `made` raises."""
         try:
-            with self.path.open("a+b") as file:
+            with self.path.open("a+b", buffering=0) as file:
                 fcntl.flock(file, fcntl.LOCK_EX)
                 before = self.entries()
                 new = made(state_of(before))
-                whole = not file.tell() or self.path.read_bytes().endswith(b"\n")
+                size = file.tell()
+                whole = not size or self.path.read_bytes().endswith(b"\n")
                 lines = [json.dumps(asdict(entry)) for entry in new]
                 text = "".join([*([] if whole else ["\n"]), *(f"{line}\n" for line in lines)])
-                file.write(text.encode())
-                file.flush()
-                os.fsync(file.fileno())
+                data = text.encode()
+                try:
+                    if file.write(data) < len(data):
+                        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+                    os.fsync(file.fileno())
+                except OSError:
+                    file.truncate(size)  # acts of one press hold all or none
+                    raise
         except OSError as error:
-            raise BadInput(NOT_WRITABLE(file=str(self.path), why=error.strerror)) from None
+            raise BadInput(unwritable(self.path, error)) from None
         return state_of([*before, *new])

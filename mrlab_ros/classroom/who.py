@@ -8,8 +8,9 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from mrlab_ros.adapters.whole_file import write_text
 from mrlab_ros.classroom import pseudonyms
-from mrlab_ros.classroom.diagnostics import NOT_READABLE, NOT_WRITABLE, WORKSHEET_WRITTEN
+from mrlab_ros.classroom.diagnostics import NOT_READABLE, WORKSHEET_WRITTEN
 from mrlab_ros.classroom.journal_file import JournalFile
 from mrlab_ros.classroom.marks import gradebook, matching
 from mrlab_ros.classroom.marks.exports import Roster, Submission
@@ -63,10 +64,7 @@ def fill(
 ) -> list[Diagnostic]:
     """Write the table of a platform with the grades; return what its teacher has to know."""
     text, problems = sheet.filled(students, places)
-    try:
-        out.write_text(text, encoding="utf-8", newline="")
-    except OSError as error:
-        raise BadInput(NOT_WRITABLE(file=str(out), why=error.strerror)) from None
+    write_text(out, text)
     return [WORKSHEET_WRITTEN(file=str(out)), *problems]
 
 

@@ -154,7 +154,12 @@ def extract(
     root = free(out or Path(f"{path.stem}-attachments"))
     with tempfile.TemporaryDirectory(prefix="mrlab-") as folder:
         names = _walled(extracted, path, folder, write=[Path(folder)])
-        shutil.copytree(folder, root, dirs_exist_ok=True)
+        try:
+            _bring(Path(folder), root)
+        except OSError:
+            # half of the attachments are no use, and the next try needs an empty folder
+            shutil.rmtree(root, ignore_errors=True)
+            raise
     said = EXTRACTED(files=len(names), folder=str(root), names=names)
     say(said, as_json=as_json, files=names)
     if not as_json:
@@ -202,12 +207,22 @@ def report(
         if out is None:
             return
         if form == "page":
-            out.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(Path(folder, "report.html"), out)
+            _bring(Path(folder, "report.html"), out)
             print(f"wrote {out}", file=sys.stderr)
             return
-        shutil.copytree(folder, out, dirs_exist_ok=True)
+        _bring(Path(folder), out)
         print(f"wrote report.txt, .json, .png and .html to {out}", file=sys.stderr)
+
+
+def _bring(made: Path, target: Path) -> None:
+    """Copy a file, or a folder into another one: each file as a whole, or the one before stays."""
+    from mrlab_ros.adapters.whole_file import replaced
+
+    for path in (p for p in (made, *sorted(made.rglob("*"))) if p.is_file()):
+        place = target / path.relative_to(made)
+        place.parent.mkdir(parents=True, exist_ok=True)
+        with path.open("rb") as source, replaced(place) as file:
+            shutil.copyfileobj(source, file)
 
 
 def model_of(bag: str) -> str:

@@ -47,11 +47,11 @@ def show(
     path = output or Path(f"{file.name.split('.')[0] or 'motion'}.html")
     if path.suffix.lower() not in (".html", ".htm"):
         raise WrongUsage(PAGE_NAME(name=path.name))
+    from mrlab_ros.adapters.whole_file import write_text
     from mrlab_ros.commands.convert import report
 
     text, result = _page(file, robot, end_effector, options)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(text, encoding="utf-8")
+    write_text(path, text)
     if as_json:
         refused = result is not None and result.trajectory is None
         found = report.record(str(file), result, None) if result is not None else {}

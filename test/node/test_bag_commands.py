@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import errno
 import json
+import os
+import shutil
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -32,6 +35,7 @@ from mrlab_ros.adapters.bags.reader import Bag
 from mrlab_ros.adapters.bags.writer import BagWriter
 from mrlab_ros.adapters.diagnostics import COMPRESSED_CUT_SHORT
 from mrlab_ros.cli import make_app
+from mrlab_ros.cli import refused as disk_refused
 from mrlab_ros.commands.diagnostics import REFERENCE_REFUSED
 from mrlab_ros.commands.foreign import import_of
 from mrlab_ros.commands.lab.replay import Keyboard, next_rate
@@ -380,6 +384,19 @@ def test_extract_writes_the_attachments(bag, tmp_path):
     said = json.loads(run("bag", "extract", bag, "--out", tmp_path / "out", "--json"))
     assert said["files"] == ["trajectories/wave.json"]
     assert json.loads((tmp_path / "out/trajectories/wave.json").read_text()) == TRAJECTORY
+
+
+@pytest.mark.parametrize("command", ["extract", "report"])
+def test_a_full_disk_leaves_no_part_of_a_file(bag, tmp_path, monkeypatch, command):
+    def full(_source, target):
+        target.write(b"half")
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(shutil, "copyfileobj", full)
+    with pytest.raises(OSError, match="out") as caught:
+        run("bag", command, bag, "--out", tmp_path / "out")
+    assert disk_refused(caught.value)[1] == 1
+    assert not [path for path in (tmp_path / "out").rglob("*") if path.is_file()]
 
 
 def test_repair_says_what_it_did(bag):

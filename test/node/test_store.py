@@ -1,5 +1,6 @@
 """Stores: whole objects or none, in a folder and on a real S3 server, with killed writers."""
 
+import errno
 import io
 import os
 import signal
@@ -13,6 +14,7 @@ from memory_store import MemoryStore
 from refusals import refused
 from s3_server import BUCKET, s3_server
 
+from mrlab_ros.adapters.diagnostics import NO_ROOM_ON_DISK
 from mrlab_ros.adapters.store import objects
 from mrlab_ros.adapters.store.diagnostics import (
     NO_STORE,
@@ -158,6 +160,17 @@ def test_a_disk_that_is_full_leaves_what_was_there(tmp_path):
     assert [e.key for e in store.list("a")] == ["a/old"]
     assert store.get("a/old") == b"old"
     assert [p.name for p in (tmp_path / "store" / "a").iterdir()] == ["old"]
+
+
+@pytest.mark.parametrize("number", [errno.ENOSPC, errno.EDQUOT])
+def test_a_disk_without_room_is_named(tmp_path, monkeypatch, number):
+    def put(*_, **__):
+        why = f"Unable to copy data to file: {os.strerror(number)} (os error {number})"
+        raise objects.BaseError(f"Generic LocalFileSystem error: {why}")
+
+    monkeypatch.setattr(objects.obstore, "put", put)
+    with refused(NO_ROOM_ON_DISK, StoreFailure):
+        open_store(str(tmp_path)).put("a", b"a")
 
 
 def test_a_server_that_dies_is_a_sentence_and_comes_back(tmp_path):

@@ -17,16 +17,15 @@ import yaml
 
 from mrlab_ros.adapters.diagnostics import (
     FILE_UNREADABLE,
-    FILE_UNWRITABLE,
     NO_ROOM_ON_DISK,
     NOT_OF_FORMAT,
 )
 from mrlab_ros.adapters.journal_file import set_aside
 from mrlab_ros.adapters.scenes.diagnostics import BAD_SCENE_NAME, NO_SCENE
-from mrlab_ros.adapters.whole_file import replaced
+from mrlab_ros.adapters.whole_file import replaced, unwritable
 from mrlab_ros.adapters.yaml_files import Loader, check_file, not_yaml
 from mrlab_ros.core.base.errors import BadInput, LabError
-from mrlab_ros.core.base.machine import lack
+from mrlab_ros.core.base.machine import lack, lacking
 from mrlab_ros.core.base.names import NAME, close_to
 from mrlab_ros.core.scene import document
 from mrlab_ros.core.scene import document as scene_document
@@ -67,8 +66,7 @@ class SceneFiles:
         try:
             write(path, scene)
         except OSError as error:
-            why = error.strerror or str(error)
-            raise BadInput(FILE_UNWRITABLE(file=str(path), why=why)) from None
+            raise BadInput(unwritable(path, error)) from None
         return path
 
 
@@ -188,7 +186,8 @@ class StateFile:
         try:
             write(self._path, scene)
         except OSError as error:
-            said = f"{self._path} cannot be written, a restart will not know: {error.strerror}"
+            why = lacking(error) or error.strerror
+            said = f"{self._path} cannot be written, a restart will not know: {why}"
             if said != self._failed:
                 self._log(said)
             self._failed = said

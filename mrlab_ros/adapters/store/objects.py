@@ -6,6 +6,7 @@ Credentials come from the environment, as the tools of each service expect them 
 from __future__ import annotations
 
 import contextlib
+import errno
 import os
 import re
 import time
@@ -19,6 +20,7 @@ from obstore.exceptions import BaseError
 from obstore.store import LocalStore, from_url
 
 from mrlab_ros.adapters import private_folder
+from mrlab_ros.adapters.diagnostics import NO_ROOM_ON_DISK
 from mrlab_ros.adapters.store.diagnostics import (
     NO_STORE,
     NOT_IN_STORE,
@@ -30,6 +32,7 @@ from mrlab_ros.adapters.store.diagnostics import (
 from mrlab_ros.adapters.store.port import Entry, Missing, ObjectStore, StoreFailure
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.machine import lack
 
 MiB = 1 << 20
 # A larger object is written in parts; a smaller one in a single request, which leaves nothing
@@ -51,6 +54,7 @@ UNFINISHED = re.compile(r".+#[0-9]+")
 # A service says of a bucket that is not there what it says of an object.
 NO_BUCKET = re.compile("NoSuchBucket|ContainerNotFound|bucket does not exist")
 SERVICE_ERROR = re.compile(r"<Code>(\w+)</Code>\s*<Message>([^<]*)")
+OS_ERROR = re.compile(r"\(os error (\d+)\)")  # how Rust names one of the system
 UNREACHABLE = re.compile("error sending request|tcp connect error|operation timed out")
 LONGEST_REASON = 200
 
@@ -172,7 +176,17 @@ class ObstoreStore(ObjectStore):
             missing = isinstance(error, FileNotFoundError) and not NO_BUCKET.search(str(error))
             if missing and not writes:
                 raise Missing(NOT_IN_STORE(key=key)) from None
+            full = _without_room(error)
+            if full is not None:
+                raise StoreFailure(NO_ROOM_ON_DISK(folder=self.place, why=full)) from None
             raise StoreFailure(STORE_FAILED(store=self.place, why=_reason(error))) from None
+
+
+def _without_room(error: BaseException) -> str | None:
+    """Return what the system calls a disk that is full; None: the cause is another one."""
+    number = OS_ERROR.search(str(error))
+    found = lack(OSError(int(number[1]), "") if number else error)
+    return os.strerror(errno.ENOSPC) if found is not None and found.is_room else None
 
 
 def _reason(error: BaseException) -> Diagnostic | str:

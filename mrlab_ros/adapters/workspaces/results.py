@@ -6,6 +6,7 @@ The document is JSON and not a pickle: it comes from a process that touched a fi
 from __future__ import annotations
 
 import base64
+import contextlib
 import json
 import traceback
 from collections.abc import Callable
@@ -86,9 +87,13 @@ def run(
         result = converted(task, read, memory, most_rows)
         if result.trajectory is not None:
             npz_file.write(result.trajectory, trajectory)
+            trajectory.flush()
     except BadInput as error:
         return json.dumps({"bad_input": plain(error)}).encode()
     except OSError as error:
+        # what did not fit is not written again when the file is closed
+        with contextlib.suppress(OSError):
+            trajectory.close()
         return json.dumps({"bad_input": plain(failed_here(task.file, error))}).encode()
     except MemoryError:
         result = _too_large(task, memory)

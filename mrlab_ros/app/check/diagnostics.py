@@ -67,4 +67,3 @@ MODEL_NOT_IN_SCENE = Code(
     "{robots:list}.",
     "Take one of these, or another scene.",
 )
-PAGE_NOT_WRITTEN = Code("page_not_written", "{file} cannot be written: {why:problem}.")

@@ -11,7 +11,7 @@ import numpy as np
 
 from mrlab_ros.adapters.diagnostics import NOTHING_TO_SHOW
 from mrlab_ros.adapters.robots.library import RobotLibrary, from_library
-from mrlab_ros.app.check.diagnostics import PAGE_NOT_WRITTEN
+from mrlab_ros.adapters.whole_file import write_text
 from mrlab_ros.app.check.file import CheckedFile
 from mrlab_ros.app.check.stage import Stage
 from mrlab_ros.app.show import ingredients, still_text
@@ -278,11 +278,7 @@ def write_page(
     For marks, title, with_film see `page_of`. Raises BadInput where it cannot be written.
     """
     text = page_of(found, stage, folder, marks, title=title, with_film=with_film)
-    try:
-        out.parent.mkdir(parents=True, exist_ok=True)
-        out.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise BadInput(PAGE_NOT_WRITTEN(file=str(out), why=error.strerror)) from None
+    write_text(out, text)
     return len(text)
 
 

@@ -25,6 +25,7 @@ from mrlab_ros.adapters import share
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.trajectories import formats
 from mrlab_ros.adapters.trajectories.files import load_coefficients
+from mrlab_ros.adapters.whole_file import replaced
 from mrlab_ros.adapters.workspaces.diagnostics import MISSING
 from mrlab_ros.adapters.workspaces.reader import Limits, MiB, in_memory
 from mrlab_ros.adapters.workspaces.results import Task, refused, unexpected
@@ -45,6 +46,7 @@ from mrlab_ros.commands.convert.options import convert_words
 from mrlab_ros.commands.convert.outcomes import BADNESS, exit_code
 from mrlab_ros.core.base.errors import BadInput, LabError, Misuse, WrongUsage
 from mrlab_ros.core.base.foreign_text import file_name
+from mrlab_ros.core.base.machine import remedy
 from mrlab_ros.core.conversion.convert import ConversionResult, id_from
 from mrlab_ros.core.conversion.options import DEFAULT_FRAME_RATE, Options
 from mrlab_ros.core.robots.model import RobotModel
@@ -73,7 +75,7 @@ class Targets:
         Raises BadInput where nothing can be written there, Misuse where several inputs have one
         picture.
         """
-        self._problems: list[tuple[str, str]] = []
+        self._problems: list[tuple[str, str, str | None]] = []
         folders = {"out": out}
         if plot is not None:
             is_picture = plot.suffix in PICTURES
@@ -90,13 +92,14 @@ class Targets:
         try:
             yield
         except OSError as error:
-            self._problems.append((error.strerror or str(error), str(error.filename or "")))
+            why = error.strerror or str(error)
+            self._problems.append((why, str(error.filename or ""), remedy(error)))
 
     def report(self) -> bool:
         """Say on stderr what was not written; return whether there was anything."""
-        for (why, file), count in Counter(self._problems).items():
+        for (why, file, helps), count in Counter(self._problems).items():
             times = count if count > 1 else None
-            print(NOT_WRITTEN(times=times, error=why, file=file), file=sys.stderr)
+            print(NOT_WRITTEN(times=times, error=why, file=file, remedy=helps), file=sys.stderr)
         return bool(self._problems)
 
 
@@ -369,7 +372,8 @@ def _write_page(result: ConversionResult, robot: str, path: Path) -> None:
     folder = share.directory()
     text = motion_page(result, robot, tool, RobotLibrary(folder / "robots"), folder)
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(text, encoding="utf-8")
+    with replaced(path) as file:
+        file.write(text.encode())
 
 
 def _plot_path(plot: Path, trajectory_id: str) -> Path:

@@ -39,7 +39,12 @@ FOLDER_NOT_WRITABLE = Code(
     "--{option} '{folder}' cannot be written ({error}).",
     "Give a folder that you may write to.",
 )
-NOT_WRITTEN = Code("not_written", "not written[ ({times:integer} times)]: {error}[ '{file}']")
+NOT_WRITTEN = Code(
+    "not_written",
+    "not written[ ({times:integer} times)]: {error}[ '{file}'].",
+    "[{remedy:choice room=Make room on that disk, or name a folder on another one."
+    "|may=Check who may write there, or name another folder.}]",
+)
 NOT_A_TOPIC = Code("not_a_topic", "'{topic}' cannot be a topic: {why:problem}.")
 NO_PUBLISHER = Code(
     "no_publisher",

@@ -49,6 +49,14 @@ def lack(error: BaseException) -> Lack | None:
     return NUMBERS.get(error.errno or 0) if isinstance(error, OSError) else None
 
 
+def remedy(error: OSError) -> str | None:
+    """Return what helps where a file cannot be written: `room`, `may` or None, it is unknown."""
+    found = lack(error)
+    if found is Lack.READ_ONLY or isinstance(error, PermissionError):
+        return "may"
+    return "room" if found is not None and found.is_room else None
+
+
 def lacking(error: BaseException) -> Diagnostic | None:
     """Return what is said of a machine that lacks something; None: `error` has another cause."""
     found = lack(error)

@@ -9,6 +9,7 @@ as SHA-256 digests: a copy of the file signs nobody in.
 from __future__ import annotations
 
 import asyncio
+import errno
 import hashlib
 import hmac
 import logging
@@ -22,8 +23,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.adapters.diagnostics import NO_ROOM_ON_DISK
+from mrlab_ros.core.base.diagnostic import Diagnostic
+from mrlab_ros.core.base.errors import BadInput, Unavailable
 from mrlab_ros.core.base.foreign_text import visible
+from mrlab_ros.core.base.machine import lack
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.core.runtime.bucket import Occurrences
 from mrlab_ros.gateway.people.diagnostics import (
@@ -40,6 +44,7 @@ FILE = "users.sqlite"
 SCHEMA_VERSION = 2
 # How long a writer waits for another one, s.
 BUSY_TIMEOUT_S = 5.0
+SQLITE_FULL = 13  # sqlite3.SQLITE_FULL, from Python 3.11
 SCHEMA = """
 CREATE TABLE IF NOT EXISTS lab (id TEXT NOT NULL, secret BLOB NOT NULL);
 CREATE TABLE IF NOT EXISTS people (
@@ -103,7 +108,8 @@ class Database:
                     connection.execute("INSERT INTO lab VALUES (?, ?)", row)
             found = self.rows("SELECT id, secret FROM lab")[0]
         except (OSError, sqlite3.Error) as error:
-            raise BadInput(USERS_UNUSABLE(path=str(path), why=str(error))) from error
+            unusable = USERS_UNUSABLE(path=str(path), why=str(error))
+            raise BadInput(_no_room(error, path) or unusable) from error
         self.lab_id: str = found["id"]
         self.secret: bytes = found["secret"]
 
@@ -126,21 +132,36 @@ class Database:
         """Change several rows at once, or none of them.
 
         wait: for another process that writes, s; sqlite3.OperationalError where it takes longer.
+        Raises Unavailable where the disk is full.
         """
         with self._lock:
             self._connection.execute(f"PRAGMA busy_timeout = {round(wait * 1000)}")
             self._connection.execute("BEGIN IMMEDIATE")
             try:
                 yield self._connection
-            except BaseException:
-                self._connection.execute("ROLLBACK")
+                self._connection.execute("COMMIT")
+            except BaseException as error:
+                # on a full disk SQLite has taken everything back already
+                if self._connection.in_transaction:
+                    self._connection.execute("ROLLBACK")
+                full = _no_room(error, self.path)
+                if full is not None:
+                    raise Unavailable(full) from None
                 raise
-            self._connection.execute("COMMIT")
 
     def close(self) -> None:
         """Close the file."""
         with self._lock:
             self._connection.close()
+
+
+def _no_room(error: BaseException, path: Path) -> Diagnostic | None:
+    """Return what is said where the file at `path` finds no room; None: that is not the cause."""
+    found = lack(error)
+    full = getattr(error, "sqlite_errorcode", None) == SQLITE_FULL
+    if not full and (found is None or not found.is_room):
+        return None
+    return NO_ROOM_ON_DISK(folder=str(path.parent), why=os.strerror(errno.ENOSPC))
 
 
 LIFETIME_S = 7 * 24 * 3600.0
@@ -217,7 +238,9 @@ class SignIns:
         found = _sign_in(rows[0])
         if now - found.seen > SEEN_PERIOD_S:
             # Another process may be writing; the next request tries again. Requests do not wait.
-            with suppress(sqlite3.OperationalError), self._database.writing(wait=0) as connection:
+            # A full disk signs nobody out.
+            busy = suppress(sqlite3.OperationalError, Unavailable)
+            with busy, self._database.writing(wait=0) as connection:
                 connection.execute("UPDATE sign_ins SET seen = ? WHERE id = ?", (now, found.id))
         person = rows[0]["person"] or found.name
         return Person(found.name, found.role, found.id, bool(found.device), person)

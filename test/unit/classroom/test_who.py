@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
+import errno
+import os
+
+from refusals import refused
+
+from mrlab_ros.adapters.diagnostics import FILE_UNWRITABLE
 from mrlab_ros.classroom import pseudonyms
 from mrlab_ros.classroom.journal_file import JournalFile
 from mrlab_ros.classroom.marks.exports import Entry, recognise
 from mrlab_ros.classroom.marks.gradebook import Sheet
+from mrlab_ros.classroom.marks.journal import Entry as Act
 from mrlab_ros.classroom.who import Decisions, matched
 
 PATHS = [
@@ -33,6 +40,25 @@ def test_what_is_decided_holds_in_the_next_run(tmp_path):
     found = matched(roster, sheet, journal.state(), journal, decided)
     assert (found.places["max-roe-12"], found.unmatched) == ("", ())
     assert [e.path for e in found.roster.left_out] == ["doe jane.mat"]
+
+
+def test_acts_for_which_the_disk_has_no_room_are_not_kept_in_part(tmp_path, monkeypatch):
+    journal = JournalFile(tmp_path)
+    acts = [Act(1.0, "teacher", "comment", "anna", text=text) for text in ("good", "bad")]
+    journal.append(lambda _: acts[:1])
+    before = journal.path.read_bytes()
+
+    def full(_):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    with monkeypatch.context() as patched:
+        patched.setattr(os, "fsync", full)
+        with refused(FILE_UNWRITABLE) as caught:
+            journal.append(lambda _: acts)
+    assert (caught.value.diagnostic.values["remedy"], journal.path.read_bytes()) == (
+        "room",
+        before,
+    )
 
 
 def test_with_pseudonyms_the_journal_and_what_is_shown_name_nobody(tmp_path):

@@ -9,10 +9,10 @@ from cryptography import x509
 from gateway_side import Gateway, code_of
 from refusals import refused
 
+from mrlab_ros.adapters.diagnostics import FILE_UNWRITABLE
 from mrlab_ros.adapters.keys import certificates
 from mrlab_ros.adapters.keys.diagnostics import KEY_FILE_OPEN
 from mrlab_ros.adapters.keys.folder import Keys, now
-from mrlab_ros.classroom.diagnostics import NOT_WRITABLE
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.access import Login
 from mrlab_ros.gateway.diagnostics import (
@@ -77,7 +77,7 @@ def test_a_public_address_must_be_one_of_a_site(url: str) -> None:
 
 def test_a_class_may_be_new_where_it_can_be_made(tmp_path: Path) -> None:
     Settings(state_dir=tmp_path, classroom=tmp_path / "new").check()
-    with refused(NOT_WRITABLE, BadInput, file=str(tmp_path / "gone" / "new")):
+    with refused(FILE_UNWRITABLE, BadInput, file=str(tmp_path / "gone" / "new")):
         Settings(state_dir=tmp_path, classroom=tmp_path / "gone" / "new").check()
 
 

@@ -1764,7 +1764,10 @@ export const diagnostics: Templates = {
   ],
   file_reader_failed: ['das Leseprogramm ist an ihr gescheitert ({error})'],
   file_unreadable: ['{file} ist nicht lesbar: {why:problem}.'],
-  file_unwritable: ['{file} kann nicht geschrieben werden: {why:problem}.'],
+  file_unwritable: [
+    '{file} kann nicht geschrieben werden: {why:problem}.',
+    '[{remedy:choice room=Mach dort Platz, oder nimm einen anderen Datenträger.|may=Prüfe, wer dort schreiben darf.}]',
+  ],
   finger_beyond: [
     'Der Finger {finger} soll auf {position:number}; erwartet wird {low:number} bis {high:number}.',
   ],
@@ -2681,7 +2684,6 @@ export const diagnostics: Templates = {
   ],
   unpacking_not_started: ['Der Prozess, der entpackt, startet nicht: {why:problem}.'],
   unreadable_submission: ['Keine Datei dieser Abgabe lässt sich lesen.'],
-  page_not_written: ['{file} kann nicht geschrieben werden: {why:problem}.'],
   no_number: ['sie ist {found:problem}, wo eine reelle Zahl erwartet wird'],
   no_numbers: ['sie enthält keine Zeile mit Zahlen'],
   no_object_checked: ['In dem, was geprüft wurde, gibt es keinen Gegenstand {object}.'],
@@ -2981,7 +2983,6 @@ export const diagnostics: Templates = {
   not_unpacked: ['{file} lässt sich nicht entpacken: {why:problem}.'],
   not_urdf: ['{file} beginnt mit <{tag}>; erwartet wird eine URDF, und die hat <robot>.'],
   not_utf8: ['{file} ist kein Text in UTF-8.', 'Sichere die Datei als UTF-8.'],
-  not_writable: ['{file} lässt sich nicht schreiben: {why:problem}.'],
   not_xml: ["{file} ist kein XML: {why:problem} in Zeile {line:integer}[, '{found}']."],
   not_yours: ["'{trajectory}' gehört {owner}; {person} darf sie nur ansehen."],
   nothing_answers: ['Auf {key} antwortet nichts.'],

@@ -111,3 +111,14 @@ def test_a_failure_of_the_machine_is_no_fault_of_the_file(number, code):
     with pytest.raises(BadInput) as caught:
         results.parse(data)
     assert caught.value.diagnostic.code == code
+
+
+def test_a_disk_that_is_full_at_the_last_byte_is_no_fault_of_the_file():
+    found = Workspace("v7", (Variable("q", "double", Q.shape, Q),), 0, "0" * 64)
+    task = results.Task("f.mat", Options(), ROBOT, COEFFICIENTS, None, "", 5, 100.0)
+    # what is small waits in the buffer, and is refused when that is emptied
+    with open("/dev/full", "wb", buffering=1 << 20) as file:
+        data = results.run(task, lambda: found, 1 << 30, file)
+    with pytest.raises(BadInput) as caught:
+        results.parse(data)
+    assert caught.value.diagnostic.code == "no_room_for_trajectory"

@@ -10,7 +10,10 @@ import httpx
 import pytest
 from fastapi.testclient import TestClient
 from gateway_side import PASSWORD, Gateway, code_of
+from refusals import refused
 
+from mrlab_ros.adapters.diagnostics import NO_ROOM_ON_DISK
+from mrlab_ros.core.base.errors import Unavailable
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.gateway.people.accounts import INVITATION_LIFETIME_S, OPENING_LIFETIME_S
 from mrlab_ros.gateway.people.sign_ins import LIFETIME_S, SEEN_PERIOD_S
@@ -73,6 +76,21 @@ def test_nobody_waits_for_another_process_that_writes(class_lab: Gateway) -> Non
         other.execute("ROLLBACK")
     anna.get("/api/session")
     assert class_lab.people.sign_ins.all(class_lab.clock(), "anna")[0].seen > seen
+
+
+def test_a_full_disk_signs_nobody_in_and_nobody_out(class_lab: Gateway) -> None:
+    anna, ben = class_lab.browser("anna"), class_lab.browser("ben")
+    execute = class_lab.people.database._connection.execute
+    (used,) = execute("PRAGMA page_count").fetchone()
+    execute(f"PRAGMA max_page_count = {used}")
+    with refused(NO_ROOM_ON_DISK, Unavailable):
+        for _ in range(1000):
+            class_lab.people.sign_ins.begin("ben", Role.STUDENT, class_lab.clock())
+    assert code_of(class_lab.browser().sign_in("ben")) == (503, "no_room_on_disk")
+    class_lab.clock.now += 2 * SEEN_PERIOD_S
+    assert all(browser.user for browser in (anna, ben))
+    execute("PRAGMA max_page_count = 1000000")
+    assert class_lab.browser().sign_in("ben").is_success
 
 
 def test_a_sign_in_ends_after_its_time(class_lab: Gateway) -> None:
