@@ -43,6 +43,7 @@ from mrlab_ros.processes.lab import (
     LabProcess,
     lab_processes,
     parameter_file,
+    parts_of_lab,
     robot_models,
 )
 from mrlab_ros.processes.launch_arguments import LAB
@@ -78,14 +79,16 @@ def processes(context):
     check_namespace(context.launch_configurations.get("ros_namespace", ""))
     shown = [rviz(graph_range(value("discovery")))] if given("rviz") else []
     keys = path("keys")
+    parts = parts_of_lab(value("only"))
+    bridge = given("bridge") and (not parts or "bridge" in parts)
     listen = value("listen")
-    if value("connect") and given("bridge"):
+    if value("connect") and bridge:
         checked_router(value("connect"), listen, keys, given("insecure"))
-    elif listen and given("bridge"):
+    elif listen and bridge:
         check_endpoints((listen,), given("insecure"), keys is not None)
         listen = free_endpoint(listen, "listen:=")
     web = None
-    if given("bridge") and given("web"):
+    if bridge and given("web"):
         web = checked_web(
             value("http"),
             keys=keys,
@@ -102,7 +105,7 @@ def processes(context):
             prepare_keys(keys)
     physics, _ = physics_support.wanted(given("physics"))
     options = LabOptions(
-        lab_id=new_lab_id(),
+        lab_id="" if parts else new_lab_id(),
         config=parameter_file(path("config")),
         state_dir=private_folder.make(path("state_dir"))
         if path("state_dir")
@@ -111,13 +114,14 @@ def processes(context):
         store=checked_store(value("store")),
         physics=physics,
         frames=given("frames"),
-        bridge=given("bridge"),
+        bridge=bridge,
         listen=listen,
         connect=value("connect"),
         keys=keys,
         insecure=given("insecure"),
         web=web,
         sim_time=given("use_sim_time"),
+        only=parts,
     )
     if value("scene"):
         check_scene(value("scene"), options.state_dir)

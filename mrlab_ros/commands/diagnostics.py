@@ -249,6 +249,11 @@ ROUTER_WITHOUT_KEYS = Code(
     "alone.",
     "Give --keys FOLDER, and leave --zenoh-listen and --insecure out.",
 )
+LAB_OR_HUB = Code(
+    "lab_or_hub",
+    "A router is either a campus's, with --lab, or a lab's that connects to one, with --hub.",
+    page=False,
+)
 PROCESSES_REFUSE = Code(
     "processes_refuse",
     "The lab does not start: {processes:list} refused the configuration and said above what is "

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from mrlab_ros.commands import output
+from mrlab_ros.commands.diagnostics import LAB_OR_HUB
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.access import Login
 from mrlab_ros.core.bridge.rules import Role
@@ -242,31 +243,68 @@ def config(
 def router(
     folder: Folder = Path("keys"),
     prefix: Prefix = "",
+    lab: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="Makes a campus's router: a lab behind it, whose keys begin with the prefix and "
+            "this name. Repeatable; name every lab each time."
+        ),
+    ] = None,
+    hub: Annotated[
+        Path | None,
+        typer.Option(help="The file labs/NAME.json5 of the campus: the router connects there."),
+    ] = None,
+    hub_role: Annotated[
+        Role, typer.Option(help="With --hub: what people at the campus's router may do here.")
+    ] = Role.DISPLAY,
     allow_list: AllowList = None,
     as_json: AsJson = False,
 ) -> None:
     """Write the file of a zenoh router on another machine that lets people in for the lab.
 
     The names under which people reach that machine must be the lab's: mrlab keys init --host, or
-    renew --host.
+    renew --host. The folder of a campus's router is one of its own, and no lab runs with it.
     """
     from mrlab_ros.adapters import share
     from mrlab_ros.adapters.keys.folder import Keys, now
+    from mrlab_ros.adapters.keys.zenoh_settings import Hub
     from mrlab_ros.adapters.zenoh.configuration import limits
     from mrlab_ros.core.bridge.rules import checked_prefix
 
     keys = Keys(folder)
     shipped = limits(share.directory() / "config" / "zenoh" / "lab.json5")
-    file = keys.router(rules_of(allow_list), checked_prefix(prefix), shipped, now())
+    if lab and hub:
+        raise BadInput(LAB_OR_HUB())
+    file = keys.router(
+        rules_of(allow_list),
+        checked_prefix(prefix),
+        shipped,
+        now(),
+        labs=lab or (),
+        hub=None if hub is None else Hub.read(hub, hub_role),
+    )
+    files = {name: str(keys.lab_file(name)) for name in lab or ()}
     if as_json:
-        show({"file": str(file), "endpoint": f"tls/{keys.hosts[0]}:7447"})
+        found = {"file": str(file), "endpoint": f"tls/{keys.hosts[0]}:7447"}
+        show({**found, "labs": files} if files else found)
         return
+    if files:
+        after = "\nHand each lab its file; there:\n" + "".join(
+            f"  mrlab keys router --hub {name}.json5 --prefix {prefix and prefix + '/'}{name}"
+            f"    # {path}\n"
+            for name, path in files.items()
+        )
+    else:
+        after = (
+            " Have the lab connect to it:\n"
+            f"  mrlab up --keys {folder} --zenoh-connect tls/{keys.hosts[0]}:7447\n"
+        )
     print(
-        f"{file} is all that the router needs. Take it there on a way that you trust, run it with "
-        "zenohd -c router.json5, and have the lab connect to it:\n"
-        f"  mrlab up --keys {folder} --zenoh-connect tls/{keys.hosts[0]}:7447\n"
+        f"{file} is all that the router needs. Take it there on a way that you trust, and run it "
+        "with zenohd -c router.json5, or with python -m mrlab_ros.processes.router "
+        f"router.json5.{after}"
         "Who is added or taken back later counts at the router once it has a new file and is "
-        "started again. Whoever has this file can pass for the lab."
+        f"started again. Whoever has this file can pass for {'every lab' if files else 'the lab'}."
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
@@ -135,8 +136,17 @@ def _process(state: ProcessState) -> msg.LabProcess:
     )
 
 
+def _down_here(one: msg.LabProcess, elsewhere: bool) -> int:
+    """Return when a process ended or froze last, ns of this machine's steady clock; 0: never."""
+    if not (elsewhere and one.down_steady_ns):
+        return int(one.down_steady_ns)
+    return time_from_message(one.down) - time.time_ns() + time.monotonic_ns()
+
+
 def processes_from_message(message: msg.LabProcesses) -> list[ProcessState]:
     """Return the processes; one in an unknown state is left out. Their ids are not known."""
+    # A lab on several machines has no id; their steady clocks have nothing in common.
+    elsewhere = not message.lab
     return [
         ProcessState(
             one.name,
@@ -148,7 +158,7 @@ def processes_from_message(message: msg.LabProcesses) -> list[ProcessState]:
             one.exit_code,
             tuple(one.nodes),
             time_from_message(one.down) / SECOND,
-            one.down_steady_ns,
+            _down_here(one, elsewhere),
             one.restart_in,
         )
         for one in message.processes

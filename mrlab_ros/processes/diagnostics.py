@@ -10,6 +10,12 @@ NO_PRIVATE_FOLDER = Code(
     "Set XDG_RUNTIME_DIR to one.",
     meaning="Where a lab keeps its socket, others must not write.",
 )
+NO_SUCH_PROCESS = Code(
+    "no_such_process",
+    "'{name}' is no process of a lab.",
+    "Expected some of {known:list}, with commas between them.",
+    page=False,
+)
 DOMAIN_TAKEN = Code(
     "domain_taken",
     "A lab runs on ROS domain {domain:integer} already[ (process {pid:integer})].",

@@ -15,7 +15,7 @@ from pathlib import Path
 from mrlab_ros.adapters.sandbox import python_process
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.processes.child_process import ProcessSpec
-from mrlab_ros.processes.diagnostics import NO_PARAMETER_FILE
+from mrlab_ros.processes.diagnostics import NO_PARAMETER_FILE, NO_SUCH_PROCESS
 from mrlab_ros.processes.options import LabOptions
 from mrlab_ros.processes.web import GatewayProcess
 
@@ -81,7 +81,7 @@ def _lab_parameters(options: LabOptions) -> Parameters:
 
 
 def _playback_parameters(options: LabOptions) -> Parameters:
-    if not options.socket or options.connect:
+    if not options.socket or options.connect or not options.bridge:
         return {}
     from mrlab_ros.processes.parameter_file import parameter
 
@@ -116,6 +116,11 @@ class LabProcess:
     nodes: tuple[str, ...]
     parameters: Callable[[LabOptions], Parameters] = lambda _: {}
     wanted: Callable[[LabOptions], bool] = lambda _: True
+
+    @property
+    def beside(self) -> str:
+        """The process on whose machine it runs."""
+        return self.name
 
     def arguments(self, options: LabOptions) -> tuple[str, ...]:
         """Return the host's command line: the nodes, then their ROS arguments."""
@@ -163,7 +168,21 @@ PROCESSES: tuple[LabProcess | GatewayProcess, ...] = (
 
 def lab_processes(options: LabOptions) -> tuple[LabProcess | GatewayProcess, ...]:
     """Return the processes of a lab with these options."""
-    return tuple(process for process in PROCESSES if process.wanted(options))
+    found = (process for process in PROCESSES if process.wanted(options))
+    return tuple(each for each in found if not options.only or each.beside in options.only)
+
+
+def parts_of_lab(text: str) -> frozenset[str]:
+    """Return the names of processes in a list such as 'playback,physics'; empty: all of the lab.
+
+    Raises BadInput for an unknown one. The pages belong to the bridge.
+    """
+    parts = [part for part in (each.strip() for each in text.split(",")) if part]
+    known = list(dict.fromkeys(process.beside for process in PROCESSES))
+    for part in parts:
+        if part not in known:
+            raise BadInput(NO_SUCH_PROCESS(name=part, known=known))
+    return frozenset(parts)
 
 
 def lab_nodes(options: LabOptions) -> tuple[NodeEntry, ...]:

@@ -82,6 +82,7 @@ LAB = (
         "localhost",
         "who finds the ROS graph, which asks for no key; subnet: everybody on this network",
     ),
+    Argument("only", "", "processes to run, such as playback,physics; empty: the whole lab"),
     Argument("use_sim_time", "false", "the topic /clock gives the time"),
 )
 ROBOT = (

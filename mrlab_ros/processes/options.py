@@ -41,8 +41,9 @@ class LabOptions:
     bridge. keys: a keys folder. insecure: listen beyond this machine without keys. store: URL
     or folder of uploads and trajectories; empty: in state_dir. socket: on which this user's
     commands connect; empty: none. web: the gateway; None: no pages. sim_time: the topic /clock
-    gives the time. lab_id: distinguishes this lab from others on the same ROS domain; empty:
-    nothing is ignored.
+    gives the time. only: names of the processes that this machine runs; empty: all. lab_id:
+    distinguishes this lab from others on the same ROS domain; empty:
+    nothing is ignored, as in a lab on several machines, which agree on none.
     """
 
     config: Path
@@ -59,6 +60,7 @@ class LabOptions:
     socket: str = ""
     web: WebOptions | None = None
     sim_time: bool = False
+    only: frozenset[str] = frozenset()
     lab_id: str = ""
 
 

@@ -35,6 +35,11 @@ class GatewayProcess:
         """Return whether a lab with these options has pages: without a bridge there is no lab."""
         return options.web is not None and options.bridge
 
+    @property
+    def beside(self) -> str:
+        """The process on whose machine it runs."""
+        return "bridge"
+
     def arguments(self, options: LabOptions) -> tuple[str, ...]:
         """Return the gateway's command line."""
         from mrlab_ros.processes.parameter_file import parameter  # not for a mere list of names

@@ -60,11 +60,10 @@ FILES: dict[str, Callable[[], str]] = {
     "web/src/design/tokens.css": lambda: design_tokens.css(ROOT),
     "web/src/design/tokens.ts": lambda: design_tokens.typescript(ROOT),
     "web/test/playback/vectors.json": playback_vectors.current,
-    "config/zenoh/roles.json5": lambda: roles_page.current(ROOT),
     protocol_vectors.FILE: lambda: protocol_vectors.current(ROOT),
     **{
         path: partial(str, content)
-        for module in (typescript_protocol, message_stubs)
+        for module in (typescript_protocol, message_stubs, roles_page)
         for path, content in module.files(ROOT).items()
     },
 }

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 import pytest
 import yaml
 from graph import Graph
+from own_domain import own_domain
 from own_port import free_endpoint
 from zenoh_side import connect
 
@@ -14,6 +15,16 @@ def graph() -> Iterator[Graph]:
     graph = Graph()
     yield graph
     graph.close()
+
+
+@pytest.fixture
+def other_graph(monkeypatch):
+    """Make a graph on another domain, as another lab has."""
+    with own_domain() as domain:
+        monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
+        graph = Graph()
+        yield graph
+        graph.close()
 
 
 @pytest.fixture

@@ -8,10 +8,9 @@ import threading
 
 import pytest
 import zenoh
-from graph import Graph, wait_for
+from graph import wait_for
 from mrlab_msgs.msg import Robot, Robots
 from mrlab_msgs.srv import SetLoop, Trigger
-from own_domain import own_domain
 from own_port import free_endpoint
 from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import JointState
@@ -67,16 +66,6 @@ def router():
     config.insert_json5("scouting/multicast/enabled", "false")
     with zenoh.open(config):
         yield endpoint
-
-
-@pytest.fixture
-def other_graph(monkeypatch):
-    """Make a graph on another domain, as another lab has."""
-    with own_domain() as domain:
-        monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
-        graph = Graph()
-        yield graph
-        graph.close()
 
 
 def test_a_client_that_is_stopped_costs_another_no_message(graph, bridge, session, endpoint):

@@ -79,6 +79,12 @@ HAS_KEY = Code(
     "Take that one back first.",
 )
 HAS_NO_KEY = Code("has_no_key", "{name} has no key in {folder}[; {known:list} have one].")
+NO_HUB_FILE = Code(
+    "no_hub_file",
+    "{path} does not say how to connect to a campus's router: {why:problem}.",
+    "Expected the file labs/NAME.json5 that was made for this lab there.",
+    page=False,
+)
 ROUTER_TAKES_CERTIFICATES = Code(
     "router_takes_certificates",
     "The people of {folder} log in by {login}, and a router takes certificates only.",

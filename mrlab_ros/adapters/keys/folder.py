@@ -4,6 +4,7 @@
     server.pem, server.key  the lab's certificate
     lab.pem, lab.key        with which the lab connects to a router of its own, where it has one
     router.json5            all that this router needs: to be handed over
+    labs/NAME.json5         with which the router of the lab NAME connects to this one
     gateway.json5           all that the web gateway's zenoh needs to connect
     people.json             names, roles and certificates of who may connect
     passwords.txt           name:password, where people log in with passwords
@@ -17,7 +18,7 @@ from __future__ import annotations
 import fcntl
 import os
 import secrets
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from datetime import datetime, timedelta, timezone
 from pathlib import Path
@@ -26,6 +27,7 @@ from typing import Any
 from mrlab_ros.adapters.keys import certificates, people, zenoh_settings
 from mrlab_ros.adapters.keys.certificates import Signed
 from mrlab_ros.adapters.keys.diagnostics import (
+    BAD_KEY_NAME,
     FOLDER_NOT_EMPTY,
     HAS_NO_KEY,
     NEW_KEYS_NEEDED,
@@ -42,11 +44,11 @@ from mrlab_ros.adapters.keys.people import (
     read_passwords,
     write_passwords,
 )
-from mrlab_ros.adapters.keys.zenoh_settings import LOCAL
+from mrlab_ros.adapters.keys.zenoh_settings import LOCAL, SERVER, Hub
 from mrlab_ros.core.base.diagnostic import Fix
 from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.base.foreign_text import for_shell
-from mrlab_ros.core.bridge.access import Login, Person
+from mrlab_ros.core.bridge.access import Login, Person, access_control, bounds
 from mrlab_ros.core.bridge.rules import Role, Rules
 
 AUTHORITY_LIFETIME = timedelta(days=5 * 365)
@@ -82,7 +84,7 @@ class Keys:
         mark = secrets.token_hex(3)
         authority = certificates.authority(f"MR-Lab authority {mark}", now, AUTHORITY_LIFETIME)
         all_hosts = list(dict.fromkeys([*hosts, *LOCAL]))
-        server = certificates.server(authority, "MR-Lab", all_hosts, now, SERVER_LIFETIME)
+        server = certificates.server(authority, SERVER, all_hosts, now, SERVER_LIFETIME)
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
         folder.chmod(0o700)
         (folder / "clients").mkdir(mode=0o700)
@@ -198,7 +200,7 @@ class Keys:
         with self._alone():
             all_hosts = list(dict.fromkeys([*hosts, *self.hosts]))
             authority = self._authority(now)
-            server = certificates.server(authority, "MR-Lab", all_hosts, now, SERVER_LIFETIME)
+            server = certificates.server(authority, SERVER, all_hosts, now, SERVER_LIFETIME)
             people.write(self.folder / "server.pem", server.certificate_pem)
             people.write(self.folder / "server.key", server.key_pem)
             self._people.hosts = all_hosts
@@ -245,13 +247,22 @@ class Keys:
         )
 
     def router(
-        self, rules: Rules, prefix: str, limits: Mapping[str, object], now: datetime
+        self,
+        rules: Rules,
+        prefix: str,
+        limits: Mapping[str, object],
+        now: datetime,
+        *,
+        labs: Sequence[str] = (),
+        hub: Hub | None = None,
     ) -> Path:
         """Write what a router between the lab and its people needs; return the file.
 
         It listens with the lab's certificate and knows who may do what. limits: further settings,
-        path -> value. Raises Misuse where people log in with passwords, which zenoh reads from a
-        file of its own.
+        path -> value. labs: of the labs whose routers connect to this one; each has keys below the
+        prefix and its name, and gets the file `lab_file`, which stays as it is where there is one.
+        hub: such a router that this one connects to. Raises Misuse where people log in with
+        passwords, which zenoh reads from a file of its own.
         """
         if self.login.by_password:
             fixes = (Fix(command="mrlab keys init --login certificate"),)
@@ -259,6 +270,8 @@ class Keys:
             raise Misuse(ROUTER_TAKES_CERTIFICATES(folder=folder, login=login, fixes=fixes))
         with self._alone():
             self.check(now)
+            if labs:
+                return self._campus(rules, prefix, limits, labs, now)
             lab = f"lab.{secrets.token_hex(4)}"
             if (self.folder / "lab.pem").exists():
                 # A lab that runs is known by this name.
@@ -268,11 +281,57 @@ class Keys:
             made = certificates.client(self._authority(now), lab, now, SERVER_LIFETIME)
             people.write(self.folder / "lab.pem", made.certificate_pem)
             people.write(self.folder / "lab.key", made.key_pem)
-            document = zenoh_settings.router_document(
-                self.folder, self._people, rules, prefix, limits, lab, now
-            )
-            people.write(self.folder / "router.json5", document.encode())
+            people_here = [*self._people.at(now), *([hub.person] if hub else [])]
+            self._write_router(rules, prefix, people_here, {lab: prefix}, limits, hub)
+        return self.router_file
+
+    @property
+    def router_file(self) -> Path:
+        """All that a router needs, for this lab or, of a campus, for all labs."""
         return self.folder / "router.json5"
+
+    def lab_file(self, name: str) -> Path:
+        """The file with which the router of a lab connects to this one."""
+        return self.folder / "labs" / f"{name}.json5"
+
+    def _campus(
+        self,
+        rules: Rules,
+        prefix: str,
+        limits: Mapping[str, object],
+        labs: Sequence[str],
+        now: datetime,
+    ) -> Path:
+        known = self._people.labs
+        self._people.labs = {}
+        (self.folder / "labs").mkdir(mode=0o700, exist_ok=True)
+        for name in dict.fromkeys(labs):
+            if not people.NAME.fullmatch(name):
+                raise BadInput(BAD_KEY_NAME(name=name, reserved=[NOBODY, GATEWAY]))
+            entry = known.get(name)
+            if entry is None or entry.expires <= now or not self.lab_file(name).exists():
+                entry = self._sign(name, list(Role)[-1], now, SERVER_LIFETIME, self.lab_file(name))
+            self._people.labs[name] = entry
+        self._people.write(self._people_file)
+        below = f"{prefix}/" if prefix else ""
+        found = {e.person.common_name: below + name for name, e in self._people.labs.items()}
+        self._write_router(rules, f"{below}*", self._people.at(now), found, limits, None)
+        return self.router_file
+
+    def _write_router(
+        self,
+        rules: Rules,
+        prefix: str,
+        persons: list[Person],
+        labs: Mapping[str, str],
+        limits: Mapping[str, object],
+        hub: Hub | None,
+    ) -> None:
+        access = access_control(rules, persons, self.login, prefix, labs)
+        document = zenoh_settings.router_document(
+            self.folder, {"access_control": access, **bounds(rules, prefix), **limits}, hub
+        )
+        people.write(self.router_file, document.encode())
 
     def lab_settings(self, now: datetime) -> dict[str, Any]:
         """Return zenoh's settings, path -> value, of a lab that connects to its router."""

@@ -101,13 +101,14 @@ class Entry:
 class People:
     """How people log in, at which hosts they reach the lab, and each person by name.
 
-    gateway: the lab's web gateway, None where it has no key.
+    gateway: the lab's web gateway, None where it has no key. labs: by name, of a campus's router.
     """
 
     login: Login
     hosts: list[str]
     by_name: dict[str, Entry] = field(default_factory=dict)
     gateway: Entry | None = None
+    labs: dict[str, Entry] = field(default_factory=dict)
 
     @classmethod
     def read(cls, path: Path) -> People:
@@ -119,6 +120,7 @@ class People:
                 [str(host) for host in document["hosts"]],
                 {record["name"]: Entry.from_record(record) for record in document["people"]},
                 Entry.from_record(document["gateway"]) if document.get("gateway") else None,
+                {each["name"]: Entry.from_record(each) for each in document.get("labs", [])},
             )
         except FileNotFoundError as error:
             folder = str(path.parent)
@@ -138,6 +140,7 @@ class People:
             "hosts": self.hosts,
             "people": [entry.record() for entry in self.entries],
             "gateway": self.gateway.record() if self.gateway else None,
+            "labs": [entry.record() for entry in self.labs.values()],
         }
         write(path, json.dumps(document, indent=2).encode())
 

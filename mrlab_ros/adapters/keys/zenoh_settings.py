@@ -8,24 +8,33 @@ from __future__ import annotations
 import base64
 import json
 from collections.abc import Mapping
+from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 from typing import Any
 
 from mrlab_ros.adapters.keys.certificates import Signed
+from mrlab_ros.adapters.keys.diagnostics import NO_HUB_FILE
 from mrlab_ros.adapters.keys.people import Entry, People
-from mrlab_ros.core.bridge.access import LINKS, access_control, bounds
+from mrlab_ros.core.base.diagnostic import of_text
+from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.bridge.access import LINKS, Person, access_control
 from mrlab_ros.core.bridge.links import (
     EVERYWHERE,
     LEASE_BEYOND,
     LOCAL_PROTOCOL,
     PORT,
     healing,
+    is_local,
     nested,
 )
-from mrlab_ros.core.bridge.rules import Rules
+from mrlab_ros.core.bridge.rules import Role, Rules
 
 LOCAL = ("localhost", "127.0.0.1")
+# The name in the certificate of every lab's server.
+SERVER = "MR-Lab"
+# Whom the router of a campus is for that of a lab; a person's name cannot contain a space.
+HUB = "the campus"
 
 
 def listening_settings(
@@ -68,36 +77,70 @@ def connecting_settings(folder: Path) -> dict[str, Any]:
     return {f"transport/link/tls/{name}": value for name, value in tls.items()}
 
 
-def router_document(
-    folder: Path,
-    people: People,
-    rules: Rules,
-    prefix: str,
-    limits: Mapping[str, object],
-    lab: str,
-    now: datetime,
-) -> str:
-    """Return the configuration of a router between the lab, of common name `lab`, and people.
+@dataclass(frozen=True)
+class Hub:
+    """A campus's router that a lab's router connects to, from the file that the campus made.
 
-    limits: further settings. It needs no other file.
+    endpoints: where it is. authority: its certificate, PEM. certificate, key: with which the lab's
+    router connects, base64 of PEM. role: what people there may do in this lab.
     """
+
+    endpoints: list[str]
+    authority: bytes
+    certificate: str
+    key: str
+    role: Role
+
+    @classmethod
+    def read(cls, file: Path, role: Role) -> Hub:
+        """Read labs/NAME.json5 of a campus's keys folder; raise BadInput for another file."""
+        try:
+            text = file.read_text()
+            said = json.loads("\n".join(x for x in text.splitlines() if not x.startswith("//")))
+            tls = said["transport"]["link"]["tls"]
+            endpoints = [str(each) for each in said["connect"]["endpoints"]]
+            return cls(
+                # Not those of the campus's own machine, where there are others.
+                [e for e in endpoints if not is_local(e)] or endpoints,
+                base64.b64decode(tls["root_ca_certificate_base64"], validate=True),
+                str(tls["connect_certificate_base64"]),
+                str(tls["connect_private_key_base64"]),
+                role,
+            )
+        except (OSError, ValueError, KeyError, TypeError) as error:
+            why = of_text(f"{type(error).__name__}: {error}")
+            raise BadInput(NO_HUB_FILE(path=str(file), why=why)) from error
+
+    @property
+    def person(self) -> Person:
+        """Whom a lab's router takes it for, by the name that every server's certificate has."""
+        return Person(HUB, self.role, SERVER)
+
+
+def router_document(folder: Path, further: Mapping[str, object], hub: Hub | None) -> str:
+    """Return the configuration of a router, which needs no other file.
+
+    further: settings, path -> value, such as who may do what. hub: another router it connects to.
+    """
+    authority = (folder / "ca.pem").read_bytes()
     tls = {
-        "root_ca_certificate_base64": "ca.pem",
-        "listen_certificate_base64": "server.pem",
-        "listen_private_key_base64": "server.key",
+        "listen_certificate_base64": _base64((folder / "server.pem").read_bytes()),
+        "listen_private_key_base64": _base64((folder / "server.key").read_bytes()),
+        "enable_mtls": True,
+        "close_link_on_expiration": True,
     }
-    settings: dict[str, Any] = {
-        "mode": "router",
-        "listen/endpoints": list(EVERYWHERE),
-        "transport/link/tls": {
-            **{k: _base64((folder / v).read_bytes()) for k, v in tls.items()},
-            "enable_mtls": True,
-            "close_link_on_expiration": True,
-        },
-        "access_control": access_control(rules, people.at(now), people.login, prefix, lab),
-        **bounds(rules, prefix),
-    }
-    return json.dumps(nested({**settings, **limits, **healing(LEASE_BEYOND)}), indent=2)
+    settings: dict[str, Any] = {"mode": "router", "listen/endpoints": list(EVERYWHERE)}
+    if hub is not None:
+        authority += hub.authority
+        tls["connect_certificate_base64"] = hub.certificate
+        tls["connect_private_key_base64"] = hub.key
+        tls["verify_name_on_connect"] = True
+        settings["connect/endpoints"] = hub.endpoints
+    tls["root_ca_certificate_base64"] = _base64(authority)
+    settings["transport/link/tls"] = tls
+    # Where the other router is not there yet, it is tried for ever.
+    settings["connect/exit_on_failure"] = False
+    return json.dumps(nested({**settings, **further, **healing(LEASE_BEYOND)}), indent=2)
 
 
 def client_document(

@@ -33,7 +33,11 @@ LIMITS = (
     "transport/link/rx/max_message_size",
 )
 # zenoh's log targets for TLS and for subjects unknown to access control, and for passwords.
-LOGINS = "error,zenoh_link_tls=debug,zenoh::net::routing::interceptor::access_control=info"
+# Without the certificates that each retry to a router reads anew.
+LOGINS = (
+    "error,zenoh_link_tls=debug,zenoh_link_tls::utils=warn,"
+    "zenoh::net::routing::interceptor::access_control=info"
+)
 PASSWORDS = "zenoh_transport::unicast::establishment::accept=debug"
 
 

@@ -22,7 +22,7 @@ from mrlab_ros.commands.up.surroundings import (
 )
 from mrlab_ros.commands.up.web import checked_web, prepare_keys
 from mrlab_ros.processes import physics_support
-from mrlab_ros.processes.lab import parameter_file, robot_models
+from mrlab_ros.processes.lab import parameter_file, parts_of_lab, robot_models
 from mrlab_ros.processes.options import LabOptions, new_lab_id
 from mrlab_ros.processes.run_file import RunFile
 from mrlab_ros.processes.zygote import Zygote
@@ -85,6 +85,14 @@ def up(
             "s3://bucket/lab; not given: in the folder for state."
         ),
     ] = "",
+    only: Annotated[
+        str,
+        typer.Option(
+            metavar="NAME,NAME",
+            help="Run these processes alone, such as playback,physics: another machine runs the "
+            "others of the same lab.",
+        ),
+    ] = "",
     sim_time: Annotated[
         bool,
         typer.Option(
@@ -145,6 +153,8 @@ def up(
     stay_on_this_machine()
     # Imports take longest: they begin before the checks.
     with Zygote() as zygote:
+        parts = parts_of_lab(only)
+        bridge = bridge and (not parts or "bridge" in parts)
         models = robot_models(robots)
         listen = None
         if bridge and zenoh_connect:
@@ -174,7 +184,7 @@ def up(
         run_file = RunFile(domain)
         with folder_for_state(state_dir) as folder, stop_signals() as stop:
             options = LabOptions(
-                lab_id=new_lab_id(),
+                lab_id="" if parts else new_lab_id(),
                 config=parameter_file(config),
                 state_dir=folder,
                 robots=models,
@@ -189,6 +199,7 @@ def up(
                 socket=run_file.socket if bridge and not asks_for_passwords(keys) else "",
                 web=pages,
                 sim_time=sim_time,
+                only=parts,
             )
             LabRun(options, listen, no_physics, stop, zygote).keep(run_file, domain)
 

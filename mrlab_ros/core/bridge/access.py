@@ -8,7 +8,7 @@ names is denied. Flows are seen from the bridge: ingress is what clients send.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from typing import Any
@@ -74,14 +74,16 @@ def access_control(
     people: Iterable[Person],
     login: Login,
     prefix: str = "",
-    lab: str = "",
+    labs: Mapping[str, str] | None = None,
     *,
     local: bool = False,
 ) -> dict[str, Any]:
     """Return zenoh's `access_control` for a lab that forwards what `rules` name below `prefix`.
 
-    lab: for a router, the common name of the certificate with which the lab itself connects.
-    local: who connects through a Unix socket, which the system guards, may do everything.
+    prefix: of what people may do; in the router of several labs a part of it is `*`. labs: for a
+    router, the common name of the certificate with which each lab connects, and the prefix below
+    which that lab may do everything. local: who connects through a Unix socket, which the system
+    guards, may do everything.
     """
     people = list(people)
     subjects, policies = [], []
@@ -99,16 +101,21 @@ def access_control(
             ids = [entry["id"] for entry in entries]
             policies.append({"id": role.value, "rules": ids, "subjects": names})
     found = [entry for entries in permitted.values() for entry in entries]
-    if lab:
-        found.append(_lab_rule(prefix))
-        subjects.append(
-            {"id": LAB, "link_protocols": list(LINKS), "cert_common_names": [lab]},
+    trusted: list[tuple[str, str, dict[str, Any]]] = [
+        (
+            LAB if below == prefix else f"{LAB} {below}",
+            below,
+            {"link_protocols": list(LINKS), "cert_common_names": [cn]},
         )
-        policies.append({"id": LAB, "rules": [_lab_rule(prefix)["id"]], "subjects": [LAB]})
+        for cn, below in (labs or {}).items()
+    ]
     if local:
-        found.append(_lab_rule(prefix))
-        subjects.append({"id": HERE, "link_protocols": [LOCAL_PROTOCOL]})
-        policies.append({"id": HERE, "rules": [_lab_rule(prefix)["id"]], "subjects": [HERE]})
+        trusted.append((HERE, prefix, {"link_protocols": [LOCAL_PROTOCOL]}))
+    for subject_id, below, proof in trusted:
+        rule = _lab_rule(below)
+        found.append(rule)
+        subjects.append({"id": subject_id, **proof})
+        policies.append({"id": subject_id, "rules": [rule["id"]], "subjects": [subject_id]})
     return {
         "enabled": True,
         "default_permission": "deny",
@@ -214,7 +221,7 @@ def _asset_keys(prefix: str) -> list[str]:
 def _lab_rule(prefix: str) -> dict[str, Any]:
     """Return the rule that allows the lab everything below its prefix at a router."""
     return {
-        "id": "lab_does_everything",
+        "id": f"everything_below_{prefix}",
         "permission": "allow",
         "flows": ["ingress", "egress"],
         "messages": list(MESSAGES),

@@ -114,6 +114,10 @@ keys renew --dir keys
 keys revoke carla
 keys router --prefix campus/lab_1
 keys router --dir keys
+keys init --dir campus --host campus.example.org
+keys add hall --role display --dir campus
+keys router --dir campus --prefix campus --lab north --lab south
+keys router --prefix campus/north --hub campus/labs/north.json5 --hub-role operator
 keys gateway
 keys config
 users add teacher --role instructor
@@ -269,6 +273,7 @@ ELSEWHERE = {
     "up --no-bridge": "test/system/test_physics_commands.py",
     "up --no-frames": "test/support/labs/launched_lab.py",
     "up --no-web": "test/support/labs/launched_lab.py",
+    "up --only": "needs two machines; test/unit/processes/test_lab.py has what each runs",
     "up --oidc": "test/system/test_gateway.py",
     "up --physics": "test/system/test_named_commands.py",
     "up --robots": "test/system/test_named_commands.py",

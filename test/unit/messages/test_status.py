@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import time
 from dataclasses import replace
 
+import pytest
 from diagnostic_msgs.msg import DiagnosticStatus
 from mrlab_msgs.msg import LabProcess
 
@@ -65,3 +67,11 @@ def test_processes_come_back_as_they_were_without_their_ids():
     back = processes_from_message(message)
     assert back[0] == replace(dead, pid=None)
     assert (back[1].down, back[1].nodes) == (0.0, ())
+
+
+def test_a_death_on_another_machine_is_told_by_the_wall_clock():
+    died = ProcessState("playback", Phase.WAITING.value, 7, 2, time.time() - 2.0, "", -9, (),
+                        time.time() - 2.0, 77)  # fmt: skip
+    # A lab on several machines has no id.
+    (here,) = processes_from_message(processes_to_message(0, [died], ""))
+    assert time.monotonic_ns() - here.down_steady_ns == pytest.approx(2e9, abs=0.5e9)

@@ -31,13 +31,14 @@ from mrlab_ros.core.bridge.diagnostics import BAD_ENDPOINT, OPEN_ENDPOINT, TLS_N
 from mrlab_ros.gateway.__main__ import settings_of
 from mrlab_ros.processes import physics_support
 from mrlab_ros.processes.child_process import WRONG_CONFIGURATION
-from mrlab_ros.processes.diagnostics import NO_PARAMETER_FILE, NO_PHYSICS
+from mrlab_ros.processes.diagnostics import NO_PARAMETER_FILE, NO_PHYSICS, NO_SUCH_PROCESS
 from mrlab_ros.processes.lab import (
     NODES,
     PROCESSES,
     lab_nodes,
     lab_processes,
     parameter_file,
+    parts_of_lab,
     robot_models,
 )
 from mrlab_ros.processes.options import LabOptions, WebOptions
@@ -105,6 +106,18 @@ def test_physics_frames_and_bridge_can_be_left_out() -> None:
     less = lab_processes(options(physics=False, frames=False, bridge=False))
     assert [process.name for process in less] == ["lab", "playback", "recorder"]
     assert NODES["physics"] not in lab_nodes(options(physics=False))
+
+
+def test_a_lab_is_divided_among_machines() -> None:
+    whole = lab_processes(options(web=WEB))
+    there = lab_processes(options(only=parts_of_lab("playback, physics"), web=WEB))
+    here = lab_processes(options(only=parts_of_lab("lab,recorder,frames,bridge"), web=WEB))
+    assert [process.name for process in there] == ["playback", "physics"]
+    # The pages are where the bridge is.
+    assert {p.name for p in whole} == {p.name for p in (*there, *here)}
+    assert len(whole) == len(there) + len(here)
+    with refused(NO_SUCH_PROCESS, BadInput, name="web"):
+        parts_of_lab("playback,web")
 
 
 def test_robots_are_parameters_of_the_lab_node_and_win_over_the_file() -> None:

@@ -22,6 +22,7 @@ from typer.testing import CliRunner
 
 from mrlab_ros.adapters.keys import certificates
 from mrlab_ros.adapters.keys.diagnostics import (
+    BAD_KEY_NAME,
     CERTIFICATE_EARLY,
     FOLDER_NOT_EMPTY,
     HAS_KEY,
@@ -30,6 +31,7 @@ from mrlab_ros.adapters.keys.diagnostics import (
     NEW_KEYS_NEEDED,
     NO_CERTIFICATE,
     NO_HOST,
+    NO_HUB_FILE,
     NO_KEY_FILE,
     NO_KEYS,
     NO_PRIVATE_KEY,
@@ -44,6 +46,7 @@ from mrlab_ros.adapters.keys.folder import (
     Keys,
 )
 from mrlab_ros.adapters.keys.people import GATEWAY, NOBODY, read_passwords
+from mrlab_ros.adapters.keys.zenoh_settings import Hub
 from mrlab_ros.cli import make_app
 from mrlab_ros.commands.diagnostics import BRIDGE_PORT_TAKEN, KEYS_OR_INSECURE, ROUTER_WITHOUT_KEYS
 from mrlab_ros.commands.up import keys as up_keys
@@ -572,3 +575,37 @@ def test_keys_are_not_read_while_a_command_changes_them(tmp_path):
     up_keys.follow_keys(keys.folder, seen, Turns(steps()), say, restarts.append)
     assert restarts == ["bridge", "web"]
     assert len(said) == 1
+
+
+def test_a_campus_locks_out_the_lab_that_it_names_no_more(tmp_path):
+    keys = Keys.create(tmp_path / "keys", ["campus.example.org"], Login.CERTIFICATE, NOW)
+
+    def known(*labs):
+        document = json.loads(keys.router(RULES, "campus", {}, NOW, labs=labs).read_text())
+        subjects = document["access_control"]["subjects"]
+        return {s["id"]: s["cert_common_names"] for s in subjects if s["id"] != "gateway"}
+
+    first = known("north", "south")
+    assert set(first) == {"the lab campus/north", "the lab campus/south"}
+    file = keys.lab_file("north").read_text()
+    assert known("north") == {"the lab campus/north": first["the lab campus/north"]}
+    assert keys.lab_file("north").read_text() == file
+    again = known("north", "south")
+    assert again["the lab campus/south"] != first["the lab campus/south"]
+    with refused(BAD_KEY_NAME, BadInput):
+        known("../north")
+
+
+def test_a_lab_s_router_takes_the_campus_for_a_person_of_one_role(tmp_path):
+    campus = Keys.create(tmp_path / "campus", ["campus.example.org"], Login.CERTIFICATE, NOW)
+    campus.router(RULES, "campus", {}, NOW, labs=["north"])
+    keys = Keys.create(tmp_path / "keys", [], Login.CERTIFICATE, NOW)
+    hub = Hub.read(campus.lab_file("north"), Role.STUDENT)
+    document = json.loads(keys.router(RULES, "campus/north", {}, NOW, hub=hub).read_text())
+    # Not the address of the campus's machine for itself.
+    assert document["connect"]["endpoints"] == ["tls/campus.example.org:7447"]
+    policies = {p["id"]: p["subjects"] for p in document["access_control"]["policies"]}
+    assert policies["student"] == ["the campus"]
+    for wrong in (keys.folder / "router.json5", keys.folder / "ca.pem", tmp_path):
+        with refused(NO_HUB_FILE, BadInput):
+            Hub.read(wrong, Role.DISPLAY)

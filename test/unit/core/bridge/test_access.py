@@ -155,6 +155,25 @@ def test_this_machine_s_user_does_everything_through_the_socket_and_nobody_else(
     assert all(subject["id"] not in names for names in everybody)
 
 
+def test_a_campus_s_router_keeps_each_lab_to_its_own_keys_and_shows_people_all():
+    labs = {"north.1": "campus/north", "south.2": "campus/south"}
+    found = access_control(SHIPPED, [BEN], Login.CERTIFICATE, "campus/*", labs)
+    rules = {rule["id"]: rule for rule in found["rules"]}
+    subjects = {s["cert_common_names"][0]: s["id"] for s in found["subjects"]}
+
+    def may(common_name, message, flow, key):
+        policy = next(p for p in found["policies"] if subjects[common_name] in p["subjects"])
+        return permits([rules[each] for each in policy["rules"]], message, flow, key)
+
+    for name, prefix in labs.items():
+        for other in labs.values():
+            key = f"{other}/ur5e_1/joint_states"
+            assert may(name, "put", "ingress", key) == (other == prefix)
+            assert may(name, "query", "egress", f"{other}/ur5e_1/play") == (other == prefix)
+            assert may("ben.2", "put", "egress", key)
+            assert not may("ben.2", "put", "ingress", key)
+
+
 def test_everybody_has_the_rules_of_one_role():
     found = access_control(SHIPPED, [ANNA, BEN], Login.CERTIFICATE)
     assert found["enabled"] is True
@@ -168,7 +187,7 @@ def test_everybody_has_the_rules_of_one_role():
     assert set(policies["display"]["rules"]) <= set(known)
 
 
-@pytest.mark.parametrize("file", sorted((ROOT / "config" / "zenoh").glob("*.json5")), ids=str)
+@pytest.mark.parametrize("file", sorted((ROOT / "config" / "zenoh").rglob("*.json5")), ids=str)
 def test_zenoh_reads_the_shipped_files(file):
     zenoh.Config.from_file(str(file))
 
