@@ -1,7 +1,8 @@
 """A run of a class for the desk of the gateway, in a process of its own.
 
 It takes the folder of the class and one of PROPOSE, HOLD, FINAL and BACK, and prints JSON lines:
-how many submissions are done of how many, and at the end that it is done, or the problem.
+how many submissions are done of how many, and at the end that it is done, or the problem. What
+only a run needs is imported by it: the desk imports this module for its names.
 """
 
 from __future__ import annotations
@@ -17,7 +18,6 @@ from mrlab_ros.adapters import share
 from mrlab_ros.app.check.file import scene_of
 from mrlab_ros.classroom.folder import BEFORE, HELD, PROPOSED, SOURCES, WORKSHEET
 from mrlab_ros.classroom.mark import read_rubric
-from mrlab_ros.classroom.run import Request, form_of, marked, of_rubric
 from mrlab_ros.classroom.setup import Bounds, Setup
 from mrlab_ros.core.base.diagnostic import Diagnostic, Severity, plain
 from mrlab_ros.core.base.errors import LabError
@@ -33,6 +33,8 @@ def work(folder: Path, how: str, form: str) -> list[Diagnostic]:
     PROPOSE writes no page and changes no mark that holds; HOLD and FINAL let the marks hold, BACK
     those of the run before.
     """
+    from mrlab_ros.classroom.run import Request, form_of, marked
+
     sources = folder / {FINAL: HELD, BACK: BEFORE}.get(how, SOURCES)
     proposes = how == PROPOSE
     setup = setup_of(sources, pages=not proposes)
@@ -66,6 +68,8 @@ def work(folder: Path, how: str, form: str) -> list[Diagnostic]:
 
 def setup_of(sources: Path, *, pages: bool) -> Setup:
     """Return how a class is checked by the rubric among its sources. Raises LabError."""
+    from mrlab_ros.classroom.run import of_rubric
+
     rubric = read_rubric(sources / RUBRIC, beside=True)
     scene = scene_of(rubric.scene, share.directory())
     return of_rubric(rubric, scene, Options(), Bounds(), pages=pages)

@@ -45,10 +45,12 @@ def check(
     hand: joints that the trajectory does not prescribe. Raises BadInput where the text is not a
     URDF, or a number or an attribute is not as expected.
     """
+    from mrlab_ros.adapters.robots.mesh_copies import look
+
     root = urdf.parse(text, origin)
     found = check_root(root, origin, hand)
     files, missing = find_meshes(root, resolve)
-    looks = {uri: mesh_files.look(path) for uri, path in files.items()}
+    looks = {uri: look(path) for uri, path in files.items()}
     return (*found, *missing, *check_sizes(root, looks))
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mrlab_ros.adapters.robots import checks, drawing, mesh_files, urdf
+from mrlab_ros.adapters.robots import checks, drawing, mesh_copies, urdf
 from mrlab_ros.adapters.robots.diagnostics import (
     ANOTHER_SHAPE,
     MESHES_NEED,
@@ -73,7 +73,7 @@ def use_meshes(
     shutil.rmtree(aside, ignore_errors=True)
     (aside / "meshes").mkdir(parents=True)
     files, missing = checks.find_meshes(meshed, find)
-    looks = mesh_files.take(meshed, files, find.folders, aside / "meshes", "vendor_")
+    looks = mesh_copies.take(meshed, files, find.folders, aside / "meshes", "vendor_")
     found = (
         *_frames(ours, theirs, shared, robot_id, source.name),
         *missing,
@@ -82,7 +82,7 @@ def use_meshes(
     if checks.errors(found):
         shutil.rmtree(aside)
         return found
-    mesh_files.name_copies(meshed, looks, f"{MESH_PREFIX}{robot_id}/meshes")
+    mesh_copies.name_copies(meshed, looks, f"{MESH_PREFIX}{robot_id}/meshes")
     for link in ours.iterfind("link"):
         other = shared.get(str(link.get("name")))
         for tag in taken:

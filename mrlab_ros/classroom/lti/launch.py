@@ -14,12 +14,8 @@ import secrets
 from base64 import urlsafe_b64decode
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 from urllib.parse import urlencode
-
-import httpx
-from joserfc import jwk, jwt
-from joserfc.errors import JoseError
 
 from mrlab_ros.classroom.lti.diagnostics import (
     COURSE_SILENT,
@@ -43,6 +39,9 @@ from mrlab_ros.gateway.people.oidc import (
     NotConfirmed,
 )
 from mrlab_ros.gateway.people.sign_ins import Database, digest
+
+if TYPE_CHECKING:
+    from joserfc import jwk
 
 CLAIM = "https://purl.imsglobal.org/spec/lti/claim/"
 MEMBERS = "https://purl.imsglobal.org/spec/lti-nrps/claim/namesroleservice"
@@ -139,6 +138,9 @@ class Launches:
         return hmac.new(self._database.secret, said, hashlib.sha256).hexdigest()
 
     async def _claims(self, token: str, nonce: str, now: float) -> dict[str, Any]:
+        from joserfc import jwt
+        from joserfc.errors import JoseError
+
         own = self.platform
         try:
             head = token.partition(".")[0]
@@ -170,6 +172,10 @@ class Launches:
             return known
         if known is not None and now - self._asked < KEYS_PERIOD_S:
             return known
+        import httpx
+        from joserfc import jwk
+        from joserfc.errors import JoseError
+
         self._asked = now
         try:
             async with httpx.AsyncClient(timeout=TIMEOUT_S) as client:

@@ -6,9 +6,8 @@ import json
 import re
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 from urllib.parse import urlsplit
-
-from joserfc import jwk
 
 from mrlab_ros.adapters.whole_file import replaced
 from mrlab_ros.adapters.yaml_files import read_yaml
@@ -18,6 +17,9 @@ from mrlab_ros.core.base.checks import enum_values as one_of
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.records import field, read
 from mrlab_ros.core.bridge.rules import Role
+
+if TYPE_CHECKING:
+    from joserfc import jwk
 
 ADDRESS = Text(re.compile(r"https?://\S+"), "an https:// address of the platform")
 SOME = Texts(FILLED_TEXT, single=True)
@@ -58,6 +60,8 @@ def own_key(path: Path) -> jwk.RSAKey:
 
     Raises BadInput.
     """
+    from joserfc import jwk
+
     try:
         if not path.exists():
             key = jwk.RSAKey.generate_key(BITS, {"use": "sig", "alg": ALGORITHM}, auto_kid=True)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import secrets
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 from urllib.parse import parse_qsl, urlsplit
 
 import orjson
@@ -30,7 +30,6 @@ from mrlab_ros.classroom.lti.diagnostics import (
 from mrlab_ros.classroom.lti.hand_ins import HandIns
 from mrlab_ros.classroom.lti.launch import CLAIM, LINKING, Launch, Launches
 from mrlab_ros.classroom.lti.platform import own_key, read_platform
-from mrlab_ros.classroom.lti.services import Score, Services, signed
 from mrlab_ros.classroom.marks import gradebook
 from mrlab_ros.classroom.marks.exports import COURSE_FORM
 from mrlab_ros.classroom.marks.result import TO_REPEAT
@@ -46,6 +45,9 @@ from mrlab_ros.gateway.people.oidc_routes import back_to_sign_in
 from mrlab_ros.gateway.people.people import People, ThePeople, address_of
 from mrlab_ros.gateway.people.person import CurrentPerson, Limit, RateLimit
 from mrlab_ros.gateway.people.routes import base_url
+
+if TYPE_CHECKING:  # it imports an HTTP client, which a gateway without a platform does not need
+    from mrlab_ros.classroom.lti.services import Score, Services
 
 PATH = "/api/lti"
 MOST_FORM = 256 << 10  # bytes
@@ -76,6 +78,8 @@ def lti_of(request: Request) -> Lti:
     if (found := getattr(app.state, "lti", None)) is not None:
         assert isinstance(found, Lti)
         return found
+    from mrlab_ros.classroom.lti.services import Services
+
     people: People = app.state.people
     platform = read_platform(settings.lti)
     desk: Desk = desk_of(request)
@@ -216,6 +220,8 @@ LINKING_PAGE = """<!doctype html>
 
 def _linking(request: Request, people: People, lti: Lti, found: Launch) -> Response:
     """Return the page on which a teacher adds the task of this class to the course."""
+    from mrlab_ros.classroom.lti.services import signed
+
     platform = lti.launches.platform
     action = str(found.linking.get("deep_link_return_url", ""))
     if not found.teacher or not platform.owns(action):
@@ -411,6 +417,8 @@ async def send_marks(lti: TheLti, desk: TheDesk) -> Sent:
 
 def _released(desk: Desk) -> tuple[str, list[Score]]:
     """Return the name of the task and all marks that were released. Raises BadInput."""
+    from mrlab_ros.classroom.lti.services import Score
+
     if not desk.journal.state().released:
         raise BadInput(NOT_RELEASED())
     document = desk.graded.document()

@@ -1,4 +1,7 @@
-"""Sign-in by an OpenID Connect provider, such as a university's: code flow with PKCE."""
+"""Sign-in by an OpenID Connect provider, such as a university's: code flow with PKCE.
+
+What speaks with a provider is imported by the first sign-in: most labs have none.
+"""
 
 from __future__ import annotations
 
@@ -11,18 +14,7 @@ import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
-
-import httpx
-from joserfc import jwk, jwt
-from joserfc.errors import JoseError
-
-with warnings.catch_warnings():
-    # It asks for the successor of httpx, at each start of a gateway. This module of it has its
-    # warnings shown, so it must not be imported after the next line.
-    importlib.import_module("authlib.deprecate")
-    warnings.simplefilter("ignore")
-    from authlib.integrations.httpx_client import AsyncOAuth2Client, OAuthError
+from typing import TYPE_CHECKING, Any
 
 from mrlab_ros.adapters.yaml_files import read_yaml
 from mrlab_ros.core.base.checks import TEXT, Text
@@ -41,6 +33,10 @@ from mrlab_ros.gateway.people.diagnostics import (
     SIGN_IN_NOT_BEGUN,
     SIGN_INS_FULL,
 )
+
+if TYPE_CHECKING:
+    import httpx
+    from authlib.integrations.httpx_client import AsyncOAuth2Client
 
 SCOPE = "openid profile email"
 # Asymmetric ones only: with HS256 a public key would be a password.
@@ -147,6 +143,11 @@ class Oidc:
         pending = self._pending.pop(state, None)
         if pending is None or pending.expires <= self._steady():
             raise NotBegun(SIGN_IN_NOT_BEGUN())
+        import httpx
+        from authlib.integrations.base_client import OAuthError
+        from joserfc import jwk, jwt
+        from joserfc.errors import JoseError
+
         metadata = await self._discover()
         try:
             async with self._client(pending.redirect) as client:
@@ -196,6 +197,8 @@ class Oidc:
     async def _discover(self) -> dict[str, Any]:
         """Return what the provider says of itself, asked once."""
         if self._metadata is None:
+            import httpx
+
             url = f"{self.provider.issuer.rstrip('/')}/.well-known/openid-configuration"
             try:
                 async with httpx.AsyncClient(
@@ -215,6 +218,13 @@ class Oidc:
         return self._metadata
 
     def _client(self, redirect: str) -> AsyncOAuth2Client:
+        with warnings.catch_warnings():
+            # It asks for the successor of httpx. This module of it has its warnings shown, so it
+            # must not be imported after the next line.
+            importlib.import_module("authlib.deprecate")
+            warnings.simplefilter("ignore")
+            from authlib.integrations.httpx_client import AsyncOAuth2Client
+
         return AsyncOAuth2Client(
             client_id=self.provider.client_id,
             client_secret=self.provider.client_secret or None,

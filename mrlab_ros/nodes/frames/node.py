@@ -18,7 +18,7 @@ from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
 from mrlab_ros.adapters.robots import urdf
-from mrlab_ros.adapters.robots.exporting import together
+from mrlab_ros.adapters.robots.publishing import together
 from mrlab_ros.core.base.clock import SECOND, STEP_NS
 from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.base.geometry import Array, Pose

@@ -15,8 +15,8 @@ from rclpy.publisher import Publisher
 from std_msgs.msg import String
 
 from mrlab_ros.adapters import journal_file, share
-from mrlab_ros.adapters.robots.exporting import published
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.robots.publishing import published
 from mrlab_ros.adapters.scenes.files import SCENE_FILE, SceneFiles, StateFile
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.errors import BadInput, LabError

@@ -12,7 +12,6 @@ from diagnostic_msgs.msg import DiagnosticArray
 from mrlab_msgs import msg, srv
 from mrlab_msgs.srv import ListBags, SetLoop, Trigger
 
-from mrlab_ros.adapters.bags.other import open_bag
 from mrlab_ros.adapters.bags.reader import default_folder
 from mrlab_ros.adapters.bags.writer import BagWriter
 from mrlab_ros.adapters.journal_file import Journal
@@ -176,6 +175,8 @@ class RecorderNode(
         on_end: Callable[[Diagnostic | None], None],
     ) -> Replaying:
         """Open a bag: app.recorder.Streams."""
+        from mrlab_ros.adapters.bags.other import open_bag  # 4 MB that a recording does not need
+
         bag = open_bag(path, definition)
         timeline = ReplayTimeline(bag.duration, rate, start, loop)
         return Replaying(self, self._streams, bag, timeline, on_end, lab=self.parameters.lab_id)

@@ -7,6 +7,7 @@ import importlib.util
 import io
 import json
 import os
+import subprocess
 import sys
 import types
 from collections.abc import Callable
@@ -543,3 +544,19 @@ def test_a_file_given_as_the_state_folder_is_refused(tmp_path):
     (tmp_path / "f").write_text("")
     with refused(FOLDER_UNUSABLE, BadInput), folder_for_state(tmp_path / "f"):
         pass
+
+
+def test_processes_at_rest_have_imported_no_reader_of_meshes_files_or_pages() -> None:
+    """Each of these takes megabytes in every process, and what imports it is needed seldom."""
+    program = (
+        "import importlib, sys\n"
+        "from mrlab_ros.processes.lab import NODES\n"
+        "for entry in NODES.values(): importlib.import_module(entry.module)\n"
+        "import mrlab_ros.gateway.app\n"
+        "names = ('trimesh', 'scipy', 'PIL', 'matplotlib', 'h5py', 'httpx', 'rosbags.rosbag2')\n"
+        "print([name for name in names if name in sys.modules])"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    )
+    assert done.stdout.splitlines()[-1] == "[]"

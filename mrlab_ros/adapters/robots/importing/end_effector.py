@@ -12,7 +12,7 @@ import numpy as np
 import trimesh
 import yaml
 
-from mrlab_ros.adapters.robots import checks, mesh_files, urdf
+from mrlab_ros.adapters.robots import checks, mesh_copies, urdf
 from mrlab_ros.adapters.robots.drawing import Assembly
 from mrlab_ros.adapters.robots.end_effectors import DESCRIPTION, END_EFFECTORS, FACTS, TCP
 from mrlab_ros.adapters.robots.importing.arm_and_hand import (
@@ -83,11 +83,11 @@ def import_end_effector(
     place = library.imported / END_EFFECTORS / tool_id
     with new_folder(place, FACTS) as folder:
         files, missing = checks.find_meshes(root, find)
-        taken = mesh_files.take(root, files, find.folders, folder / "meshes")
+        taken = mesh_copies.take(root, files, find.folders, folder / "meshes")
         found = (*missing, *checks.check_sizes(root, taken))
         if checks.errors(found):
             return ImportedTool(found)
-        mesh_files.name_copies(root, taken, f"{MESH_PREFIX}{END_EFFECTORS}/{tool_id}/meshes")
+        mesh_copies.name_copies(root, taken, f"{MESH_PREFIX}{END_EFFECTORS}/{tool_id}/meshes")
 
         def resolve(uri: str) -> Path:
             return folder / "meshes" / Path(uri).name

@@ -17,7 +17,7 @@ import trimesh
 import yaml
 
 from mrlab_ros.adapters.diagnostics import FILE_UNREADABLE
-from mrlab_ros.adapters.robots import checks, mesh_files, urdf
+from mrlab_ros.adapters.robots import checks, mesh_copies, urdf
 from mrlab_ros.adapters.robots.drawing import Assembly
 from mrlab_ros.adapters.robots.importing.arm_and_hand import Finger, Groups, Split, fingers, split
 from mrlab_ros.adapters.robots.importing.diagnostics import (
@@ -112,7 +112,7 @@ def import_robot(
     hand = frozenset(joint.name for joint in parts.hand)
     with new_folder(library.imported / robot_id) as folder:
         files, missing = checks.find_meshes(root, find)
-        taken = mesh_files.take(root, files, find.folders, folder / "meshes")
+        taken = mesh_copies.take(root, files, find.folders, folder / "meshes")
         found = (
             *assumed,
             *checks.check_root(root, source.name, hand),
@@ -121,7 +121,7 @@ def import_robot(
         )
         if checks.errors(found):
             return Imported(found)
-        mesh_files.name_copies(root, taken, f"{MESH_PREFIX}{robot_id}/meshes")
+        mesh_copies.name_copies(root, taken, f"{MESH_PREFIX}{robot_id}/meshes")
         middles = centres(root, hand, lambda uri: folder / "meshes" / Path(uri).name)
         closing = fingers(parts.below, middles, source.name) if hand else ()
         turn_fingers(root, closing)

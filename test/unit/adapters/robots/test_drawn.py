@@ -18,8 +18,8 @@ from generated_meshes import SURFACE, TRIANGLES
 
 from mrlab_ros.adapters.assets.files import AssetFiles
 from mrlab_ros.adapters.robots import library
-from mrlab_ros.adapters.robots.exporting import published
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.robots.publishing import published
 
 ROBOTS = Path(__file__).resolve().parents[4] / "robots"
 LIBRARY = RobotLibrary(ROBOTS, ROBOTS / "none")

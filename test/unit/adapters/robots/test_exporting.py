@@ -17,8 +17,8 @@ from refusals import refused
 
 from mrlab_ros.adapters.robots import urdf
 from mrlab_ros.adapters.robots.diagnostics import ROOT_LINKS
-from mrlab_ros.adapters.robots.exporting import published, together
 from mrlab_ros.adapters.robots.library import RobotLibrary
+from mrlab_ros.adapters.robots.publishing import published, together
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.base.geometry import Array, Pose, compose
 from mrlab_ros.core.robots.frames import LinkFrames, without_frames
