@@ -94,7 +94,7 @@ class CatalogueWriter(Catalogue):
         source: the open file that `npz_file.write` filled, or the key of a draft, whose head it
         is. A draft that was published before is published once.
         """
-        checked_id(name.name)
+        name = replace(name, name=checked_id(name.name))
         draft = source if isinstance(source, str) else ""
         if draft and (before := self._published_before(name, draft)) is not None:
             return before, before.newest

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import unicodedata
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -21,6 +20,7 @@ from mrlab_ros.classroom.marks.diagnostics import (
 from mrlab_ros.classroom.rubrics.late import instant
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.core.base.foreign_text import visible
+from mrlab_ros.core.base.names import without_accents
 
 MOODLE = re.compile(
     r"(?P<name>.+)_(?P<id>\d+)_assignsubmission_(?P<kind>file|onlinetext|comments)(_(?P<file>.*))?",
@@ -40,9 +40,6 @@ METADATA = "submission_metadata.yml"
 ATTEMPT = re.compile(r"(?:-| ?\()(\d{1,2})\)?$")
 JUNK = re.compile(r"(^|/)(__MACOSX/|\._|\.DS_Store$|Thumbs\.db$|desktop\.ini$)", re.IGNORECASE)
 ARCHIVE = ".zip"
-GERMAN = str.maketrans(
-    {"ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss", "Ä": "Ae", "Ö": "Oe", "Ü": "Ue"}
-)
 MOST_KEY, MOST_NAME = 60, 200  # characters
 REFERENCE = "reference"  # the key of the solution, which no student has
 FOLDER, MOODLE_FORM, GRADESCOPE_FORM, CANVAS_FORM, ILIAS_FORM, COURSE_FORM = FORMS = (
@@ -197,8 +194,7 @@ def file_label(name: str) -> str:
 
 def slug(text: str) -> str:
     """Return a text as a file name that every system takes: a-z, 0-9 and -."""
-    plain = unicodedata.normalize("NFKD", unicodedata.normalize("NFC", text).translate(GERMAN))
-    ascii_only = plain.encode("ascii", "ignore").decode().lower()
+    ascii_only = without_accents(text).encode("ascii", "ignore").decode().lower()
     return re.sub(r"[^a-z0-9]+", "-", ascii_only).strip("-")[:MOST_KEY]
 
 

@@ -10,7 +10,6 @@ from __future__ import annotations
 import difflib
 import itertools
 import re
-import unicodedata
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -24,7 +23,6 @@ from mrlab_ros.classroom.marks.diagnostics import (
     UNKNOWN_MATCH,
 )
 from mrlab_ros.classroom.marks.exports import (
-    GERMAN,
     REFERENCE,
     Entry,
     LeftOut,
@@ -36,6 +34,7 @@ from mrlab_ros.classroom.marks.exports import (
 from mrlab_ros.classroom.marks.journal import ASSIGN, ENROL
 from mrlab_ros.core.base.diagnostic import Diagnostic, plain
 from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.names import without_accents
 
 FILE, STUDENT = "file", "student"
 SURE = 0.75  # of a name that has to stand there
@@ -276,9 +275,7 @@ def _decided(path: str, owners: Mapping[str, str], label: Callable[[str], str]) 
 
 
 def _words(text: str) -> list[str]:
-    text = unicodedata.normalize("NFKD", unicodedata.normalize("NFC", text).translate(GERMAN))
-    letters = "".join(c for c in text if not unicodedata.combining(c))
-    return re.findall(r"[^\W\d_]+|\d+", letters.casefold())
+    return re.findall(r"[^\W\d_]+|\d+", without_accents(text).casefold())
 
 
 def _name(text: str) -> tuple[str, ...]:

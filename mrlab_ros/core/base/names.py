@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import difflib
 import re
+import unicodedata
 from collections.abc import Iterable
 
 from mrlab_ros.core.base.diagnostics import BAD_NAME, NAME_TAKEN, RESERVED_NAME
 from mrlab_ros.core.base.errors import BadInput
 
 NAME = re.compile(r"[a-z][a-z0-9_]{0,62}")
+GERMAN = str.maketrans(
+    {"ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss", "Ä": "Ae", "Ö": "Oe", "Ü": "Ue"}
+)
 
 
 # Names below which the lab's own topics and services live.
@@ -59,6 +63,12 @@ def checked_name(name: str, taken: frozenset[str], what: str) -> str:
     if name in taken:
         raise BadInput(NAME_TAKEN(name=name))
     return name
+
+
+def without_accents(text: str) -> str:
+    """Return a text with umlauts as German writes them without, and no other accents."""
+    text = unicodedata.normalize("NFKD", unicodedata.normalize("NFC", text).translate(GERMAN))
+    return "".join(c for c in text if not unicodedata.combining(c))
 
 
 def close_to(name: str, known: Iterable[str]) -> str | None:

@@ -42,7 +42,7 @@ from mrlab_ros.core.conversion.picking import Chosen, pick, reshaped
 from mrlab_ros.core.conversion.workspace import Variable, Workspace
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory import derived_signals
-from mrlab_ros.core.trajectory.catalogue import checked_id
+from mrlab_ros.core.trajectory.catalogue import LONGEST_NAME, checked_id, spelled
 from mrlab_ros.core.trajectory.derived_signals import ProxyCoefficients
 from mrlab_ros.core.trajectory.trajectory import Array, Source, Trajectory
 
@@ -95,11 +95,10 @@ class ConversionResult:
 
 
 def id_from(file: str) -> str:
-    """Return a name for the catalogue from a file's name: its letters, digits, '.', '_', '-'."""
+    """Return a name for the catalogue from a file's name."""
     endings = r"(\.(mat|csv|txt|tsv|lvm|npz|npy|m|json|mcap|gz|zstd?|db3|cdr))+$"
     stem = re.sub(endings, "", file, flags=re.I)
-    cleaned = re.sub(r"[^A-Za-z0-9._-]+", "_", stem).strip("._-")[:128]
-    return cleaned or "trajectory"
+    return spelled(re.sub("[/@]+", "_", stem))[:LONGEST_NAME] or "trajectory"
 
 
 def convert(

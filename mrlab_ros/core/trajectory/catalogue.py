@@ -1,6 +1,7 @@
 """Records of the trajectory catalogue: names, versions, visibility.
 
 A name is `quintic` for the lab's trajectory, `anna/quintic` for anna's; `@3` selects a version.
+Where a person writes another character, as in `Übung 3`, every door takes `Uebung_3` for it.
 Every change makes a new record, so that it is stored before it takes effect.
 """
 
@@ -13,6 +14,7 @@ from functools import cached_property
 from typing import Any
 
 from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.names import without_accents
 from mrlab_ros.core.trajectory.diagnostics import (
     BAD_TRAJECTORY_ID,
     BAD_TRAJECTORY_NAME,
@@ -228,21 +230,30 @@ class TrajectoryName:
         return f"{self.id}@{self.version}" if self.version else self.id
 
 
+def spelled(name: str) -> str:
+    """Return a name as the catalogue spells it: Uebung_3 for `Übung 3`. It may still be none."""
+    if ID.fullmatch(name):
+        return name
+    return re.sub(r"[^A-Za-z0-9./@-]+", "_", without_accents(name)).strip("._-")
+
+
 def checked_id(name: str) -> str:
-    """Return a trajectory's name without its owner; raise BadInput where it cannot be one."""
-    if not ID.fullmatch(name):
+    """Return a trajectory's name without its owner, spelled(); raise BadInput where it is none."""
+    found = spelled(name)
+    if not ID.fullmatch(found):
         raise BadInput(BAD_TRAJECTORY_NAME(name=name, most=LONGEST_NAME))
-    return name
+    return found
 
 
 def parse(text: str) -> TrajectoryName:
     """Return what an id such as `quintic`, `anna/quintic` or `anna/quintic@3` names.
 
-    An owner may hold any characters, so the last slash ends it. Raises BadInput where the text
-    cannot be an id.
+    An owner may hold any characters, so the last slash ends it; the name is spelled(). Raises
+    BadInput where the text cannot be an id.
     """
     owner, slash, rest = text.rpartition("/")
     name, at, version = rest.partition("@")
+    name = spelled(name)
     if not ID.fullmatch(name) or (slash and not owner) or (at and not VERSION.fullmatch(version)):
         raise BadInput(BAD_TRAJECTORY_ID(id=text))
     return TrajectoryName(owner, name, int(version) if at else 0)

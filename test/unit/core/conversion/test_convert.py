@@ -509,7 +509,7 @@ def test_other_columns_are_refused(text):
         ("pick.mat", "pick"),
         ("pick.MAT.gz", "pick"),
         ("a b (2).mat", "a_b_2"),
-        ("größe.mat", "gr_e"),
+        ("Größe 3.mat", "Groesse_3"),
         (".mat", "trajectory"),
         ("../up.mat", "up"),
         ("x" * 300 + ".mat", "x" * 128),
@@ -519,7 +519,7 @@ def test_a_file_gives_the_name(file, name):
     assert id_from(file) == name
 
 
-@pytest.mark.parametrize("name", ["../x", "a/b", ".hidden", "x" * 129, "a b", "ü"])
+@pytest.mark.parametrize("name", ["../x", "a/b", "x" * 129, "漢", "ü@2"])
 def test_impossible_names_are_misuse_of_the_request(name):
     with pytest.raises(BadInput, match="cannot be used"):
         conversion_convert.convert(

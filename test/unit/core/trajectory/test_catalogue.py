@@ -65,17 +65,26 @@ def test_an_id_names_owner_name_and_version(text, owner, name, number):
     assert str(parsed) == text
 
 
-@pytest.mark.parametrize("text", ["", "/pick", "anna/", "pick@0", "pick@", "pick@x", "ä", ".x",
+@pytest.mark.parametrize("text", ["", "/pick", "anna/", "pick@0", "pick@", "pick@x", "漢", ".",
                                   "a@1@2", "pick@-1", "x" * 129])  # fmt: skip
 def test_what_is_no_id_is_named(text):
     with refused(BAD_TRAJECTORY_ID):
         parse(text)
 
 
-@pytest.mark.parametrize("name", ["", "a/b", "a@2", "-a", "x" * 129])
+@pytest.mark.parametrize("name", ["", "a/b", "a@2", "-", "x" * 129])
 def test_what_is_no_name_is_named(name):
     with refused(BAD_TRAJECTORY_NAME):
         checked_id(name)
+
+
+@pytest.mark.parametrize(("written", "name"), [
+    ("Übung 3", "Uebung_3"), ("U\u0308bung 3", "Uebung_3"), ("Größe (neu)", "Groesse_neu"),
+    ("café_1.v2", "cafe_1.v2"), (" a ", "a"),
+])  # fmt: skip
+def test_a_name_is_spelled_by_one_rule(written, name):
+    assert checked_id(written) == name
+    assert parse(f"Jürgen/{written}@2") == TrajectoryName("Jürgen", name, 2)
 
 
 def test_versions_are_counted_and_the_oldest_go():
