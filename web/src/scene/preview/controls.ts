@@ -22,6 +22,8 @@ const SIGNS = {
   warning: 'M12 3.500 21.500 20.500h-19z',
   info: 'M12 4a8 8 0 1 0 .01 0z',
 } as const
+/** To which a thumb goes while a motion plays: each is a layout of the page. */
+const PLACES = 1000
 const SVG = 'http://www.w3.org/2000/svg'
 
 /** Play, a timeline, the time and the speed, for a player. */
@@ -36,6 +38,7 @@ export class Controls {
   private readonly speed = document.createElement('select')
   private readonly stopListening: () => void
   private shownTenth = -1
+  private shownPlace = -1
   private scrubbing = false
 
   /** step: s, of the arrow keys on the timeline; rowAt: row of the file at a time. */
@@ -129,8 +132,12 @@ export class Controls {
 
   /** Show a time; the text changes ten times a second at most. */
   show(time: number): void {
-    if (!this.scrubbing) this.slider.value = String(time)
-    const tenth = this.player.playing ? Math.round(time * 10) : -2 - time
+    const { playing, duration } = this.player
+    const place = playing ? Math.round((time / duration) * PLACES) : -1
+    if (!this.scrubbing && (!playing || place !== this.shownPlace))
+      this.slider.value = String(time)
+    this.shownPlace = this.scrubbing ? -1 : place
+    const tenth = playing ? Math.round(time * 10) : -2 - time
     if (tenth === this.shownTenth) return
     this.shownTenth = tenth
     const text = fixed(time, 2)
@@ -145,6 +152,7 @@ export class Controls {
     this.button.title = playing ? this.words.pause : this.words.play
     this.speed.value = String(this.player.rate)
     this.slider.max = String(this.player.duration)
+    this.shownPlace = -1
   }
 
   dispose(): void {

@@ -19,7 +19,7 @@ import {
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js'
 import { Floor } from './floor'
 import { hallLight } from './hall'
-import { drawsInSoftware, matt, Pace, rendererOn } from './renderer'
+import { matt, Surface } from './renderer'
 import { ShadowFit } from './shadow_fit'
 import { onTheme, reducedMotion, type SceneTheme, themeNow } from './theme'
 
@@ -28,7 +28,8 @@ const MOST_PIXEL_RATIO = 2
 const LEAST_SHARPNESS = 0.4
 const SLOW = 0.045 // s, until a picture is drawn
 const FAST = 0.022
-const LONGEST_WAIT = 0.3 // s
+const LONGEST_WAIT = 1 // s
+const LOOK = 8 // ms, between looks whether a processor is done with a picture
 const STANDS = 0.4 // s without a new picture
 // From the front right and a little above, in ROS axes: as the pictures of the robots are taken.
 const VIEW = new Vector3(1.05, -1.0, 0.62).normalize()
@@ -55,8 +56,8 @@ export class Stage {
   /** Pictures drawn so far. */
   drawn = 0
   theme: SceneTheme
+  private readonly surface: Surface
   private readonly renderer: WebGLRenderer
-  private readonly pace: Pace
   private readonly controls: OrbitControls
   private readonly floor = new Floor()
   private readonly sun = new DirectionalLight(0xffffff, 2.3)
@@ -74,25 +75,28 @@ export class Stage {
   private request = 0
   private disposed = false
   private sharpness = 1
-  /** s, from asking for a picture to drawing it */
+  /** s, from asking for a picture to drawing it; of a processor, to seeing it */
   private latency = FAST
   private requested = 0
   private waiting: ReturnType<typeof setTimeout> | undefined
   private sharpening: ReturnType<typeof setTimeout> | undefined
+  private showing: ReturnType<typeof setTimeout> | undefined
+  /** Another picture is due after the one that a processor draws. */
+  private again = false
 
   /** Throws NoWebGL if the browser has none. label: of the picture, for screen readers. */
   constructor(
     private readonly container: HTMLElement,
     label: string,
   ) {
-    this.canvas = document.createElement('canvas')
+    this.surface = new Surface()
+    const { canvas, renderer, software } = this.surface
+    this.canvas = canvas
+    this.renderer = renderer
     this.canvas.className = 'scene-canvas'
     this.canvas.tabIndex = 0
     this.canvas.setAttribute('role', 'img')
     this.canvas.setAttribute('aria-label', label)
-    this.renderer = rendererOn(this.canvas)
-    this.pace = new Pace(this.renderer.getContext() as WebGL2RenderingContext)
-    const software = drawsInSoftware(this.renderer)
     if (software) this.sharpness = LEAST_SHARPNESS
     this.renderer.toneMapping = NeutralToneMapping
     this.renderer.toneMappingExposure = software ? 1.05 : 1
@@ -135,7 +139,8 @@ export class Stage {
 
   /** Ask for a new picture. */
   invalidate(): void {
-    if (this.request !== 0 || this.waiting !== undefined || this.disposed) return
+    this.again = this.showing !== undefined
+    if (this.again || this.request !== 0 || this.waiting !== undefined || this.disposed) return
     this.requested = performance.now() / 1000
     if (this.latency < SLOW) this.request = requestAnimationFrame(this.drawNext)
     // leave a machine that cannot keep up as much time for the rest of the page as for pictures
@@ -225,7 +230,7 @@ export class Stage {
     for (const listener of this.listeners) listener(performance.now() / 1000)
     this.shadow.apply()
     this.renderer.render(this.scene, this.camera)
-    return this.canvas.toDataURL()
+    return this.renderer.domElement.toDataURL()
   }
 
   dispose(): void {
@@ -233,13 +238,13 @@ export class Stage {
     cancelAnimationFrame(this.request)
     clearTimeout(this.sharpening)
     clearTimeout(this.waiting)
+    clearTimeout(this.showing)
     for (const undo of this.undo) undo()
     this.controls.dispose()
     this.floor.dispose()
     this.sun.shadow.dispose()
     this.scene.environment?.dispose()
-    this.renderer.dispose()
-    this.canvas.remove()
+    this.surface.dispose()
   }
 
   private readonly draw = (): void => {
@@ -250,13 +255,40 @@ export class Stage {
     for (const listener of this.listeners) more = listener(now) || more
     if (this.head === null) this.controls.update()
     else this.follow(this.head)
-    this.adapt(now)
+    if (!this.surface.software) this.adapt(now - this.requested)
+    this.setPixels(this.sharpness)
     if (this.scene.environment === null) this.scene.traverse(matt)
     this.shadow.apply()
-    this.renderer.render(this.scene, this.camera)
-    this.pace.ordered()
+    this.order(true)
     this.drawn++
     if (more) this.invalidate()
+  }
+
+  /** Have a picture drawn; a processor's is shown when it is done. moving: one that is not sharp is
+   * followed by one that is, when nothing moves any more. */
+  private order(moving: boolean): void {
+    clearTimeout(this.sharpening)
+    clearTimeout(this.showing)
+    this.surface.order(this.scene, this.camera)
+    if (this.surface.software) this.show(moving, performance.now() / 1000)
+    else if (moving) this.sharpenLater()
+  }
+
+  /** Show what a processor draws since `began`, s, once it is done. */
+  private show(moving: boolean, began: number): void {
+    this.showing = setTimeout(() => {
+      if (this.surface.draws) {
+        this.show(moving, began)
+        return
+      }
+      this.showing = undefined
+      this.surface.show()
+      if (moving) {
+        this.adapt(performance.now() / 1000 - began)
+        this.sharpenLater()
+      }
+      if (this.again) this.invalidate()
+    }, LOOK)
   }
 
   private follow(head: Object3D): void {
@@ -274,30 +306,27 @@ export class Stage {
 
   /** Draw once the machine is done with the picture before. */
   private readonly drawNext = (): void => {
-    if (this.pace.draws) this.request = requestAnimationFrame(this.drawNext)
+    if (this.surface.draws) this.request = requestAnimationFrame(this.drawNext)
     else this.draw()
   }
 
-  /** Choose how many pixels this picture gets, by how long the last ones were waited for. */
-  private adapt(now: number): void {
-    clearTimeout(this.sharpening)
-    this.latency += 0.2 * (Math.min(now - this.requested, 1) - this.latency)
-    if (this.latency > SLOW) this.setSharpness(Math.max(this.sharpness * 0.85, LEAST_SHARPNESS))
-    else if (this.latency < FAST) this.setSharpness(Math.min(this.sharpness * 1.05, 1))
-    if (this.sharpness < 1) this.sharpening = setTimeout(this.sharpen, STANDS * 1000)
+  /** Choose how many pixels a picture gets, by how long the last ones were waited for, s. */
+  private adapt(waited: number): void {
+    this.latency += 0.2 * (Math.min(waited, 1) - this.latency)
+    if (this.latency > SLOW) this.sharpness = Math.max(this.sharpness * 0.85, LEAST_SHARPNESS)
+    else if (this.latency < FAST) this.sharpness = Math.min(this.sharpness * 1.05, 1)
   }
 
-  private readonly sharpen = (): void => {
-    if (this.disposed || this.request !== 0 || this.waiting !== undefined) return
-    const moving = this.sharpness
-    this.setSharpness(1)
-    this.renderer.render(this.scene, this.camera)
-    this.pace.ordered()
-    this.sharpness = moving
+  private sharpenLater(): void {
+    if (this.sharpness === 1) return
+    this.sharpening = setTimeout(() => {
+      if (this.disposed || this.request !== 0 || this.waiting !== undefined) return
+      this.setPixels(1)
+      this.order(false)
+    }, STANDS * 1000)
   }
 
-  private setSharpness(sharpness: number): void {
-    this.sharpness = sharpness
+  private setPixels(sharpness: number): void {
     const ratio = Math.min(devicePixelRatio, MOST_PIXEL_RATIO) * sharpness
     if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio)
   }
@@ -374,7 +403,7 @@ export class Stage {
     const width = this.container.clientWidth
     const height = this.container.clientHeight
     if (width === 0 || height === 0 || this.disposed) return
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, MOST_PIXEL_RATIO) * this.sharpness)
+    this.setPixels(this.sharpness)
     this.renderer.setSize(width, height, false)
     this.camera.aspect = width / height
     this.camera.updateProjectionMatrix()
