@@ -62,12 +62,17 @@ function Match({ steps, one }: UnmatchedProps & { readonly one: One }) {
         </Button>
       )}
       {fixed ? null : choosing ? (
-        <Select
-          label={w.whoIsIt}
-          value={UNCHOSEN}
-          onChange={(who) => void match(steps, one, who === OWN ? one.what : who)}
-          options={choices(steps, one)}
-        />
+        <>
+          <Select
+            label={w.whoIsIt}
+            value={UNCHOSEN}
+            onChange={(who) => void match(steps, one, who === OWN ? one.what : who)}
+            options={choices(steps, one)}
+          />
+          <Button look="quiet" onClick={() => setChoosing(false)}>
+            {words.value.cancel}
+          </Button>
+        </>
       ) : (
         <Button onClick={() => setChoosing(true)}>{w.somebodyElse}</Button>
       )}

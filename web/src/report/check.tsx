@@ -222,7 +222,10 @@ export function CheckReport({
         sheet
         chip={
           <>
-            <OutcomeChip outcome={check.verdict === 'ready' ? 'accepted' : 'rejected'} />
+            <OutcomeChip
+              outcome={check.verdict === 'ready' ? 'accepted' : 'rejected'}
+              doubted={findings.some(({ severity }) => severity !== 'info')}
+            />
             <span class="second small">{session.title}</span>
           </>
         }

@@ -89,7 +89,10 @@ export function MotionReport({ motion, meshes, pictures }: MotionReportProps) {
         sheet
         chip={
           <>
-            <OutcomeChip outcome={OUTCOMES[motion.verdict]} />
+            <OutcomeChip
+              outcome={OUTCOMES[motion.verdict]}
+              doubted={findings.some(({ severity }) => severity !== 'info')}
+            />
             {points && <span class="second small">{motion.title}</span>}
           </>
         }

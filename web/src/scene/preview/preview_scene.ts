@@ -13,7 +13,7 @@ import { Label } from '../stage/labels'
 import type { Stage } from '../stage/stage'
 import type { SceneTheme } from '../stage/theme'
 import { JointArc } from './joint_arc'
-import { placeOf, ToolPath, type Track, trackOf } from './tool_path'
+import { placeOf, ToolPath, trackOf } from './tool_path'
 
 const LABEL = 0.019 // as a part of the distance to it
 const MARK = 0.024
@@ -41,6 +41,7 @@ export class PreviewScene {
   private readonly undo: (() => void)[] = []
   private readonly arc = new JointArc()
   private compared: Course | null = null
+  private comparedPath: ToolPath | null = null
   /** The first and the last pose are shown: of a refused motion they would hide what is wrong. */
   showsGhosts: boolean
   private chosen = 0
@@ -104,9 +105,9 @@ export class PreviewScene {
     this.setCompared(null)
     this.ready = Promise.all([this.robot, ...this.ghosts].map((one) => one.ready)).then(() => {
       this.patch.fit(this.robot.footprint())
-      this.fit(track)
+      this.fit()
     })
-    this.fit(track)
+    this.fit()
     this.show(0)
   }
 
@@ -127,7 +128,15 @@ export class PreviewScene {
   /** Show another motion of the same joints as a ghost; null: the first and the last pose. */
   setCompared(compared: Course | null): void {
     this.compared = compared
-    if (compared === null) {
+    this.comparedPath?.dispose()
+    this.comparedPath = null
+    const [first] = this.ghosts
+    if (compared !== null && first !== undefined) {
+      this.comparedPath = new ToolPath(trackOf(first, compared), null)
+      this.comparedPath.setTheme(this.stage.theme)
+      this.comparedPath.line.visible = this.path.line.visible
+      this.stage.world.add(this.comparedPath.line)
+    } else {
       for (const [i, ghost] of this.ghosts.entries()) {
         this.poseGhost(ghost, this.course, i === 0 ? 0 : this.course.duration)
       }
@@ -198,7 +207,7 @@ export class PreviewScene {
   }
 
   setPath(on: boolean): void {
-    this.path.line.visible = on
+    for (const path of [this.path, this.comparedPath]) if (path !== null) path.line.visible = on
     this.stage.invalidate()
   }
 
@@ -208,21 +217,29 @@ export class PreviewScene {
     for (const { label } of this.markers) label.dispose()
     for (const label of this.ends) label.dispose()
     this.path.dispose()
+    this.comparedPath?.dispose()
     this.arc.dispose()
     this.patch.release()
     this.looks.dispose()
   }
 
-  /** Fit the camera to the tool's path and to the robot in some poses. */
-  private fit(track: Track): void {
+  /** Fit the camera to the paths of the tool and to the robot in some poses. */
+  private fit(): void {
     const points = [new Vector3(-0.1, -0.1, 0), new Vector3(0.1, 0.1, 0)]
-    for (let i = 0; i < track.points.length; i += 3 * Math.ceil(track.points.length / 600)) {
-      points.push(new Vector3().fromArray(track.points, i))
-    }
-    for (let pose = 0; pose < POSES; pose++) {
-      this.course.sample((pose / (POSES - 1)) * this.course.duration, this.positions)
-      this.robot.setPositions(this.positions)
-      pushCorners(this.robot.root, this.stage.world, points)
+    const paths = [
+      [this.course, this.path],
+      [this.compared, this.comparedPath],
+    ] as const
+    for (const [course, path] of paths) {
+      if (course === null || path === null) continue
+      const along = path.track.points
+      for (let i = 0; i < along.length; i += 3 * Math.ceil(along.length / 600))
+        points.push(new Vector3().fromArray(along, i))
+      for (let pose = 0; pose < POSES; pose++) {
+        course.sample((pose / (POSES - 1)) * course.duration, this.positions)
+        this.robot.setPositions(this.positions)
+        pushCorners(this.robot.root, this.stage.world, points)
+      }
     }
     this.stage.frame(points)
     this.show(Math.max(this.time, 0))
@@ -266,6 +283,7 @@ export class PreviewScene {
   private setTheme(theme: SceneTheme): void {
     this.looks.setTheme(theme)
     this.path.setTheme(theme)
+    this.comparedPath?.setTheme(theme)
     this.arc.setTheme(theme)
     for (const label of this.ends) label.paint(theme.card, theme.second)
     for (const [i, { label, finding }] of this.markers.entries()) {

@@ -48,7 +48,8 @@ export function placeOf(robot: SceneRobot, positions: Float64Array, into: Vector
   return robot.root.worldToLocal(into)
 }
 
-/** The line of a track; `marked` says which frames are where a finding applies. */
+/** The line of a track; `marked` says which frames are where a finding applies, null that it is
+ * of a motion for comparison. */
 export class ToolPath {
   readonly line: Line2
   private readonly geometry = new LineGeometry()
@@ -61,8 +62,8 @@ export class ToolPath {
   private readonly colours: Float32Array
 
   constructor(
-    private readonly track: Track,
-    private readonly marked: (frame: number) => boolean,
+    readonly track: Track,
+    private readonly marked: ((frame: number) => boolean) | null,
   ) {
     this.geometry.setPositions(track.points as Float32Array<ArrayBuffer>)
     this.colours = new Float32Array(track.points.length)
@@ -71,10 +72,10 @@ export class ToolPath {
   }
 
   setTheme(theme: SceneTheme): void {
-    const plain = new Color(theme.accent)
+    const plain = new Color(this.marked === null ? theme.second : theme.accent)
     const wrong = new Color(theme.failing)
     for (let i = 0; i < this.track.frames.length; i++) {
-      const colour = this.marked(this.track.frames[i] as number) ? wrong : plain
+      const colour = this.marked?.(this.track.frames[i] as number) ? wrong : plain
       colour.toArray(this.colours, i * 3)
     }
     this.geometry.setColors(this.colours as Float32Array<ArrayBuffer>)
