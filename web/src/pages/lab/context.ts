@@ -5,7 +5,9 @@ import type { Lab } from '../../lab/commands'
 
 /** The link, the toasts and the rights that the parts of the lab page share. */
 interface LabContext extends Lab {
+  /** What the person may do now: to robots and scene nothing while a recording is replayed. */
   readonly may: Rights
+  readonly replays: boolean
 }
 
 const Context = createContext<LabContext | null>(null)

@@ -55,8 +55,6 @@ export function Lab({ link }: { link: Link }) {
   const present = useSignal<readonly Present[]>([])
   const seen = useSignal('')
   const pointing = useSignal(false)
-  const may = session.value?.may ?? NOTHING
-  const lab = useMemo(() => ({ link, may, say }), [link, may])
   const follower = useMemo(
     () =>
       new LabFollower(link, {
@@ -68,6 +66,13 @@ export function Lab({ link }: { link: Link }) {
       }),
     [link, api],
   )
+  const given = session.value?.may ?? NOTHING
+  const { replays } = follower
+  const may = useMemo(
+    () => (replays ? { ...given, commands: false, scene: false } : given),
+    [given, replays],
+  )
+  const lab = useMemo(() => ({ link, may, replays, say }), [link, may, replays])
   const catalogue = useMemo(() => new LabCatalogue(api), [api])
   useEffect(() => {
     void catalogue.load()
@@ -275,7 +280,9 @@ export function Lab({ link }: { link: Link }) {
           <aside class="lab-panel" aria-label={w.panel}>
             {!may.commands && session.value?.user && (
               <p class="lab-only-watch small">
-                {w.onlyWatch(words.value.roles[session.value.user.role])}
+                {replays
+                  ? w.replaying(follower.recorder.value?.bag ?? '')
+                  : w.onlyWatch(words.value.roles[session.value.user.role])}
               </p>
             )}
             {lost && follower.known.value && (

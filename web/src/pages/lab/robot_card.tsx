@@ -101,7 +101,7 @@ function Next({ view, system }: NextProps) {
 /** One robot: its state, the object that it holds, its timeline, and its motions. */
 export function RobotCard({ view, catalogue, system, idle }: RobotCardProps) {
   const lab = useLab()
-  const { may } = lab
+  const { may, replays } = lab
   const [choosing, setChoosing] = useState(false)
   const { robot, state, playback, holding, touching, player } = view
   const w = words.value.lab
@@ -154,7 +154,7 @@ export function RobotCard({ view, catalogue, system, idle }: RobotCardProps) {
           </p>
         )}
         {touching && !halted && <p class="lab-halt small">{touching}</p>}
-        <Next view={view} system={system} />
+        {!replays && <Next view={view} system={system} />}
         {holding && <p class="small">{w.holds(holding)}</p>}
         {halted && may.commands && (
           <Button onClick={() => trigger(lab, `${robot.name}/clear_halt`)}>{w.clearHalt}</Button>
