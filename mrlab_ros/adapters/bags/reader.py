@@ -7,6 +7,8 @@ Removes what a recorder left that was killed before it had written any message.
 
 from __future__ import annotations
 
+import contextlib
+import itertools
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -294,6 +296,22 @@ def bags_in(folder: Path, most: int = MOST) -> list[str]:
         except OSError:
             continue  # it was removed meanwhile, or is not ours to read
     return [name for _, name in sorted(found, reverse=True)[:most]]
+
+
+def list_in(folder: Path, bag: Path) -> None:
+    """Have a bag that lies elsewhere listed in a folder, by a link, where one can be made.
+
+    Links to bags that are gone are removed.
+    """
+    if bag.parent == folder:
+        return
+    with contextlib.suppress(OSError):
+        folder.mkdir(parents=True, exist_ok=True)
+        for link in folder.iterdir():
+            if link.is_symlink() and (not link.exists() or link.readlink() == bag):
+                link.unlink()
+        names = (f"{bag.name}_{n}" if n > 1 else bag.name for n in itertools.count(1))
+        (folder / next(n for n in names if not (folder / n).exists())).symlink_to(bag)
 
 
 def remove_empty(folder: Path) -> bool:

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
-from mrlab_ros.adapters.bags.reader import Bag, bags_in, remove_empty
+from mrlab_ros.adapters.bags.reader import Bag, bags_in, list_in, remove_empty
 from mrlab_ros.adapters.bags.writer import write_metadata
 from mrlab_ros.adapters.stop_orders import StopOrders
 from mrlab_ros.app.diagnostics import (
@@ -176,6 +176,7 @@ class Recorder:
         if time.monotonic() - self._made_at > RESTART_SHOWN_S:
             self.lost = []
         self._begin(recording, entry, None)
+        list_in(settings.folder, folder.absolute())
         said = RECORDS(folder=str(folder))
         self._log(said)
         return said

@@ -45,7 +45,7 @@ from mrlab_ros.adapters.bags.diagnostics import (
     REPAIR_RUNS,
 )
 from mrlab_ros.adapters.bags.other import open_bag
-from mrlab_ros.adapters.bags.reader import Bag, bags_in, remove_empty
+from mrlab_ros.adapters.bags.reader import Bag, bags_in, list_in, remove_empty
 from mrlab_ros.adapters.bags.repair import refresh_metadata, repair
 from mrlab_ros.adapters.bags.writer import (
     RESERVE_SIZE,
@@ -734,3 +734,10 @@ def test_bags_are_listed_newest_first_and_nothing_else_is(tmp_path):
     assert bags_in(tmp_path) == ["new", "middle", "old", "loose.mcap"]
     assert bags_in(tmp_path, most=2) == ["new", "middle"]
     assert bags_in(tmp_path / "gone") == []
+    # one that is recorded elsewhere is listed by a link, once, and no longer than it is there
+    elsewhere = tmp_path / "notes" / "old"
+    shutil.copytree(tmp_path / "old", elsewhere)
+    for _ in range(2):
+        list_in(tmp_path, elsewhere)
+    assert bags_in(tmp_path) == ["new", "middle", "old_2", "old", "loose.mcap"]
+    assert not (tmp_path / "away").is_symlink()
