@@ -192,8 +192,8 @@ NON_FINITE = Code(
     "'{variable}' holds {count:count value that is|values that are} NaN or Inf, in "
     "{rows:integer} of {of:count row|rows}, the first in row {first_row:integer}, column "
     "{column:integer}.",
-    "Find what made them with isfinite. Rows at an end can be left out; rows inside are filled "
-    "from their neighbours, as the motion would be shorter without them.",
+    "Find what made them with isfinite. Rows at an end and a few inside can be left out; more are "
+    "filled from their neighbours, as the motion would be shorter without them.",
     meaning="The matrix holds NaN or Inf.",
 )
 TRANSPOSED = Code(
@@ -309,7 +309,7 @@ UNIT_REACHES = Code(
 UNIT_MIXED = Code(
     "unit_mixed",
     "columns {columns} reach up to {largest:number}, as degrees do, but columns {others} move as "
-    "radians do",
+    "radians do, so no one unit is right for all",
     severity=INFO,
 )
 BAD_COLUMNS = Code(

@@ -47,6 +47,8 @@ from mrlab_ros.core.conversion.workspace import Variable, Workspace
 from mrlab_ros.core.robots.model import RobotModel
 from mrlab_ros.core.trajectory.trajectory import Array
 
+# a column that moves less does not move
+ROUNDING = 1e-9
 # Words of a heading under which 1 means open.
 OPENING = frozenset(
     ("open", "opened", "opening", "offen", "geoeffnet", "oeffnung", "ouvert", "ouverte",
@@ -109,7 +111,9 @@ def lay_out(chosen: Chosen, survey: Survey, options: Options, notes: list[Diagno
     column = chosen.gripper
     if column is None and values.shape[1] > joints and not chosen.without_gripper:
         column = values[:, joints]
-        if not (options.columns or options.gripper) and assessment.last_is_joint:
+        if np.ptp(column) < ROUNDING:
+            column = column.round(9) + 0.0  # no -0
+        elif not (options.columns or options.gripper) and assessment.last_is_joint:
             raise BadInput(_seven_axes(values, robot, path))
         if len(variable.columns) == values.shape[1] and not (
             options.columns or options.gripper or options.invert
@@ -182,14 +186,14 @@ def _seven_axes(values: NDArray[Any], robot: RobotModel, path: str) -> Diagnosti
     column, name = values[:, joints], matlab_name(path)
     found = grippers.meaning(column)
     switching = [c for c in range(joints) if _is_gripper(values[:, c])]
-    fixes: tuple[Fix, ...] = (Fix(matlab=f"plot({name}(:, {joints + 1}))"),)
+    alone = Fix("columns", f"1:{joints}", f"q = {name}(:, 1:{joints});")
+    fixes: tuple[Fix, ...] = (alone, Fix(matlab=f"plot({name}(:, {joints + 1}))"))
     if len(switching) == 1:
         place = switching[0]
         others = columns_text([c for c in range(joints + 1) if c != place])
         line = f"q = [{name}(:, {others}) {name}(:, {place + 1})];"
         fixes = (Fix("gripper", str(place + 1), line),)
     elif found:
-        alone = Fix(matlab=f"q = {name}(:, 1:{joints});")
         line = (
             f"q = [{name}(:, 1:{joints}) {name}(:, end) > {(column.min() + column.max()) / 2:g}];"
         )

@@ -77,20 +77,29 @@ def non_finite(values: NDArray[Any], variable: str) -> Diagnostic | None:
 def _without(rows: NDArray[Any], count: int, variable: str) -> tuple[Fix, ...]:
     """Return what mends rows, from 1, that are not finite.
 
-    A whole end is left out; rows inside are filled in MATLAB along a straight line between their
-    neighbours, so that the motion keeps its time.
+    Ends are left out, and rows inside where they are as few as those that stray. Rows inside are
+    filled in MATLAB along a straight line between their neighbours: the motion keeps its time.
     """
     name = variable if PLAIN.fullmatch(variable) else "q"
-    first, last = int(rows[0]), int(rows[-1])
-    if len(rows) == last - first + 1 and (first == 1 or last == count):
-        kept = (last + 1, count) if first == 1 else (1, first - 1)
-        if kept[1] > kept[0]:
-            line = f"{name} = {name}({kept[0]}:{kept[1]}, :);"
-            return (Fix("variable", rows_of(variable, *kept), line),)
     if count - len(rows) < 2:
         return (Fix(matlab=f"find(any(~isfinite({name}), 2)).'"),)
+    parts = np.split(rows - 1, np.flatnonzero(np.diff(rows) > 1) + 1)
+    runs = [(int(part[0]), int(part[-1])) for part in parts]
+    begin = runs[0][1] + 1 if runs[0][0] == 0 else 0
+    end = runs[-1][0] if runs[-1][1] == count - 1 else count
+    if end - begin == count - len(rows):
+        line = f"{name} = {name}({begin + 1}:{end}, :);"
+        return (Fix("variable", rows_of(variable, begin + 1, end), line),)
+    inside = [run for run in runs if begin <= run[0] < end]
+    few = sum(b - a + 1 for a, b in inside) <= max(MOST_STRAY, STRAY_SHARE * count)
+    out: tuple[Fix, ...] = ()
+    if few and all(b - a < MOST_STRAY for a, b in inside) and not variable.startswith("/"):
+        out = (Fix("variable", rows_but(variable, runs, count)),)
     filled = f"interp1(find(ok), {name}(ok, :), (1:size({name}, 1))')"
-    return (Fix(matlab=f"ok = all(isfinite({name}), 2); {name} = {filled};"),)
+    return (
+        *out,
+        Fix(matlab=f"ok = all(isfinite({name}), 2); {name} = {filled};"),
+    )
 
 
 def against_robot(

@@ -2879,7 +2879,7 @@ export const diagnostics: Templates = {
   ],
   non_finite: [
     "'{variable}' enthält {count:count Wert|Werte} NaN oder Inf, in {rows:integer} von {of:count Zeile|Zeilen}, den ersten in Zeile {first_row:integer}, Spalte {column:integer}.",
-    'Suche mit isfinite, woher sie kommen. Zeilen am Rand kannst du weglassen; Zeilen im Innern werden aus ihren Nachbarn gefüllt, denn ohne sie wäre die Bewegung kürzer.',
+    'Suche mit isfinite, woher sie kommen. Zeilen am Rand und wenige im Innern kannst du weglassen; mehr werden aus ihren Nachbarn gefüllt, denn ohne sie wäre die Bewegung kürzer.',
   ],
   none_named_so: ['Keine Datei heißt so: {pattern}.'],
   not_a_file: [
@@ -4044,7 +4044,7 @@ export const diagnostics: Templates = {
     'Was stimmt? Nenne die Einheit.',
   ],
   unit_mixed: [
-    'die Spalten {columns} reichen bis {largest:number} wie Grad, die Spalten {others} aber bewegen sich wie Radiant',
+    'die Spalten {columns} reichen bis {largest:number} wie Grad, die Spalten {others} aber bewegen sich wie Radiant; keine Einheit passt für alle',
   ],
   unit_named: ['ihr Name sagt Grad'],
   unit_reaches: [
