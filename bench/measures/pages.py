@@ -4,11 +4,13 @@ A launched lab with 13 robots that play; Chromium with the screen of a phone, a 
 times slower and a link of 1.6 Mbit/s and 150 ms. Pages are opened with an empty cache. The first
 paint has something of the page in it, the page's own begins with its heading. The answer to a
 press is what browsers call interaction to next paint, the slowest of them; its wait is that
-before the page's code got the press, its work that of the code.
+before the page's code got the press, its work that of the code. Held is the share of the time in
+which the page's thread stood still until a picture was drawn and read back.
 """
 
 from __future__ import annotations
 
+import json
 import tempfile
 import time
 from pathlib import Path
@@ -30,6 +32,7 @@ LINK = {
 PAGES = {"upload": "/", "trajectories": "/trajectories", "lab": "/lab", "people": "/people"}
 PAINT_MS, ANSWER_MS = 1000, 100
 DEADLINE_S = 60.0
+READ_BACK = "GLES2::ReadPixels"
 # Set in the page: when its heading came, and how long each press took.
 WATCH = """
 new MutationObserver((_, watching) => {
@@ -103,15 +106,21 @@ def answered(browser: Any, state: Any, url: str, robots: int, presses: int) -> d
     # All meshes are here.
     page.wait_for_load_state("networkidle")
     page.evaluate("window.answers.length = 0")
+    began = time.monotonic()
+    browser.start_tracing(page=page, categories=["-*", "gpu"])
     for _ in range(presses):
         page.get_by_role("button", name="Topics").tap()
         page.wait_for_timeout(300)
     page.wait_for_timeout(500)
+    events = json.loads(browser.stop_tracing())["traceEvents"]
+    lasted = time.monotonic() - began
+    held = sum(each.get("dur", 0) * 1e-6 for each in events if each["name"] == READ_BACK)
     answers = sorted(page.evaluate("window.answers")) or [[16.0, 0.0, 0.0]]
     page.context.close()
     slowest, wait, work = answers[-1]
     middle = answers[len(answers) // 2][0]
-    return {"p50 ms": middle, "slowest ms": slowest, "wait ms": wait, "work ms": work}
+    times = {"p50 ms": middle, "slowest ms": slowest, "wait ms": wait, "work ms": work}
+    return times | {"held %": 100 * held / lasted}
 
 
 def pages(size: Size) -> list[dict[str, Any]]:

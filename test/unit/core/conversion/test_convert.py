@@ -292,6 +292,15 @@ def test_columns_take_the_joints_of_a_wider_matrix():
     assert t.gripper is None
 
 
+def test_a_seventh_column_is_left_out_by_a_press_and_rounding_is_no_joint():
+    (alone, _) = convert(var("q", motion(joints=7))).diagnostics[0].fixes
+    assert (alone.option, alone.value) == ("columns", "1:6")
+    rounding = np.random.default_rng(1).normal(0, 1e-15, 300)
+    t = accepted(var("q", np.column_stack([motion(), rounding])))
+    assert t.gripper is not None
+    assert not t.gripper.any()
+
+
 def test_degrees_are_converted_when_declared_and_only_then():
     q = motion(reach=2.0)
     t = accepted(var("q", np.degrees(q)), degrees=True)

@@ -85,6 +85,14 @@ def test_the_first_value_that_is_not_finite_is_placed(value):
     found = motion_checks.non_finite(q, "q")
     assert found is not None
     assert (found.first_row, found.values["column"], found.values["count"]) == (4, 3, 2)
+    assert found.fixes[0].value == "q([1:3 5 7:10], :)"
+    q[:2] = q[9] = value
+    found = motion_checks.non_finite(q[[0, 1, 2, 4, 6, 7, 9]], "q")
+    assert found is not None
+    assert [fix.value for fix in found.fixes] == ["q(3:6, :)"]
+    found = motion_checks.non_finite(np.where(np.arange(40)[:, None] % 2, q[2], value), "q")
+    assert found is not None
+    assert [fix.option for fix in found.fixes] == [""]
 
 
 def test_huge_but_finite_values_are_finite():

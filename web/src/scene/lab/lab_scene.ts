@@ -67,6 +67,7 @@ export class LabScene {
   /** Take over which robots there are, and where; those without a URDF yet are left out. */
   setRobots(robots: readonly ShownRobot[]): void {
     let fresh = false
+    let changed = false
     for (const shown of robots) {
       if (shown.urdf === '') continue
       let entry = this.robots.get(shown.name)
@@ -78,13 +79,15 @@ export class LabScene {
         entry = this.add(shown)
         fresh = true
       }
-      place(entry.base, shown.pose)
+      changed = place(entry.base, shown.pose) || changed
     }
     for (const [name, entry] of this.robots) {
-      if (!robots.some((shown) => shown.name === name)) this.remove(name, entry)
+      if (robots.some((shown) => shown.name === name)) continue
+      this.remove(name, entry)
+      changed = true
     }
     if (fresh) this.frame()
-    this.stage.invalidate()
+    if (fresh || changed) this.stage.invalidate()
   }
 
   /** Return the joints of a robot in the order in which setJoints wants them. */
