@@ -101,24 +101,17 @@ def test_a_motion_is_drawn_and_moves(shown: Open) -> None:
     canvas = watched.page.locator("canvas")
     expect(canvas).to_be_visible(timeout=DEADLINE_MS)
     expect(watched.page.locator("html[data-ready]")).to_have_count(1, timeout=DEADLINE_MS)
-    first = pixels(canvas)
     # the robot is dark and blue on a light ground: a canvas that draws nothing is one colour
-    assert len(np.unique(first.reshape(-1, 3), axis=0)) > 200
+    eventually(watched.page, lambda: len(np.unique(pixels(canvas).reshape(-1, 3), axis=0)) > 200)
     slider = watched.page.get_by_role("slider")
-
-    def at(place: str, text: str) -> np.ndarray:
-        slider.fill(place)
-        expect(slider).to_have_attribute("aria-valuetext", text)
-        return pixels(canvas)
-
-    def moves_and_comes_back() -> bool:
-        begin = at("0", "0.00 s, row 1")
-        moved = at("1.6", "1.60 s, row 161")
-        back = at("0", "0.00 s, row 1")
-        return difference(begin, moved) > 0.01 and difference(begin, back) < 0.004
-
+    begin = pixels(canvas)
+    slider.fill("1.6")
+    expect(slider).to_have_attribute("aria-valuetext", "1.60 s, row 161")
+    eventually(watched.page, lambda: difference(begin, pixels(canvas)) > 0.01)
+    slider.fill("0")
+    expect(slider).to_have_attribute("aria-valuetext", "0.00 s, row 1")
     # a busy machine draws coarsely for a while
-    eventually(watched.page, moves_and_comes_back)
+    eventually(watched.page, lambda: difference(begin, pixels(canvas)) < 0.004)
     assert watched.errors == []
     assert watched.foreign() == []
 
@@ -139,10 +132,17 @@ def test_a_refused_file_stands_at_its_fault_with_the_link_painted(shown: Open) -
     expect(page.locator("html[data-ready]")).to_have_count(1, timeout=DEADLINE_MS)
     slider = page.get_by_role("slider")
     expect(slider).to_have_attribute("aria-valuetext", "2.00 s, row 201")
-    at_fault = red(pixels(page.locator("canvas")))
+    at_fault = 0
+
+    def painted() -> bool:
+        nonlocal at_fault
+        at_fault = red(pixels(page.locator("canvas")))
+        return at_fault > 200
+
+    eventually(page, painted)
     slider.fill("0")
     expect(slider).to_have_attribute("aria-valuetext", "0.00 s, row 1")
-    assert at_fault > red(pixels(page.locator("canvas"))) + 200
+    eventually(page, lambda: at_fault > red(pixels(page.locator("canvas"))) + 200)
     page.get_by_role("button", name="rows 201 to 240").click()
     expect(slider).to_have_attribute("aria-valuetext", "2.00 s, row 201")
     assert page.locator(".plot .mark").count() == 1
@@ -151,6 +151,12 @@ def test_a_refused_file_stands_at_its_fault_with_the_link_painted(shown: Open) -
     expect(watched.page.get_by_alt_text("at row 201")).to_have_count(1)
     sheets = re.findall(rb"/Type\s*/Page\b", watched.page.pdf(prefer_css_page_size=True))
     assert len(sheets) == 1
+
+
+def green(picture: np.ndarray) -> int:
+    """Return how many pixels are clearly green."""
+    r, g, b = picture[..., 0], picture[..., 1], picture[..., 2]
+    return int(((g > r + 60) & (g > b + 60)).sum())
 
 
 def red(picture: np.ndarray) -> int:
@@ -251,14 +257,13 @@ def test_a_session_is_drawn_and_its_events_lead_there(shown: Open) -> None:
     watched = shown(recorded())
     expect(watched.page.locator("html[data-ready]")).to_have_count(1, timeout=DEADLINE_MS)
     canvas = watched.page.locator("canvas")
+    eventually(watched.page, lambda: green(pixels(canvas)) > 200)
     first = pixels(canvas)
-    green = (first[..., 1] > first[..., 0] + 60) & (first[..., 1] > first[..., 2] + 60)
-    assert green.sum() > 200
     events = watched.page.get_by_role("region", name="Events")
     events.get_by_role("button", name="hit table").click()
     slider = watched.page.get_by_role("slider")
     expect(slider).to_have_attribute("aria-valuetext", "3.00 s, row 301")
-    assert difference(first, pixels(canvas)) > 0.01
+    eventually(watched.page, lambda: difference(first, pixels(canvas)) > 0.01)
     row = watched.page.get_by_role("table").first.get_by_role("row", name="wave")
     expect(row).to_contain_text("halted by a collision")
     row.get_by_role("button", name="go to its beginning").click()

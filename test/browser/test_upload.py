@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import student_files
-from browser_side import difference
+from browser_side import difference, eventually
 from page_objects import UploadPage
 from playwright.sync_api import Page, expect
 
@@ -27,7 +27,7 @@ def test_a_good_file_moves_after_two_clicks_and_is_published(
     expect(page.locator(".scene-clock")).not_to_contain_text("0.00 /")
     expect(page.get_by_role("button", name="Play")).to_be_visible()
     page.get_by_label("Time").fill("1")
-    assert difference(first, upload.picture()) > 0.01
+    eventually(page, lambda: difference(first, upload.picture()) > 0.01)
     upload.publish("wave")
     # a phone cannot open 127.0.0.1: the address that it can open is asked for once
     page.get_by_label("Address at which others reach").fill("https://lab.example:8765")
@@ -84,7 +84,7 @@ def test_a_refused_file_is_shown_with_the_failing_frame(drawn_page: Page, tmp_pa
     page.get_by_role("button", name="Next finding").click()
     expect(page.locator(".scene-clock")).to_contain_text("0.90")
     expect(finding.get_by_role("button", name="rows 91 to 111")).to_be_visible()
-    assert difference(first, upload.picture()) > 0.01
+    eventually(page, lambda: difference(first, upload.picture()) > 0.01)
     page.get_by_role("button", name="Show all 6 joints").click()
     expect(upload.strips).to_have_count(6)
 
