@@ -138,9 +138,10 @@ def _process(state: ProcessState) -> msg.LabProcess:
 
 def _down_here(one: msg.LabProcess, elsewhere: bool) -> int:
     """Return when a process ended or froze last, ns of this machine's steady clock; 0: never."""
-    if not (elsewhere and one.down_steady_ns):
+    down_ns = time_from_message(one.down)
+    if not (elsewhere and down_ns):
         return int(one.down_steady_ns)
-    return time_from_message(one.down) - time.time_ns() + time.monotonic_ns()
+    return down_ns - time.time_ns() + time.monotonic_ns()
 
 
 def processes_from_message(message: msg.LabProcesses) -> list[ProcessState]:
