@@ -104,12 +104,15 @@ def processes(context):
         if keys is not None:
             prepare_keys(keys)
     physics, _ = physics_support.wanted(given("physics"))
+    if path("state_dir"):
+        folder = private_folder.make(path("state_dir"))
+        private_folder.hold(folder)  # until this process ends
+    else:
+        folder = Path(tempfile.mkdtemp(prefix="mrlab-"))
     options = LabOptions(
         lab_id="" if parts else new_lab_id(),
         config=parameter_file(path("config")),
-        state_dir=private_folder.make(path("state_dir"))
-        if path("state_dir")
-        else Path(tempfile.mkdtemp(prefix="mrlab-")),
+        state_dir=folder,
         robots=robot_models(value("robots")),
         store=checked_store(value("store")),
         physics=physics,

@@ -76,6 +76,13 @@ COMPRESSED_CUT_SHORT = Code("compressed_cut_short", "its end is missing")
 COMPRESSED_DAMAGED = Code("compressed_damaged", "what is compressed is damaged: {problem}")
 
 # folders
+FOLDER_HELD = Code(
+    "folder_held",
+    "Another lab keeps its state in {path}[ (process {pid})].",
+    "Stop that one, or name another folder: each lab needs its own.",
+    meaning="Two labs in one folder would overwrite each other's scene and trajectories.",
+    page=False,
+)
 FOLDER_OF_ANOTHER = Code(
     "folder_of_another", "{path} belongs to another user; expected a folder of yours."
 )

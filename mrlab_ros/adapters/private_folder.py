@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import fcntl
 import os
 import stat
+from contextlib import suppress
 from pathlib import Path
 
 from mrlab_ros.adapters.diagnostics import (
+    FOLDER_HELD,
     FOLDER_OF_ANOTHER,
     FOLDER_UNUSABLE,
     NOT_A_FOLDER,
@@ -14,9 +17,10 @@ from mrlab_ros.adapters.diagnostics import (
     OTHERS_WRITE,
 )
 from mrlab_ros.core.base.diagnostic import Diagnostic
-from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput, Misuse
 
 MODE = 0o700
+LOCK = ".lock"
 
 
 def make(path: Path) -> Path:
@@ -35,6 +39,28 @@ def make(path: Path) -> Path:
     except OSError as error:
         raise BadInput(FOLDER_UNUSABLE(path=str(path), problem=error.strerror)) from None
     return folder
+
+
+def hold(folder: Path) -> int | None:
+    """Take a folder for this process; raise Misuse where another process has it.
+
+    Returns the descriptor of a lock, which the kernel releases with the process at the latest;
+    None: nothing can be written there, so nobody has it.
+    """
+    try:
+        lock = os.open(folder / LOCK, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_CLOEXEC, 0o600)
+    except OSError:
+        return None
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        pid = os.read(lock, 20).decode("ascii", "ignore")
+        os.close(lock)
+        raise Misuse(FOLDER_HELD(path=str(folder), pid=pid)) from None
+    with suppress(OSError):  # a full disk: only the number of the process is missing then
+        os.truncate(lock, 0)
+        os.write(lock, str(os.getpid()).encode())
+    return lock
 
 
 def why_not(path: Path) -> Diagnostic | None:

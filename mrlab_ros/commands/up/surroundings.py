@@ -40,9 +40,17 @@ def stay_on_this_machine() -> None:
 
 @contextmanager
 def folder_for_state(chosen: Path | None) -> Iterator[Path]:
-    """Make the folder for scene and trajectories; a temporary one goes with the lab."""
+    """Make the folder for scene and trajectories, for one lab at a time; a temporary one goes
+    with the lab. Raises BadInput where it cannot be made, Misuse where another lab has it.
+    """
     if chosen is not None:
-        yield private_folder.make(chosen)
+        folder = private_folder.make(chosen)
+        lock = private_folder.hold(folder)
+        try:
+            yield folder
+        finally:
+            if lock is not None:
+                os.close(lock)
         return
     with tempfile.TemporaryDirectory(prefix="mrlab-", ignore_cleanup_errors=True) as made:
         yield Path(made)

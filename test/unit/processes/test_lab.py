@@ -18,7 +18,7 @@ import mrlab_msgs.msg
 import pytest
 from refusals import refused
 
-from mrlab_ros.adapters.diagnostics import FOLDER_UNUSABLE
+from mrlab_ros.adapters.diagnostics import FOLDER_HELD, FOLDER_UNUSABLE
 from mrlab_ros.adapters.keys.folder import Keys, now
 from mrlab_ros.adapters.robots.diagnostics import NO_ROBOT_MODEL
 from mrlab_ros.adapters.sandbox import python_process
@@ -26,7 +26,7 @@ from mrlab_ros.adapters.scenes.diagnostics import NO_SCENE
 from mrlab_ros.commands.demo.lab import free_port
 from mrlab_ros.commands.up.speaker import COLOURS
 from mrlab_ros.commands.up.surroundings import DISCOVERY, folder_for_state
-from mrlab_ros.core.base.errors import BadInput
+from mrlab_ros.core.base.errors import BadInput, Misuse
 from mrlab_ros.core.bridge.access import Login
 from mrlab_ros.core.bridge.diagnostics import BAD_ENDPOINT, OPEN_ENDPOINT, TLS_NEEDS_KEYS
 from mrlab_ros.gateway.__main__ import settings_of
@@ -560,3 +560,14 @@ def test_processes_at_rest_have_imported_no_reader_of_meshes_files_or_pages() ->
         [sys.executable, "-c", program], capture_output=True, text=True, check=True
     )
     assert done.stdout.splitlines()[-1] == "[]"
+
+
+def test_a_state_folder_has_one_lab_at_a_time(tmp_path):
+    def second():
+        with folder_for_state(tmp_path / "state" / ".." / "state"):
+            pass
+
+    folder, pid = str(tmp_path / "state"), str(os.getpid())
+    with folder_for_state(tmp_path / "state"), refused(FOLDER_HELD, Misuse, path=folder, pid=pid):
+        second()
+    second()
