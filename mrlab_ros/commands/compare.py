@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 LONGEST_S = 3600.0
 MOST_DOMAIN = 232.0
+LEAST_SHOWN = math.radians(0.005)  # what is 0.00 in the table is not off
+MOST_OF_IT = 0.98  # of the planned motion: where less is compared, that is said
 
 Robot = Annotated[
     str,
@@ -165,13 +167,18 @@ def _compared(
     assert measured.trajectory is not None
     found = compared(planned.trajectory, measured.trajectory)
     delay = found.delay + (apart or 0.0)
+    late, whole = round(delay, 4), planned.trajectory.duration
+    joint = found.joint_names[found.worst] if found.most.max() >= LEAST_SHOWN else None
     said = COMPARED(
         planned=names[0],
         measured=names[1],
-        delay=round(abs(delay), 4),
-        side="ahead" if delay < 0 else "late",
+        delay=abs(late) or None,
+        side="ahead" if late < 0 else "late" if late else "same",
         clock="frames" if apart is None else "stamps",
-        joint=found.joint_names[found.worst],
+        joint=joint,
+        alike=None if joint else "yes",
+        compared=round(found.compared, 2) if found.compared < MOST_OF_IT * whole else None,
+        whole=round(whole, 2),
     )
     if not as_json:
         _show(found)

@@ -307,8 +307,10 @@ CAPTURED = Code(
 )
 COMPARED = Code(
     "compared",
-    "{measured} is {delay:number} s {side:choice late=later than|ahead=ahead of} {planned}, "
-    "{clock:choice frames=counted from the first frame of each|stamps=by their stamps}; without "
-    "that {joint} is off the most.",
+    "{measured} is[ {delay:number} s] {side:choice late=later than|ahead=ahead of|same=in time "
+    "with} {planned}, {clock:choice frames=counted from the first frame of each|stamps=by their "
+    "stamps}[; without that {joint} is off the most][; {alike:choice yes=no joint is off}]."
+    "[ {compared:number} s of the {whole:number} s of {planned} are in both; the rest is not "
+    "compared.]",
     severity=INFO,
 )
