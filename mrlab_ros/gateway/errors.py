@@ -19,6 +19,7 @@ from mrlab_ros.core.base.diagnostic import Diagnostic, plain
 from mrlab_ros.core.base.diagnostics import BAD_REQUEST_FIELD
 from mrlab_ros.core.base.errors import BadInput, LabError, Misuse, Unavailable
 from mrlab_ros.core.base.foreign_text import visible
+from mrlab_ros.core.base.machine import lacking
 from mrlab_ros.gateway.diagnostics import (
     BAD_REQUEST,
     FIELD_MISSING,
@@ -210,6 +211,14 @@ def install(app: FastAPI) -> None:
             await refuse(connection, error)
             return None
         return of_lab_error(error)
+
+    @app.exception_handler(OSError)
+    async def _(connection: Request | WebSocket, error: OSError) -> JSONResponse:
+        found = lacking(error)
+        if found is None or isinstance(connection, WebSocket):
+            raise error
+        logger.error("%s %s: %s", connection.method, connection.url.path, found)
+        return problem(503, "unavailable", found)
 
     @app.exception_handler(HTTPException)
     async def _(request: Request, error: HTTPException) -> JSONResponse:

@@ -1,16 +1,19 @@
 """The class of a gateway over HTTP: for instructors, and as its folder is now."""
 
+import errno
 import json
+import os
 
 import pytest
 from class_folder import make_class
 from fake_converter import FakeConverter
 from fake_lab import FakeLab
-from gateway_side import Gateway, kind_of
+from gateway_side import Gateway, code_of, kind_of
 from memory_store import MemoryStore
 from refusals import refused
 
 from mrlab_ros.adapters.trajectories import formats
+from mrlab_ros.classroom import desk
 from mrlab_ros.classroom.diagnostics import NO_CLASS_FILE
 from mrlab_ros.core.base.errors import BadInput
 from mrlab_ros.core.bridge.rules import Role
@@ -70,6 +73,17 @@ def test_names_and_marks_are_the_teachers(gateway):
         assert browser.get("/api/session").json()["may"]["grades"] is False
         for path in ("/api/class", "/api/class/anna/motion", "/api/class/anna/file"):
             assert kind_of(browser.get(path)) == (403, "not_allowed")
+
+
+def test_a_full_disk_is_said_of_whatever_is_sent(gateway, monkeypatch):
+    def full(*_, **__):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    teacher = gateway.browser("grace", Role.INSTRUCTOR)
+    monkeypatch.setattr(desk.tempfile, "TemporaryDirectory", full)
+    answer = teacher.send("PUT", "/api/class/sources/rubric.yaml", content=b"name: x")
+    assert code_of(answer) == (503, "machine_lacks")
+    assert answer.json()["error"]["values"] == {"lack": "disk"}
 
 
 def test_no_path_leads_out_of_the_folder(gateway, folder):
