@@ -45,9 +45,6 @@ WARM_S = 3.0
 UPLOADED_S = 180.0
 CLIENTS = (30, 60, 120, 200)
 MOTION = ROOT / "examples" / "quintic_ur5e.mat"
-PAGES = ("/", "/trajectories", "/lab")
-PAINTS = """() => Object.fromEntries(
-  performance.getEntriesByType('paint').map((entry) => [entry.name, entry.startTime]))"""
 
 
 @contextmanager
@@ -170,26 +167,26 @@ def ages(size: Size) -> list[dict[str, Any]]:
     rows: list[dict[str, Any]] = []
     with ExitStack() as stack:
         servers = Servers(stack, size.of(0.5, 4.0, 15.0))
-        with zenoh_lab(servers.endpoint, 13, 100), chromium() as browser:
+        # Robots of the large cases, and clients of the smallest.
+        most, few = size.of((2, 2), (13, CLIENTS[0]), (13, CLIENTS[0]))
+        with zenoh_lab(servers.endpoint, most, 100), chromium() as browser:
             page = browser.new_page(bypass_csp=True)
             page.goto(servers.gateway.opening())
             for way in (LINK, PLAIN):
-                found = servers.in_page(page, way, 13 * 100)
-                rows.append({"case": "13 robots x 100 Hz, Chromium", **found})
-        with zenoh_lab(servers.endpoint, 13, 100):
+                found = servers.in_page(page, way, most * 100)
+                rows.append({"case": f"{most} robots x 100 Hz, Chromium", **found})
+        with zenoh_lab(servers.endpoint, most, 100):
             for way, target in ((LINK, servers.port), (PLAIN, servers.plain_port)):
                 port = free_port()
                 with Partner(thin_link, port, target, THIN) as thin:
                     thin.receive()
-                    found = servers.in_node(way, (port,), 1, 13 * 100)
-                rows.append({"case": "300 kB/s link, 13 robots", **found})
+                    found = servers.in_node(way, (port,), 1, most * 100)
+                rows.append({"case": f"300 kB/s link, {most} robots", **found})
         for robots in size.some((1, 13)):
             with zenoh_lab(servers.endpoint, robots, 72):
                 for way, port in ((LINK, servers.port), (PLAIN, servers.plain_port)):
-                    found = servers.in_node(way, (port,), CLIENTS[0], robots * 72)
-                    rows.append(
-                        {"case": f"{CLIENTS[0]} clients, {robots} robot(s) x 72 Hz", **found}
-                    )
+                    found = servers.in_node(way, (port,), few, robots * 72)
+                    rows.append({"case": f"{few} clients, {robots} robot(s) x 72 Hz", **found})
         with zenoh_lab(servers.endpoint, 13, 72):
             for clients in size.of((), CLIENTS[1:3], CLIENTS[1:]):
                 case = f"{clients} clients, 13 robots x 72 Hz"
@@ -249,26 +246,7 @@ def uploads(size: Size) -> list[dict[str, Any]]:
         return [at_once(lab.url, cookie, senders) for senders in size.some((1, 50))]
 
 
-def paints(size: Size) -> list[dict[str, Any]]:
-    """Open pages in Chromium, each with an empty cache."""
-    rows = []
-    with (
-        tempfile.TemporaryDirectory() as name,
-        launched(Path(name)) as lab,
-        chromium() as browser,
-    ):
-        for path in size.some(PAGES):
-            page = browser.new_context(bypass_csp=True).new_page()
-            page.goto(lab.signed_in_url(path))
-            page.wait_for_function(f"Object.keys(({PAINTS})()).length === 2")
-            found = page.evaluate(PAINTS)["first-contentful-paint"]
-            rows.append({"page": path, "first paint ms": float(found)})
-            page.close()
-    return rows
-
-
 TABLES = {
     "Joint states behind the gateway": ages,
     "Uploads and conversions at once": uploads,
-    "Pages in Chromium, empty cache": paints,
 }

@@ -167,10 +167,10 @@ def punctuality(size: Size) -> list[dict[str, Any]]:
 class Listening:
     """What a client receives of the robots."""
 
-    def __init__(self, lab: Lab) -> None:
+    def __init__(self, lab: Lab, robots: int) -> None:
         self.late: list[float] = []
         self.count = 0
-        for robot in robot_names(ROBOTS):
+        for robot in robot_names(robots):
             lab.subscribe(msg.Telemetry, f"/{robot}/telemetry", self._on_telemetry, qos.STREAM)
             lab.subscribe(
                 JointState, f"/{robot}/joint_states", self._on_joint_state, qos.STREAM, raw=True
@@ -200,22 +200,23 @@ def used(lab: Lab, work: Callable[[], Any]) -> tuple[Any, dict[str, float]]:
 
 def in_a_lab(size: Size) -> list[dict[str, Any]]:
     settle, seconds = size.of((0.5, 0.5), (6.0, 10.0), (6.0, 30.0))
+    robots = size.of(2, ROBOTS, ROBOTS)
     with tempfile.TemporaryDirectory() as name:
         catalogue(Path(name), [sine("short", 60_000)])
-        with running(Path(name), robots=ROBOTS) as lab:
-            listening = Listening(lab)
-            for robot in robot_names(ROBOTS):
+        with running(Path(name), robots=robots) as lab:
+            listening = Listening(lab, robots)
+            for robot in robot_names(robots):
                 lab.ask(srv.LoadTrajectory, f"/{robot}/load", id="short")
-            members = [msg.SystemMember(robot=robot) for robot in robot_names(ROBOTS)]
+            members = [msg.SystemMember(robot=robot) for robot in robot_names(robots)]
             lab.create_system(members)
             lab.ask(SetLoop, "/cell/set_loop", loop=True)
             lab.ask(srv.StartRecording, "/recorder/start", bag=str(Path(name) / "bag"))
             lab.ask(Trigger, "/cell/play")
             time.sleep(settle)
-            return compared(lab, listening, seconds)
+            return compared(lab, listening, robots, seconds)
 
 
-def compared(lab: Lab, listening: Listening, seconds: float) -> list[dict[str, Any]]:
+def compared(lab: Lab, listening: Listening, robots: int, seconds: float) -> list[dict[str, Any]]:
     def row(method: str, late: list[float], received: float, cpu: dict[str, float]) -> Any:
         own = cpu.pop("playback")
         return {
@@ -237,7 +238,7 @@ def compared(lab: Lab, listening: Listening, seconds: float) -> list[dict[str, A
         rows.append(row(method, list(listening.late), received, cpu))
     lab.ask(Trigger, "/cell/stop")
     before = listening.count
-    found, cpu = used(lab, lambda: in_process(plain_timers, ROBOTS, RATE, seconds, MODEL))
+    found, cpu = used(lab, lambda: in_process(plain_timers, robots, RATE, seconds, MODEL))
     cpu["playback"] = found["CPU %"]
     received = (listening.count - before) / seconds
     return [*rows, row("rclpy timers", found["ms"], received, cpu)]

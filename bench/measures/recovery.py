@@ -100,14 +100,14 @@ class Measured:
 
 @contextmanager
 def loading(lab: Lab, robot: str) -> Iterator[list[str]]:
-    """Load a million frames on `robot` again and again; yield what the loads answered."""
+    """Load a long trajectory on `robot` again and again; yield what the loads answered."""
     answers: list[str] = []
     stop = threading.Event()
 
     def work() -> None:
         client = lab.client(srv.LoadTrajectory, f"/{robot}/load")
         while not stop.is_set():
-            request = srv.LoadTrajectory.Request(id=("million", "short")[len(answers) % 2])
+            request = srv.LoadTrajectory.Request(id=("long", "short")[len(answers) % 2])
             try:
                 answer = call(client, request, 30.0)
                 answers.append("loaded" if answer.success else answer.message)
@@ -125,10 +125,11 @@ def loading(lab: Lab, robot: str) -> Iterator[list[str]]:
 
 def safety(size: Size) -> list[dict[str, Any]]:
     seconds = size.of(0.5, 8.0, 30.0)
+    robots, frames = size.of((2, 10_000), (ROBOTS, MILLION), (ROBOTS, MILLION))
     with tempfile.TemporaryDirectory() as name:
-        catalogue(Path(name), [sine("short", 6_000), sine("million", MILLION)])
-        with running(Path(name), robots=ROBOTS, processes=APART) as lab:
-            loader, *players = robot_names(ROBOTS)
+        catalogue(Path(name), [sine("short", 6_000), sine("long", frames)])
+        with running(Path(name), robots=robots, processes=APART) as lab:
+            loader, *players = robot_names(robots)
             lab.follow([loader, *players])
             for robot in (loader, *players):
                 lab.ask(srv.LoadTrajectory, f"/{robot}/load", id="short")
@@ -142,7 +143,7 @@ def safety(size: Size) -> list[dict[str, Any]]:
             measured.pause_ms()
             rows = measured.rows("quiet", seconds)
             with loading(lab, loader) as answers:
-                rows += measured.rows(f"another robot loads {MILLION:,} frames", seconds)
+                rows += measured.rows(f"another robot loads {frames:,} frames", seconds)
             if "loaded" not in answers:
                 raise Failed(f"nothing was loaded: {answers[:3]}")
             converter = lab.processes()["converter"]

@@ -296,8 +296,13 @@ def losing(browser: Any, lab: ServedLab, rng: random.Random) -> list[dict[str, A
     ]
 
 
-def covering(browser: Any, lab: ServedLab, rng: random.Random, count: int) -> list[dict[str, Any]]:
-    """Stand at random places before four robots; return what panels hide of one."""
+def covering(
+    browser: Any, lab: ServedLab, rng: random.Random, count: int, frames: int
+) -> list[dict[str, Any]]:
+    """Stand at random places before four robots; return what panels hide of one.
+
+    frames: after which panels stand where they come to rest.
+    """
     for _ in range(3):
         lab.done("spawn", "ur5e")
     found, boards = [], []
@@ -314,7 +319,7 @@ def covering(browser: Any, lab: ServedLab, rng: random.Random, count: int) -> li
             )
             name = rng.choice(page.evaluate(NAMES))
             page.evaluate(f"room.opened.open('{name}')")
-            made.frames(150)
+            made.frames(frames)
             panel, by_board = page.evaluate(COVERED)
             found.append(100 * panel)
             boards.append(100 * by_board)
@@ -343,7 +348,7 @@ def marks(size: Size) -> list[dict[str, Any]]:
         lab.done("spawn", "ur5e", "--at", "0.6,0.4")
         rows += touching(browser, lab, rng, size.of(1, 2, 5))
         rows += losing(browser, lab, rng)
-        return rows + covering(browser, lab, rng, size.of(2, 10, 50))
+        return rows + covering(browser, lab, rng, *size.of((1, 15), (10, 150), (50, 150)))
 
 
 TABLES = {"The room: where robots stand, in made-up furnished rooms": marks}

@@ -32,7 +32,7 @@ from mrlab_ros.commands.convert import report
 from mrlab_ros.core.base.errors import LabError
 from mrlab_ros.core.conversion.options import Options
 
-FILES = 240
+FILES = 120
 FOLDER = share.directory()
 LIBRARY = RobotLibrary(FOLDER / "robots")
 UR5E = LIBRARY.model("ur5e")

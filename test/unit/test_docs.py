@@ -23,28 +23,31 @@ def test_generated_blocks_are_up_to_date():
     assert done.returncode == 0, done.stdout + done.stderr
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
-def test_every_block_of_commands_says_whether_it_is_run(page: Path) -> None:
+def test_every_block_of_commands_says_whether_it_is_run() -> None:
     wrong = []
-    for block in blocks(page):
+    for page, block in ((each, block) for each in PAGES for block in blocks(each)):
+        at = f"{page.name}, line {block.line}"
         if page.name in GENERATED or (block.language in DATA and block.printed is None):
             continue
         mark = MARK.fullmatch(block.mark)
         if mark is None:
-            wrong.append(f"line {block.line}: no mark, but {block.mark!r}")
+            wrong.append(f"{at}: no mark, but {block.mark!r}")
         elif block.run and block.printed is None:
-            wrong.append(f"line {block.line}: no block says what it prints")
+            wrong.append(f"{at}: no block says what it prints")
         elif block.run and not block.language and {w[0] for w in block.commands} != {"mrlab"}:
-            wrong.append(f"line {block.line}: not only mrlab: {block.commands}")
+            wrong.append(f"{at}: not only mrlab: {block.commands}")
         elif mark["by"] and not (ROOT / mark["by"]).is_file():
-            wrong.append(f"line {block.line}: no {mark['by']}")
+            wrong.append(f"{at}: no {mark['by']}")
     assert wrong == []
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
-def test_no_block_of_commands_is_indented_past_its_mark(page: Path) -> None:
-    outside = re.sub(r"^```.*?^```$", "", page.read_text(), flags=re.M | re.S)
-    assert re.findall(r"^ {3,}(?:```|mrlab |ros2 |make |python3? ).*", outside, re.M) == []
+def test_no_block_of_commands_is_indented_past_its_mark() -> None:
+    indented = re.compile(r"^ {3,}(?:```|mrlab |ros2 |make |python3? ).*", re.M)
+    outside = {
+        page.name: re.sub(r"^```.*?^```$", "", page.read_text(), flags=re.M | re.S)
+        for page in PAGES
+    }
+    assert [(n, found) for n, text in outside.items() if (found := indented.findall(text))] == []
 
 
 def test_the_tests_of_the_threat_model_exist():
@@ -87,7 +90,6 @@ def test_a_number_in_prose_is_what_its_source_has(tmp_path: Path) -> None:
         filled("1 s<!-- limits.py GONE -->", tmp_path)
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
-def test_where_a_page_names_sources_each_quantity_has_one(page: Path) -> None:
-    text = page.read_text()
-    assert not SOURCED.search(text) or without_source(text) == []
+def test_where_a_page_names_sources_each_quantity_has_one() -> None:
+    sourced = {p.name: text for p in PAGES if SOURCED.search(text := p.read_text())}
+    assert {name: lacks for name, text in sourced.items() if (lacks := without_source(text))} == {}

@@ -315,7 +315,7 @@ def test_what_a_submission_does_to_its_check_harms_no_other(tmp_path, monkeypatc
 
     tests = (Test("fine", "fine", rude.Rude(), 1.0),)
     rubric = Rubric("rude", tests, robot="ur5e", scene="")
-    bounds = Bounds(2048 * MiB, 6.0)
+    bounds = Bounds(2048 * MiB, 3.0)
     process = Grader(Setup(rubric, SceneDocument(), bounds=bounds, pages=False))
     said = {}
     try:

@@ -36,15 +36,15 @@ def kinds():
                 yield f"mrlab_msgs/msg/{file.stem}_{half}", getattr(service, half)
 
 
-@pytest.mark.parametrize(("name", "kind"), kinds())
-def test_what_ros_writes_is_read(store, name, kind):
-    if name not in store.types:
-        assert not set(kind.get_fields_and_field_types()) - {"structure_needs_at_least_one_member"}
-        return
-    payload = serialize_message(kind())
-    assert client.decode(store, payload, name) is not None
-    # So many bytes may follow where ROS counts padding that it does not write.
-    assert client.decode(store, payload + bytes(8), name) is not None
+def test_what_ros_writes_is_read(store):
+    for name, kind in kinds():
+        if name not in store.types:
+            assert {*kind.get_fields_and_field_types()} <= {"structure_needs_at_least_one_member"}
+            continue
+        payload = serialize_message(kind())
+        assert client.decode(store, payload, name) is not None, name
+        # So many bytes may follow where ROS counts padding that it does not write.
+        assert client.decode(store, payload + bytes(8), name) is not None, name
 
 
 def test_what_is_cut_off_is_refused(store):

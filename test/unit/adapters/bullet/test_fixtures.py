@@ -1,4 +1,4 @@
-"""A fixture set of scenes with the events that must come of each, equal over five runs."""
+"""A fixture set of scenes with the events that must come of each, equal in each run."""
 
 from __future__ import annotations
 
@@ -33,7 +33,6 @@ from mrlab_ros.core.scene.surfaces import Surface
 OPEN, CLOSING, HOLDING, EMPTY = Grasp.OPEN, Grasp.CLOSING, Grasp.HOLDING, Grasp.EMPTY
 G = 9.80665
 HELD = [OPEN, CLOSING, HOLDING]
-RUNS = 5
 SCENES = {}
 # How far the tool stands above what it grasps before it comes down, m.
 ABOVE = 0.12
@@ -798,7 +797,6 @@ def test_a_scene_has_its_events(name, library):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", list(SCENES))
-def test_a_scene_is_the_same_in_five_runs_and_under_load(name, library):
-    again = [None, *(random.Random(seed) for seed in range(RUNS - 2))]
+def test_a_scene_is_the_same_again_and_under_load(name, library):
     first = DIGESTS.get(name) or played(name, library)
-    assert {played(name, library, stalls) for stalls in again} == {first}
+    assert {played(name, library, stalls) for stalls in (None, random.Random(0))} == {first}
