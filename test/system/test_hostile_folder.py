@@ -75,7 +75,7 @@ def test_commands_import_nothing_from_their_folder(
     (folder / "class" / "anna").mkdir(parents=True)
     shutil.copy(EXAMPLES / "pick_and_place_ur5e.mat", folder / "class" / "anna" / "a.mat")
     rubric = EXAMPLES / "rubrics" / "pick_and_place.yaml"
-    ran(mrlab, "class", "class", "--rubric", rubric, "--out", "marks", "--jobs", "2")
+    ran(mrlab, "class", "class", "--rubric", rubric, "--out", "marks", "--jobs", "1")
     assert (folder / "page.html").is_file()
     assert not (tmp_path / "ran").exists(), (tmp_path / "ran").read_text()
 

@@ -38,11 +38,15 @@ def wait_for(condition: Callable[[], Any], what: str) -> Any:
     return value
 
 
-@pytest.fixture
-def endpoint(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
+@pytest.fixture(scope="module")
+def endpoint(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     """Where the bridge of a running lab with one robot listens."""
-    where = free_endpoint()
-    with launched_lab(tmp_path, monkeypatch, "--robots", "ur5e", "--zenoh-listen", where):
+    # A short name: the path of a Unix socket has 107 bytes at most.
+    folder, where = tmp_path_factory.mktemp("r"), free_endpoint()
+    with (
+        pytest.MonkeyPatch.context() as patch,
+        launched_lab(folder, patch, "--robots", "ur5e", "--zenoh-listen", where),
+    ):
         yield where
 
 

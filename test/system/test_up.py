@@ -101,33 +101,12 @@ def running(folder: Path) -> Iterator[Lab]:
             started.process.wait()
 
 
-@pytest.fixture
-def lab(tmp_path: Path) -> Iterator[Lab]:
-    """A lab of one's own."""
-    with running(tmp_path) as started:
-        yield started
-
-
 @pytest.fixture(scope="module")
 def used(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Lab]:
     """A lab that several tests use in their order, the last of which ends it."""
     # A short name: the path of a Unix socket has 107 bytes at most.
     with running(tmp_path_factory.mktemp("u")) as started:
         yield started
-
-
-def ends_cleanly(lab: Lab, number: signal.Signals) -> None:
-    """Assert that a lab ends by a signal and leaves nothing."""
-    lab.children = psutil.Process(lab.process.pid).children(recursive=True)
-    assert len(lab.children) >= 3
-    lab.process.send_signal(number)
-    assert lab.process.wait(DEADLINE) == 0
-    # The kernel kills what its processes had started, which is reaped a moment later.
-    wait_for(lab.all_gone, "all processes of the lab gone")
-    done = mrlab("status", "--once")
-    assert done.returncode == 1
-    assert "try: mrlab up" in done.stderr
-    assert "Traceback" not in lab.said + done.stderr
 
 
 def test_the_graph_heals_when_a_process_dies(used: Lab) -> None:
@@ -179,17 +158,23 @@ def test_play_follows_a_workspace_file_to_its_end(used: Lab) -> None:
 
 
 def test_a_lab_that_was_used_stops_cleanly_and_leaves_nothing(used: Lab) -> None:
-    ends_cleanly(used, signal.SIGTERM)
+    used.children = psutil.Process(used.process.pid).children(recursive=True)
+    assert len(used.children) >= 3
+    used.process.send_signal(signal.SIGTERM)
+    assert used.process.wait(DEADLINE) == 0
+    # The kernel kills what its processes had started, which is reaped a moment later.
+    wait_for(used.all_gone, "all processes of the lab gone")
+    done = mrlab("status", "--once")
+    assert done.returncode == 1
+    assert "try: mrlab up" in done.stderr
+    assert "Traceback" not in used.said + done.stderr
 
 
-def test_a_lab_stops_cleanly_and_leaves_nothing(lab: Lab) -> None:
-    ends_cleanly(lab, signal.SIGINT)
-
-
-def test_no_process_outlives_a_killed_supervisor(lab: Lab) -> None:
-    lab.process.kill()
-    lab.process.wait()
-    wait_for(lab.all_gone, "all processes of the lab gone")
+def test_no_process_outlives_a_killed_supervisor(tmp_path: Path) -> None:
+    with running(tmp_path) as lab:
+        lab.process.kill()
+        lab.process.wait()
+        wait_for(lab.all_gone, "all processes of the lab gone")
 
 
 def test_help_teaches() -> None:
