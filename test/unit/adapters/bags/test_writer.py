@@ -78,6 +78,22 @@ def begin(folder: Path, **options) -> BagWriter:
     return writer
 
 
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    return tmp_path / "class"
+
+
+@pytest.fixture
+def writer(folder: Path) -> BagWriter:
+    return begin(folder)
+
+
+def killed(writer: BagWriter) -> None:
+    """Leave a bag as the kernel does of a process that is killed."""
+    writer.flush()
+    writer._file.close()
+
+
 def fill(writer: BagWriter, count: int, first: int = 0) -> list[tuple[int, str, bytes]]:
     """Write messages 10 ms apart; every tenth is a state."""
     messages = []
@@ -105,9 +121,7 @@ def read_by_mcap(path: Path) -> list[tuple[int, str, bytes]]:
         return [(m.log_time, c.topic, m.data) for _, c, m in found]
 
 
-def test_a_bag_opens_everywhere_and_every_byte_is_there(tmp_path):
-    folder = tmp_path / "class"
-    writer = begin(folder)
+def test_a_bag_opens_everywhere_and_every_byte_is_there(folder, writer):
     writer.note("mrlab", {"mrlab_ros": "1"})
     writer.attach("robots/a.urdf", "model/urdf+xml", b"<robot/>", START_NS)
     messages = fill(writer, 500)
@@ -132,9 +146,7 @@ def test_a_bag_opens_everywhere_and_every_byte_is_there(tmp_path):
     assert sorted(p.name for p in folder.iterdir()) == ["class_0.mcap", "metadata.yaml"]
 
 
-def test_the_metadata_is_what_the_files_say(tmp_path):
-    folder = tmp_path / "class"
-    writer = begin(folder)
+def test_the_metadata_is_what_the_files_say(folder, writer):
     fill(writer, 20)
     writer.split()
     fill(writer, 20, 20)
@@ -149,9 +161,7 @@ def test_the_metadata_is_what_the_files_say(tmp_path):
     assert written == told_document
 
 
-def test_a_split_bag_is_one_session(tmp_path):
-    folder = tmp_path / "class"
-    writer = begin(folder)
+def test_a_split_bag_is_one_session(folder, writer):
     messages = fill(writer, 50)
     writer.split()
     messages += fill(writer, 50, 50)
@@ -160,11 +170,10 @@ def test_a_split_bag_is_one_session(tmp_path):
     assert [file.path.name for file in Bag(folder).files] == ["class_0.mcap", "class_1.mcap"]
 
 
-def test_a_sqlite3_bag_is_read_from_anywhere_as_an_mcap_bag_is(tmp_path):
-    writer = begin(tmp_path / "class")
+def test_a_sqlite3_bag_is_read_from_anywhere_as_an_mcap_bag_is(tmp_path, folder, writer):
     messages = fill(writer, 1000)
     writer.close()
-    other = open_bag(as_sqlite(Bag(tmp_path / "class"), tmp_path / "other"), lambda _: DEFINITION)
+    other = open_bag(as_sqlite(Bag(folder), tmp_path / "other"), lambda _: DEFINITION)
     assert (other.start_ns, other.end_ns) == (messages[0][0], messages[-1][0])
     assert other.topics["/state"].latched
     assert not other.topics["/events"].latched
@@ -196,9 +205,7 @@ def test_what_is_left_of_a_sqlite3_bag_is_read_by_the_command_that_its_message_n
     assert [m.data for m in left] == [data for _, _, data in messages[: len(left)]]
 
 
-def test_the_newest_state_before_a_place_is_found_in_any_file(tmp_path):
-    folder = tmp_path / "class"
-    writer = begin(folder)
+def test_the_newest_state_before_a_place_is_found_in_any_file(folder, writer):
     for part in range(3):
         fill(writer, 25, part * 40)
         writer.flush()
@@ -213,28 +220,24 @@ def test_the_newest_state_before_a_place_is_found_in_any_file(tmp_path):
 
 
 @pytest.mark.parametrize("start", [0, 1, 250, 499, 500])
-def test_reading_begins_anywhere(tmp_path, start):
-    writer = begin(tmp_path / "class")
+def test_reading_begins_anywhere(folder, writer, start):
     messages = fill(writer, 250)
     writer.flush()
     messages += fill(writer, 250, 250)
     writer.close()
-    found = Bag(tmp_path / "class").messages(START_NS + start * 10_000_000, {"/state", "/events"})
+    found = Bag(folder).messages(START_NS + start * 10_000_000, {"/state", "/events"})
     assert [m.data for m in found] == [m[2] for m in messages[start:]]
 
 
-def test_a_log_time_that_goes_back_is_held(tmp_path):
-    writer = begin(tmp_path / "class")
+def test_a_log_time_that_goes_back_is_held(folder, writer):
     writer.write("/events", START_NS + 5, text("a"), 0)
     writer.write("/events", START_NS, text("b"), 0)
     writer.close()
-    assert [m[0] for m in read(tmp_path / "class")] == [START_NS + 5] * 2
+    assert [m[0] for m in read(folder)] == [START_NS + 5] * 2
 
 
-def test_what_was_flushed_is_there_at_once_for_everybody(tmp_path):
+def test_what_was_flushed_is_there_at_once_for_everybody(folder, writer):
     """As after a kill: nothing more is written. No repair, no index."""
-    folder = tmp_path / "class"
-    writer = begin(folder)
     writer.attach("scene.json", "application/json", b"[]", START_NS)
     messages = fill(writer, 300)
     writer.flush()
@@ -252,14 +255,11 @@ def test_what_was_flushed_is_there_at_once_for_everybody(tmp_path):
     assert read(folder) == messages
 
 
-def test_a_repair_brings_index_and_metadata_and_keeps_the_originals(tmp_path):
-    folder = tmp_path / "class"
-    writer = begin(folder)
+def test_a_repair_brings_index_and_metadata_and_keeps_the_originals(folder, writer):
     writer.attach("scene.json", "application/json", b"[]", START_NS)
     writer.note("mrlab", {"mrlab_ros": "1"})
     messages = fill(writer, 300)
-    writer.flush()
-    writer._file.close()  # as the kernel does for a killed process
+    killed(writer)
     original = (folder / "class_0.mcap").read_bytes()
     done = repair(folder)
     assert (done.files, done.messages) == (["class_0.mcap", "metadata.yaml"], 300)
@@ -276,9 +276,7 @@ def test_a_repair_brings_index_and_metadata_and_keeps_the_originals(tmp_path):
         repair(folder)
 
 
-def test_a_kill_at_the_beginning_of_a_next_file_costs_nothing(tmp_path):
-    folder = tmp_path / "class"
-    writer = begin(folder)
+def test_a_kill_at_the_beginning_of_a_next_file_costs_nothing(folder, writer):
     messages = fill(writer, 20)
     writer.close()
     (folder / "class_1.mcap").write_bytes(MAGIC[:3])
@@ -321,12 +319,9 @@ def test_a_renamed_database_is_opened_by_the_command_that_its_message_names(tmp_
     assert caught.value.diagnostic.fixes == ()
 
 
-def test_a_file_alone_is_mended_and_nothing_beside_it(tmp_path):
-    folder = tmp_path / "class"
-    writer = begin(folder)
+def test_a_file_alone_is_mended_and_nothing_beside_it(tmp_path, folder, writer):
     messages = fill(writer, 20)
-    writer.flush()
-    writer._file.close()
+    killed(writer)
     (folder / "metadata.yaml").write_text("as it was")
     file = (folder / "class_0.mcap").rename(tmp_path / "class_0.mcap")
     (tmp_path / "metadata.yaml").write_text("as it was")
@@ -337,13 +332,10 @@ def test_a_file_alone_is_mended_and_nothing_beside_it(tmp_path):
     assert repair(file).files == []
 
 
-def test_a_repair_that_fails_leaves_the_bag_as_it_was(tmp_path, monkeypatch):
-    folder = tmp_path / "class"
-    writer = begin(folder)
+def test_a_repair_that_fails_leaves_the_bag_as_it_was(folder, writer, monkeypatch):
     messages = fill(writer, 20)
     writer.write_metadata()
-    writer.flush()
-    writer._file.close()
+    killed(writer)
     before = {path.name: path.read_bytes() for path in folder.iterdir()}
 
     def refuse(*_: Any) -> None:
@@ -358,12 +350,9 @@ def test_a_repair_that_fails_leaves_the_bag_as_it_was(tmp_path, monkeypatch):
     assert read(folder) == messages
 
 
-def test_a_repair_that_ends_between_two_steps_leaves_a_bag_that_opens(tmp_path, monkeypatch):
-    folder = tmp_path / "class"
-    writer = begin(folder)
+def test_a_repair_that_ends_between_two_steps_leaves_a_bag_that_opens(folder, writer, monkeypatch):
     messages = fill(writer, 20)
-    writer.flush()
-    writer._file.close()
+    killed(writer)
 
     def refuse(*_: Any) -> None:
         raise OSError(errno.EIO, os.strerror(errno.EIO))
@@ -377,12 +366,9 @@ def test_a_repair_that_ends_between_two_steps_leaves_a_bag_that_opens(tmp_path, 
     assert read(folder) == read_by_rosbags(folder) == messages
 
 
-def test_two_repairs_at_once_do_not_meet(tmp_path):
-    folder = tmp_path / "class"
-    writer = begin(folder)
+def test_two_repairs_at_once_do_not_meet(folder, writer):
     messages = fill(writer, 20)
-    writer.flush()
-    writer._file.close()
+    killed(writer)
     other = os.open(folder, os.O_RDONLY)
     fcntl.flock(other, fcntl.LOCK_EX)
     for path in (folder, folder / "class_0.mcap"):
@@ -392,9 +378,7 @@ def test_two_repairs_at_once_do_not_meet(tmp_path):
     assert repair(folder).messages == len(messages)
 
 
-def test_a_repair_of_what_is_well_changes_nothing(tmp_path):
-    folder = tmp_path / "class"
-    writer = begin(folder)
+def test_a_repair_of_what_is_well_changes_nothing(folder, writer):
     fill(writer, 20)
     writer.close()
     before = {path.name: path.read_bytes() for path in folder.iterdir()}
@@ -403,9 +387,7 @@ def test_a_repair_of_what_is_well_changes_nothing(tmp_path):
         assert {path.name: path.read_bytes() for path in folder.iterdir()} == before
 
 
-def test_a_repair_leaves_out_a_damaged_chunk_and_keeps_what_follows(tmp_path):
-    folder = tmp_path / "class"
-    writer = begin(folder)
+def test_a_repair_leaves_out_a_damaged_chunk_and_keeps_what_follows(folder, writer):
     messages = []
     for part in range(3):
         messages += fill(writer, 100, part * 100)
@@ -486,9 +468,7 @@ def test_what_is_no_bag_is_said_so(tmp_path, make, code):
         Bag(folder)
 
 
-def test_missing_files_and_strange_metadata_are_named(tmp_path):
-    folder = tmp_path / "class"
-    writer = begin(folder)
+def test_missing_files_and_strange_metadata_are_named(folder, writer):
     fill(writer, 5)
     writer.close()
     metadata = folder / "metadata.yaml"
@@ -537,8 +517,7 @@ def fill_disk(writer: BagWriter) -> tuple[list[Any], list[Any]]:
 
 
 @pytest.mark.parametrize("room", [4_000, 6_000, 9_000])
-def test_a_full_disk_is_told_and_what_was_written_stays_readable(tmp_path, room):
-    folder = tmp_path / "class"
+def test_a_full_disk_is_told_and_what_was_written_stays_readable(folder, room):
     disk = FullDisk(room)
     writer = begin(folder, open_file=lambda path: WholeFile(path, disk))
     messages = fill_disk(writer)[0]
@@ -549,8 +528,7 @@ def test_a_full_disk_is_told_and_what_was_written_stays_readable(tmp_path, room)
     assert repair(folder).messages == len(messages)
 
 
-def test_the_reserve_lets_a_bag_end_well_on_a_full_disk(tmp_path):
-    folder = tmp_path / "class"
+def test_the_reserve_lets_a_bag_end_well_on_a_full_disk(folder):
     disk = FullDisk(6_000)
     writer = begin(folder, open_file=lambda path: WholeFile(path, disk))
     flushed, unflushed = fill_disk(writer)
@@ -564,8 +542,7 @@ def test_the_reserve_lets_a_bag_end_well_on_a_full_disk(tmp_path):
 
 
 @pytest.mark.parametrize("room", [1_400, 2_500, 4_300])
-def test_a_disk_that_is_full_at_a_split_costs_nothing_either(tmp_path, room):
-    folder = tmp_path / "class"
+def test_a_disk_that_is_full_at_a_split_costs_nothing_either(folder, room):
     disk = FullDisk(room)
     writer = begin(folder, open_file=lambda path: WholeFile(path, disk))
     messages = fill(writer, 100)
@@ -577,8 +554,7 @@ def test_a_disk_that_is_full_at_a_split_costs_nothing_either(tmp_path, room):
     assert read(folder) == read_by_rosbags(folder) == messages
 
 
-def test_a_next_file_that_cannot_be_opened_costs_nothing_either(tmp_path):
-    folder = tmp_path / "class"
+def test_a_next_file_that_cannot_be_opened_costs_nothing_either(folder):
 
     def open_one(path: Path) -> WholeFile:
         if path.name != "class_0.mcap":
@@ -616,9 +592,7 @@ def test_folders_that_cannot_be_made_are_named(tmp_path):
         begin(tmp_path / "file" / "bag")
 
 
-def test_a_bag_that_is_recorded_is_known_and_not_mended(tmp_path):
-    folder = tmp_path / "class"
-    writer = begin(folder)
+def test_a_bag_that_is_recorded_is_known_and_not_mended(folder, writer):
     messages = fill(writer, 100)
     writer.flush()
     assert is_being_written(folder / "class_0.mcap")
@@ -635,13 +609,10 @@ def test_a_bag_that_is_recorded_is_known_and_not_mended(tmp_path):
     assert repair(folder).files == []
 
 
-def test_metadata_of_a_killed_bag_is_right_after_it_was_looked_at(tmp_path):
-    folder = tmp_path / "class"
-    writer = begin(folder)
+def test_metadata_of_a_killed_bag_is_right_after_it_was_looked_at(folder, writer):
     writer.write_metadata()
     messages = fill(writer, 100)
-    writer.flush()
-    writer._file.close()  # as the kernel does for a killed process
+    killed(writer)
     assert sorted(path.name for path in folder.iterdir()) == ["class_0.mcap", "metadata.yaml"]
     assert refresh_metadata(folder)
     facts = yaml.safe_load((folder / "metadata.yaml").read_text())
@@ -649,9 +620,9 @@ def test_metadata_of_a_killed_bag_is_right_after_it_was_looked_at(tmp_path):
     assert not refresh_metadata(folder)
 
 
-def test_a_renamed_folder_ends_the_recording_at_once_and_the_bag_is_whole(tmp_path):
-    folder = tmp_path / "class"
-    writer = begin(folder)
+def test_a_renamed_folder_ends_the_recording_at_once_and_the_bag_is_whole(
+    tmp_path, folder, writer
+):
     messages = fill(writer, 100)
     folder.rename(tmp_path / "moved")
     with refused(BAG_MOVED, DiskTrouble, folder=str(folder)):
@@ -661,20 +632,18 @@ def test_a_renamed_folder_ends_the_recording_at_once_and_the_bag_is_whole(tmp_pa
     assert read(tmp_path / "moved") == messages
 
 
-def test_a_bag_that_is_renamed_while_it_is_read_is_said_so(tmp_path):
-    writer = begin(tmp_path / "class")
+def test_a_bag_that_is_renamed_while_it_is_read_is_said_so(tmp_path, folder, writer):
     fill(writer, 20)
     writer.attach("scene.json", "application/json", b"[]", START_NS)
     writer.close()
-    bag = Bag(tmp_path / "class")
-    (tmp_path / "class").rename(tmp_path / "other")
+    bag = Bag(folder)
+    (folder).rename(tmp_path / "other")
     for read_it in (lambda: list(bag.messages()), lambda: bag.attachment("scene.json")):
         with refused(BAG_GONE, BadInput):
             read_it()
 
 
-def test_a_bag_that_goes_on_counts_its_earlier_bytes(tmp_path):
-    folder = tmp_path / "class"
+def test_a_bag_that_goes_on_counts_its_earlier_bytes(folder):
     first = begin(folder)
     fill(first, 100)
     first.close()
@@ -685,13 +654,10 @@ def test_a_bag_that_goes_on_counts_its_earlier_bytes(tmp_path):
     writer.close()
 
 
-def test_only_a_bag_without_messages_makes_room_for_another(tmp_path):
-    folder = tmp_path / "class"
-    writer = begin(folder)
+def test_only_a_bag_without_messages_makes_room_for_another(tmp_path, folder, writer):
     assert not remove_empty(folder), "it is being written"
     # As a recorder leaves it that is killed now.
-    writer.flush()
-    writer._file.close()
+    killed(writer)
     assert remove_empty(folder)
     writer = begin(folder)
     fill(writer, 1)
@@ -706,9 +672,7 @@ def test_only_a_bag_without_messages_makes_room_for_another(tmp_path):
     assert not remove_empty(tmp_path / "nowhere")
 
 
-def test_a_file_whose_messages_cannot_be_read_is_not_empty(tmp_path):
-    folder = tmp_path / "class"
-    writer = begin(folder)
+def test_a_file_whose_messages_cannot_be_read_is_not_empty(folder, writer):
     fill(writer, 1000)
     writer.close()
     path = folder / "class_0.mcap"
