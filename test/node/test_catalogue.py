@@ -130,50 +130,33 @@ def hold_reads(monkeypatch):
     return entered, go_on
 
 
-def test_another_robot_pauses_while_one_loads(graph, lab, monkeypatch):
-    lab.kept.save(make("ur5e", "wave", frames=3000))
-    lab.kept.save(make("ur5e", "other"))
-    first, second = spawn(graph), spawn(graph)
-    states = listen_state(graph, first)
-    load(graph, first, "wave")
-    assert graph.call(Trigger, f"/{first}/play").success
-    wait_for(lambda: states.last().label == "PLAYING", "the motion")
-    entered, go_on = hold_reads(monkeypatch)
-    client = graph.client.create_client(srv.LoadTrajectory, f"/{second}/load")
-    assert client.wait_for_service(LONG)
-    answer = client.call_async(srv.LoadTrajectory.Request(id="other"))
-    assert entered.wait(LONG)
-    assert graph.call(Trigger, f"/{first}/pause").success
-    wait_for(lambda: states.last().label == "PAUSED", "the pause")
-    assert graph.call(Trigger, f"/{second}/play").message.startswith("cannot play")
-    assert not answer.done()
-    go_on.set()
-    wait_for(answer.done, "the load")
-    assert answer.result().success
-
-
-@pytest.mark.parametrize(("command", "label"), [("pause", "PAUSED"), ("stop", "READY")])
-def test_a_robot_pauses_and_stops_while_it_loads_itself(graph, lab, monkeypatch, command, label):
+@pytest.mark.parametrize(
+    ("command", "label", "itself"),
+    [("pause", "PAUSED", True), ("stop", "READY", True), ("pause", "PAUSED", False)],
+)
+def test_a_robot_pauses_and_stops_while_one_loads(graph, lab, monkeypatch, command, label, itself):
     lab.kept.save(make("ur5e", "wave", frames=3000))
     lab.kept.save(make("ur5e", "other"))
     robot = spawn(graph)
+    loads = robot if itself else spawn(graph)
     states = listen_state(graph, robot)
     load(graph, robot, "wave")
     assert graph.call(Trigger, f"/{robot}/play").success
     wait_for(lambda: states.last().label == "PLAYING", "the motion")
     entered, go_on = hold_reads(monkeypatch)
-    client = graph.client.create_client(srv.LoadTrajectory, f"/{robot}/load")
+    client = graph.client.create_client(srv.LoadTrajectory, f"/{loads}/load")
     assert client.wait_for_service(LONG)
     answer = client.call_async(srv.LoadTrajectory.Request(id="other"))
     assert entered.wait(LONG)
     assert graph.call(Trigger, f"/{robot}/{command}").success
     wait_for(lambda: states.last().label == label, "the end of the motion")
+    if not itself:
+        assert graph.call(Trigger, f"/{loads}/play").message.startswith("cannot play")
     assert not answer.done()
     assert loaded(lab, robot).id == "wave"
     go_on.set()
     wait_for(answer.done, "the load")
     assert answer.result().success, answer.result().message
-    assert loaded(lab, robot).id == "other"
 
 
 def test_a_collision_halts_a_robot_while_it_loads_itself(graph, lab, monkeypatch):

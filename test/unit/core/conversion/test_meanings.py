@@ -2,7 +2,6 @@
 
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import replace
 
 import converter_corpus as corpus
 import converter_meanings as meanings
@@ -70,10 +69,7 @@ def followed(case: Case, reader: WorkspaceReader, result: ConversionResult) -> s
         fixes = [f for f in result.diagnostics[0].fixes if f.option]
         if result.outcome is Outcome.ACCEPTED or not fixes:
             return ending(case, result)
-        now = getattr(options, fixes[0].option)
-        text = fixes[0].value
-        value = text == "true" if isinstance(now, bool) else type(now)(text or 0)
-        options = replace(options, **{fixes[0].option: text if isinstance(now, str) else value})
+        options = corpus.applied(options, fixes[0])
         if options in seen:
             return "loop"
         seen.add(options)
