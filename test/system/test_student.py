@@ -33,7 +33,7 @@ def lab(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     folder = tmp_path_factory.mktemp("s")
     with (
         pytest.MonkeyPatch.context() as patch,
-        launched_lab(folder, patch, "--robots", "ur5e", "--physics", "--no-bridge"),
+        launched_lab(folder, patch, "--robots", "ur5e", "--physics"),
     ):
         yield
 

@@ -42,13 +42,11 @@ def mrlab(*arguments: str, timeout: float = DEADLINE) -> subprocess.CompletedPro
 class Lab:
     """A `mrlab up` with what it prints, on a domain and port of its own."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, *options: str) -> None:
         self._output = folder / "up.log"
-        self.endpoint = free_endpoint()
         with open(self._output, "wb") as output:
             self.process = start_child(
-                *(*MRLAB, "up", "--robots", "ur5e", "--zenoh-listen", self.endpoint),
-                *("--http", "127.0.0.1:0"),
+                *(*MRLAB, "up", "--robots", "ur5e", *options),
                 stdout=output,
                 stderr=subprocess.STDOUT,
             )
@@ -86,13 +84,13 @@ class Lab:
 
 
 @contextmanager
-def running(folder: Path) -> Iterator[Lab]:
+def running(folder: Path, *options: str) -> Iterator[Lab]:
     """Run a lab that is ready."""
     with pytest.MonkeyPatch.context() as patch, own_domain() as domain:
         patch.setenv("XDG_RUNTIME_DIR", str(folder))
         patch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
         patch.setenv("ROS_DOMAIN_ID", str(domain))
-        started = Lab(folder)
+        started = Lab(folder, *options)
         try:
             started.wait_until_ready()
             yield started
@@ -105,7 +103,8 @@ def running(folder: Path) -> Iterator[Lab]:
 def used(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Lab]:
     """A lab that several tests use in their order, the last of which ends it."""
     # A short name: the path of a Unix socket has 107 bytes at most.
-    with running(tmp_path_factory.mktemp("u")) as started:
+    options = ("--zenoh-listen", free_endpoint(), "--http", "127.0.0.1:0")
+    with running(tmp_path_factory.mktemp("u"), *options) as started:
         yield started
 
 
@@ -171,7 +170,7 @@ def test_a_lab_that_was_used_stops_cleanly_and_leaves_nothing(used: Lab) -> None
 
 
 def test_no_process_outlives_a_killed_supervisor(tmp_path: Path) -> None:
-    with running(tmp_path) as lab:
+    with running(tmp_path, "--no-bridge", "--no-web") as lab:
         lab.process.kill()
         lab.process.wait()
         wait_for(lab.all_gone, "all processes of the lab gone")

@@ -270,7 +270,7 @@ ELSEWHERE = {
     "up --insecure": "test/system/test_up_keys.py",
     "up --keys": "test/system/test_up_keys.py",
     "up --lti": "the gateway's own option --lti, in test/browser/test_course.py",
-    "up --no-bridge": "test/system/test_student.py",
+    "up --no-bridge": "test/system/test_up.py",
     "up --no-frames": "test/support/labs/launched_lab.py",
     "up --no-web": "test/support/labs/launched_lab.py",
     "up --only": "needs two machines; test/unit/processes/test_lab.py has what each runs",
