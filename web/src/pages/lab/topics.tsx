@@ -6,6 +6,8 @@ import { fixed, words } from '../../words/words'
 import { TopicMessage } from './topic_message'
 
 const EVERY_MS = 1000
+/** Rows that are shown without a search: of a large lab all would hold a press for long. */
+const MOST = 60
 
 interface Row {
   readonly key: string
@@ -74,7 +76,7 @@ export function Topics({ follower, onClose }: { follower: LabFollower; onClose: 
         <Button look="quiet" icon="close" label={words.value.close} onClick={onClose} />
       </div>
       <ul>
-        {shown.map(({ key, type, rate, age }) => (
+        {shown.slice(0, MOST).map(({ key, type, rate, age }) => (
           <li key={key}>
             <div class="lab-topic">
               <button
@@ -102,6 +104,9 @@ export function Topics({ follower, onClose }: { follower: LabFollower; onClose: 
           </li>
         ))}
       </ul>
+      {shown.length > MOST && (
+        <p class="lab-topics-more second tiny">{w.moreToFind(shown.length - MOST)}</p>
+      )}
     </section>
   )
 }
