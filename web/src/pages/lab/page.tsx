@@ -281,7 +281,7 @@ export function Lab({ link }: { link: Link }) {
             {!may.commands && session.value?.user && (
               <p class="lab-only-watch small">
                 {replays
-                  ? w.replaying(follower.recorder.value?.bag ?? '')
+                  ? w.replaying(follower.recorder.value?.bag.split('/').at(-1) ?? '')
                   : w.onlyWatch(words.value.roles[session.value.user.role])}
               </p>
             )}

@@ -179,7 +179,7 @@ export function RobotCard({ view, catalogue, system, idle }: RobotCardProps) {
           <Targets view={view} />
         </div>
       )}
-      {(choosing || (!loaded && independent)) && (
+      {!replays && (choosing || (!loaded && independent)) && (
         <LoadList
           key="list"
           robot={robot}
