@@ -3,7 +3,7 @@ import { fileURLToPath } from 'node:url'
 import type { Plugin } from 'vite'
 import { defineConfig } from 'vitest/config'
 
-const noLoader = fileURLToPath(new URL('src/scene/robot/no_loader.ts', import.meta.url))
+export const noLoader = fileURLToPath(new URL('src/scene/robot/no_loader.ts', import.meta.url))
 
 // The gateway serves the pages below /; hashed names below /static/ are cached for ever.
 /** Serve the package's own files where the gateway does, for `npm run dev -- --mode fake`. */

@@ -1,5 +1,5 @@
 import { defineConfig, mergeConfig } from 'vitest/config'
-import pages from './vite.config.ts'
+import pages, { noLoader } from './vite.config.ts'
 
 // The code of a page that `mrlab show` writes: one classic script and one style sheet, since a page
 // opened from file:// may load no module.
@@ -7,6 +7,7 @@ export default mergeConfig(
   pages,
   defineConfig({
     publicDir: false,
+    resolve: { alias: { 'three/examples/jsm/libs/meshopt_decoder.module.js': noLoader } },
     build: {
       outDir: 'dist/show',
       emptyOutDir: true,
