@@ -110,8 +110,10 @@ export class Surface {
   show(): void {
     if (this.sight === null) return
     const { width, height } = this.renderer.domElement
-    // also empties it
-    Object.assign(this.canvas, { width, height })
+    const { canvas } = this
+    if (canvas.width !== width || canvas.height !== height)
+      Object.assign(canvas, { width, height })
+    this.sight.globalCompositeOperation = 'copy'
     this.sight.drawImage(this.renderer.domElement, 0, 0)
   }
 
