@@ -259,16 +259,20 @@ def test_a_lab_is_reached_over_a_router_in_every_mode(graph, router, mode):
 
 
 @pytest.mark.parametrize(
-    ("settings", "lease_ms"),
+    ("settings", "lease_ms", "batches"),
     [
-        ({"listen": ("tcp/127.0.0.1:7447",)}, 10_000),
-        ({"listen": ("tcp/0.0.0.0:7447",)}, 1500),
-        ({"mode": "client", "listen": (), "connect": ("tcp/router:7447",)}, 1500),
-        ({"lease": 0.5}, 500),
+        ({"listen": ("tcp/127.0.0.1:7447",)}, 10_000, 16),
+        ({"listen": ("tcp/0.0.0.0:7447",)}, 1500, 2),
+        ({"mode": "client", "listen": (), "connect": ("tcp/router:7447",)}, 1500, 2),
+        ({"lease": 0.5}, 500, 16),
     ],
 )
-def test_a_silent_link_is_given_up_soon_where_it_leaves_this_machine(settings, lease_ms):
-    assert json.loads(configuration(**settings).get_json("transport/link/tx/lease")) == lease_ms
+def test_a_link_that_leaves_this_machine_is_given_up_soon_and_holds_little(
+    settings, lease_ms, batches
+):
+    tx = json.loads(configuration(**settings).get_json("transport/link/tx"))
+    assert tx["lease"] == lease_ms
+    assert tx["queue"]["size"]["data"] == batches
 
 
 def test_a_lab_finds_a_router_that_starts_later(graph):

@@ -181,12 +181,15 @@ class LinkSession:
                 message = message.with_payload(limited)
         if topic.each:
             self._push(topic, RecordKind.MESSAGE, message)
-        elif len(message.sample.payload) > LARGE or self._goes_in_pieces(topic.id):
+        elif len(message.sample.payload) > LARGE or (
+            (self._in_pieces or self._large) and self._goes_in_pieces(topic.id)
+        ):
             self._newest.forget(message.stream)
             self._large[topic.id] = message
         else:
             self._newest.offer(message.stream, topic.priority, message.encoded())
-        if self._announced.get(topic.id) != topic.facts:
+        # By the object: to compare all fields would be a fifth of this method.
+        if self._announced.get(topic.id) is not topic.facts:
             self._announced[topic.id] = topic.facts
             self.text(topic.facts)
         self.wake()
