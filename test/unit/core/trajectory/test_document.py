@@ -1,5 +1,6 @@
 """The trajectory file: round trips, the schema, and files that contradict themselves."""
 
+import errno
 import json
 
 import numpy as np
@@ -161,7 +162,7 @@ def test_a_write_that_fails_leaves_the_old_file(tmp_path, monkeypatch):
 
     def broken(trajectory):
         yield b"{"
-        raise OSError("disk full")
+        raise OSError(errno.ENOSPC, "disk full")
 
     monkeypatch.setattr(formats, "chunks", broken)
     with pytest.raises(OSError, match="disk full"):
