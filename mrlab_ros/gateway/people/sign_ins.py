@@ -88,7 +88,8 @@ class Database:
     """The open file; its methods may be called from any thread."""
 
     def __init__(self, path: Path) -> None:
-        """Open the file, or make it; raises BadInput where that is impossible."""
+        """Open the file, or make it; raises BadInput where that is impossible, Unavailable where
+        the disk is full."""
         self._lock = threading.RLock()
         self.path = path
         try:
@@ -108,8 +109,10 @@ class Database:
                     connection.execute("INSERT INTO lab VALUES (?, ?)", row)
             found = self.rows("SELECT id, secret FROM lab")[0]
         except (OSError, sqlite3.Error) as error:
-            unusable = USERS_UNUSABLE(path=str(path), why=str(error))
-            raise BadInput(_no_room(error, path) or unusable) from error
+            full = _no_room(error, path)
+            if full is not None:
+                raise Unavailable(full) from error
+            raise BadInput(USERS_UNUSABLE(path=str(path), why=str(error))) from error
         self.lab_id: str = found["id"]
         self.secret: bytes = found["secret"]
 

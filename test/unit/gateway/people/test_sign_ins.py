@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import errno
+import os
 import re
 import sqlite3
 from typing import Any
@@ -16,7 +18,7 @@ from mrlab_ros.adapters.diagnostics import NO_ROOM_ON_DISK
 from mrlab_ros.core.base.errors import Unavailable
 from mrlab_ros.core.bridge.rules import Role
 from mrlab_ros.gateway.people.accounts import INVITATION_LIFETIME_S, OPENING_LIFETIME_S
-from mrlab_ros.gateway.people.sign_ins import LIFETIME_S, SEEN_PERIOD_S
+from mrlab_ros.gateway.people.sign_ins import LIFETIME_S, SEEN_PERIOD_S, Database
 
 
 def test_nobody_is_signed_in_at_first_and_no_names_are_told(class_lab: Gateway) -> None:
@@ -91,6 +93,16 @@ def test_a_full_disk_signs_nobody_in_and_nobody_out(class_lab: Gateway) -> None:
     assert all(browser.user for browser in (anna, ben))
     execute("PRAGMA max_page_count = 1000000")
     assert class_lab.browser().sign_in("ben").is_success
+
+
+def test_a_full_disk_is_no_wrong_configuration(tmp_path, monkeypatch) -> None:
+    def full(*_: object) -> int:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(os, "open", full)
+    # the gateway is started again, where a BadInput that is no Unavailable would end the lab
+    with refused(NO_ROOM_ON_DISK, Unavailable):
+        Database(tmp_path / "users.sqlite")
 
 
 def test_a_sign_in_ends_after_its_time(class_lab: Gateway) -> None:
