@@ -216,7 +216,7 @@ class LinkSession:
         """Send a text frame; it is not repeated after a reconnect."""
         text = orjson.dumps(message)
         if self._texts_size + len(text) > MOST_TEXTS:
-            self.failed = TEXTS_WAIT(size=self._texts_size)
+            self.failed = TEXTS_WAIT(size=self._texts_size + len(text))
         else:
             self._texts.append(text)
             self._texts_size += len(text)
