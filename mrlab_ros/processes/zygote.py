@@ -213,7 +213,10 @@ def _become(request: dict[str, object], output: int) -> None:
     for number in (1, 2):
         os.dup2(output, number)
     os.close(output)
-    sys.stdout.reconfigure(line_buffering=True)  # type: ignore[union-attr]
+    # A stream remembers whether one can seek in it: the zygote's are of another kind.
+    encoding = getattr(sys.stdout, "encoding", None)
+    sys.stdout = open(1, "w", 1, encoding, closefd=False)  # noqa: SIM115
+    sys.stderr = open(2, "w", 1, encoding, "backslashreplace", closefd=False)  # noqa: SIM115
     environment, argv = request["environment"], request["argv"]
     assert isinstance(environment, dict)
     assert isinstance(argv, list)

@@ -39,6 +39,7 @@ MODULE = f"""
         "threads": threading.active_count(),
         "descriptors": sorted(int(name) for name in os.listdir("/proc/self/fd")),
     }}
+    sys.stdout.reconfigure(errors="replace")
     print(json.dumps(facts))
     time.sleep(600)
 """
