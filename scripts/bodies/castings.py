@@ -5,11 +5,15 @@ The meshes of links, which other programs read, are too coarse for that where a 
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
+import details
 import kuka
 import measured
 import numpy as np
+from materials import BLACK
+from measured import Region
 from scipy.spatial import cKDTree
 from solids import Array
 
@@ -18,6 +22,7 @@ from mrlab_ros.adapters.robots.packing.surfaces import Material, Mesh, creased, 
 NEIGHBOURS = 10  # vertices of the casting that tell a normal
 SPREAD = 0.003  # m, at which a neighbour counts half
 ALIKE = 0.8  # cosine between normals of one wall
+LEFT_OUT = replace(BLACK, name="left out")
 
 
 class Castings:
@@ -37,19 +42,29 @@ class Castings:
             link: pieces[link][len(pieces[link]) - len(own.parts) :]
             for link, own in self._links.items()
         }
+        without = details.table(figures["id"]).get("without", [])
+        self._painted = {
+            link: replace(own, regions=(*own.regions, *_left_out(without, link)))
+            for link, own in self._links.items()
+        }
 
     def thinned(self, triangles: float) -> dict[str, list[tuple[Material, Mesh]]]:
         """Return the bodies of so many triangles in all, evenly exact on all links."""
         parts = sum(len(mesh.faces) for own in self._parts.values() for _, mesh in own)
         thin = together(list(self._surfaces.values()), int(triangles) - parts)
         result = {}
-        for (link, own), mesh in zip(self._links.items(), thin, strict=True):
+        for (link, own), mesh in zip(self._painted.items(), thin, strict=True):
             painted = [
                 (material, shaded(creased(piece), self._walls[link]))
                 for material, piece in measured.painted(mesh, own)
+                if material is not LEFT_OUT
             ]
             result[link] = [*painted, *self._parts[link]]
         return result
+
+
+def _left_out(boxes: list[dict[str, Any]], link: str) -> list[Region]:
+    return [Region(LEFT_OUT, box["low"], box["high"]) for box in boxes if box["link"] == link]
 
 
 def shaded(mesh: Mesh, wall: Mesh) -> Mesh:

@@ -10,9 +10,10 @@ from collections.abc import Sequence
 from itertools import product
 
 import numpy as np
+from scipy.spatial import ConvexHull
 from solids import AXES, Array
 
-from mrlab_ros.adapters.robots.packing.surfaces import Mesh
+from mrlab_ros.adapters.robots.packing.surfaces import Mesh, creased
 
 CREASE = np.cos(np.radians(31.0))  # between two cones that are shaded as one
 
@@ -102,6 +103,62 @@ def turned(axis: str, profile: Sequence[Sequence[float]], sides: int = 24) -> Me
         np.concatenate(vertices)[:, turn], np.array(faces), np.concatenate(normals)[:, turn]
     )
     return _outwards(mesh)
+
+
+def prism(
+    axis: str,
+    outline: Sequence[Sequence[float]],
+    ends: Sequence[float],
+    edge: float,
+    corner: float,
+    steps: int = 4,
+) -> Mesh:
+    """Return the convex body between two planes across a coordinate axis, with bevels at both.
+
+    outline: points (N, 2), m, along the other two axes in their order; ends: places of the planes;
+    edge: of the bevels; corner: radius of the edges along the axis, of `steps` facets each.
+    """
+    points = np.array(outline, float)
+    points = points[ConvexHull(points).vertices]  # against the clock
+    low, high = min(ends), max(ends)
+    rings = [(edge, low), (0.0, low + edge), (0.0, high - edge), (edge, high)]
+    loops = [_rounded(points, inset, corner, steps) for inset, _ in rings]
+    count = len(loops[0])
+    flat = [
+        np.column_stack([loop, np.full(count, at)])
+        for loop, (_, at) in zip(loops, rings, strict=True)
+    ]
+    n = np.arange(count)
+    m = (n + 1) % count
+    faces = [np.column_stack([0 * n[1:-1], m[1:-1], n[1:-1]])]
+    for ring in range(3):
+        a, b = ring * count + n, ring * count + m
+        faces += [np.column_stack([a, b, b + count]), np.column_stack([a, b + count, a + count])]
+    faces.append(3 * count + np.column_stack([0 * n[1:-1], n[1:-1], m[1:-1]]))
+    number = AXES[axis]
+    columns = [*(each for each in range(3) if each != number), number]
+    vertices, corners = np.empty((4 * count, 3)), np.concatenate(faces)
+    vertices[:, columns] = np.concatenate(flat)
+    # x and z in their order, y across them: left-handed
+    return creased(Mesh(vertices, corners[:, ::-1] if axis == "y" else corners, np.empty((0, 3))))
+
+
+def _rounded(points: Array, inset: float, corner: float, steps: int) -> Array:
+    """Return a convex outline so far inside, with an arc of `steps` facets at each corner."""
+    ahead = np.roll(points, -1, axis=0) - points
+    length = np.linalg.norm(ahead, axis=1, keepdims=True)
+    radius = min(corner, 0.45 * float(length.min()))
+    ahead /= length
+    outward = np.column_stack([ahead[:, 1], -ahead[:, 0]])
+    before = np.roll(outward, 1, axis=0)
+    # where the lines that lie `radius` inside meet: the middle of the arc
+    lean = (before + outward) / (1 + (before * outward).sum(axis=1))[:, None]
+    share = (np.arange(steps + 1) / steps)[None, :, None]
+    turn = before[:, None] * (1 - share) + outward[:, None] * share
+    turn /= np.linalg.norm(turn, axis=2, keepdims=True)
+    middle = points - radius * lean
+    result: Array = (middle[:, None] + (radius - inset) * turn).reshape(-1, 2)
+    return result
 
 
 def moved(mesh: Mesh, *by: float) -> Mesh:

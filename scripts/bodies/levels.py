@@ -22,6 +22,7 @@ import trimesh
 import yaml
 from castings import Castings
 from details import Surface
+from housings import housings
 from markings import AFAR, Marking, marked, markings
 from relief import clamped, grooved, lined, screwed
 from rings import collars
@@ -29,6 +30,7 @@ from rings import collars
 from mrlab_ros.adapters.robots.packing import packed
 from mrlab_ros.adapters.robots.packing.atlas import Drawing
 from mrlab_ros.adapters.robots.packing.occlusion import (
+    DARKEST,
     Around,
     Pieces,
     lit,
@@ -36,7 +38,7 @@ from mrlab_ros.adapters.robots.packing.occlusion import (
     triangles_of,
 )
 from mrlab_ros.adapters.robots.packing.pieces import Piece
-from mrlab_ros.adapters.robots.packing.surfaces import Mesh, creased, decimated
+from mrlab_ros.adapters.robots.packing.surfaces import Material, Mesh, creased, decimated
 
 ROBOTS = Path(__file__).resolve().parents[2] / "robots"
 LARGE = 1.4  # m of reach, from which a robot is a large one
@@ -104,12 +106,13 @@ def write(folder: Path, figures: dict[str, Any]) -> None:
     reach = float(figures.get("reach", size))
     most = NEAR_LARGE if reach > LARGE else NEAR
     share = PLAIN
+    table = details.table(figures["id"])
     thinned: Callable[[float], Pieces] = partial(_thinned, pieces)
     if reach > LARGE and figures["id"] in kuka.ROBOTS:
         share, thinned = PLAIN_FINE, Castings(figures, pieces).thinned
     bodies = most
     while True:
-        plain = thinned(share * bodies)
+        plain = _housed(thinned, share * bodies, housings(table))
         dress = Dress(figures, plain, reach)
         body = _fine(plain, dress.around, float(np.clip(reach / 120, 0.004, 0.02)), bodies)
         near = {link: dress.near(link, found) for link, found in body.items()}
@@ -119,7 +122,7 @@ def write(folder: Path, figures: dict[str, Any]) -> None:
         bodies -= over + 50
     bodies = FAR
     while True:
-        thin = thinned(bodies)
+        thin = _housed(thinned, bodies, housings(table, afar=True))
         few = _plainly(thin, surroundings(thin, figures, reach))
         far = {link: dress.far(link, found) for link, found in few.items()}
         over = _count(far) - MOST_FAR
@@ -162,6 +165,34 @@ def _count(level: Level) -> int:
 
 def _total(pieces: Pieces) -> int:
     return sum(len(mesh.faces) for own in pieces.values() for _, mesh in own)
+
+
+def _housed(thinned: Callable[[float], Pieces], triangles: float, own: Pieces) -> Pieces:
+    """Return the bodies of so many triangles, their housings included."""
+    found = thinned(triangles - _total(own))
+    return {
+        link: outer([*pieces, *own[link]]) if link in own else pieces
+        for link, pieces in found.items()
+    }
+
+
+def outer(pieces: list[tuple[Material, Mesh]]) -> list[tuple[Material, Mesh]]:
+    """Return the pieces of a link without the triangles of which no ray gets out of it."""
+    link = Around([triangles_of(pieces)], 1e6)
+    kept = []
+    for material, mesh in pieces:
+        corners = mesh.vertices[mesh.faces]
+        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
+        middle = corners.mean(axis=1)
+        lights = [link.light(middle, normals)]
+        lights += [link.light(0.85 * corners[:, n] + 0.15 * middle, normals) for n in range(3)]
+        faces = mesh.faces[np.max(lights, axis=0) > DARKEST + 1e-3]
+        if len(faces):
+            used, index = np.unique(faces, return_inverse=True)
+            own = Mesh(mesh.vertices[used], index.reshape(-1, 3), mesh.normals[used])
+            kept.append((material, own))
+    return kept
 
 
 def _thinned(pieces: Pieces, triangles: float) -> Pieces:

@@ -1,4 +1,4 @@
-"""Measures bodies against measured shapes: `measure.py [--library DIR] [--table] [ID ...]`.
+"""Measures bodies against measured shapes: `measure.py [--library DIR] [--drawn] [ID ...]`.
 
 Prints for each robot the overlap of silhouettes (intersection over union, mean over poses and
 views) and for each link the distance between the surfaces, 95th percentile of both ways, mm. The
@@ -14,6 +14,7 @@ from typing import Any
 import kuka
 import measured
 import numpy as np
+import picture
 import trimesh
 from manifold3d import CrossSection, FillRule, JoinType, Manifold, OpType
 from PIL import Image, ImageDraw
@@ -99,6 +100,12 @@ def body(path: Path) -> trimesh.Trimesh:
     return trimesh.util.concatenate(parts)
 
 
+def drawn_body(made: Path, link: str) -> trimesh.Trimesh:
+    """Return what pages draw of a link nearby, m."""
+    parts = picture.drawn(made / "lod" / "near.glb", {link: np.eye(4)})
+    return trimesh.util.concatenate([trimesh.Trimesh(p.vertices, p.faces) for p in parts])
+
+
 def silhouette(meshes: list[trimesh.Trimesh], view: Array, low: Array, size: float) -> Array:
     """Return the picture, True where a mesh is, seen along `view`; low, size: of the window."""
     image = Image.new("1", (PIXELS, PIXELS))
@@ -137,13 +144,19 @@ def poses(library: RobotLibrary, robot: str) -> Array:
 
 
 def compare(
-    library: RobotLibrary, robot: str, links: dict[str, Any], made: Path
+    library: RobotLibrary, robot: str, links: dict[str, Any], made: Path, drawn: bool = False
 ) -> tuple[float, dict[str, tuple[float, float]]]:
-    """Return the overlap and, for each link, the distance and its bound, mm."""
+    """Return the overlap and, for each link, the distance and its bound, mm.
+
+    made: the robot's folder; drawn: what pages draw nearby instead of the meshes.
+    """
     truth = {name: solid(link) for name, link in links.items()}
     for mesh in truth.values():
         mesh.apply_scale(0.001)
-    ours = {name: body(made / f"{name}.glb") for name in links}
+    ours = {
+        name: drawn_body(made, name) if drawn else body(made / "meshes" / f"{name}.glb")
+        for name in links
+    }
     chain = library.model(robot).chain
     overlaps = []
     for pose in poses(library, robot):
@@ -171,13 +184,14 @@ def main() -> None:
     parser = argparse.ArgumentParser(description="Measure bodies against measured shapes.")
     parser.add_argument("--library", type=Path, default=ROOT / "robots", help="bodies to measure")
     parser.add_argument("--table", action="store_true", help="print rows of a page's table")
+    parser.add_argument("--drawn", action="store_true", help="what pages draw, not the meshes")
     parser.add_argument("ids", nargs="*", metavar="ID", help="robots; none: all with outlines")
     chosen = parser.parse_args()
     library = RobotLibrary(ROOT / "robots", ROOT / "robots" / "none imported")
     for robot in chosen.ids or kuka.ROBOTS:
-        tables = {link: measured.table(robot, link) for link in kuka.ROBOTS[robot]}
-        made = chosen.library / robot / "meshes"
-        overlap, links = compare(library, robot, tables, made)
+        tables = {link: measured.table(robot, link, chosen.drawn) for link in kuka.ROBOTS[robot]}
+        made = chosen.library / robot
+        overlap, links = compare(library, robot, tables, made, chosen.drawn)
         if chosen.table:
             values = " | ".join(f"{value:.0f}" for value, _ in links.values())
             print(f"| `{robot}` | {overlap:.3f} | {values} |", flush=True)

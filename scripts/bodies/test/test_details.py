@@ -8,11 +8,14 @@ from typing import Any
 import details
 import drawings
 import glb
+import levels
 import materials
 import numpy as np
 import pytest
+import trimesh
 import yaml
 from cutting import cut
+from housings import housings
 from markings import marked, markings, sense
 from materials import BLACK, ORANGE, STEEL
 from relief import grooved, lined, outline, places, screwed
@@ -115,6 +118,37 @@ def test_seams_and_screws_lie_on_the_surface() -> None:
     assert screwed([far], surface, Sky()) == []  # type: ignore[arg-type]
 
 
+@pytest.mark.parametrize("axis", "xyz")
+def test_a_housing_is_closed_and_has_fins_where_they_are_stated(axis: str) -> None:
+    square = [[-40, -40], [40, -40], [40, 40], [-40, 40]]
+    core = {"link": "a", "material": "black", "axis": axis, "ends": [0, 100], "outline": square}
+    fins = {**core, "ends": [10, 16], "count": 3, "pitch": 20, "corner": 8, "edge": 1}
+    table = {"housings": [core, fins]}
+    own = housings(table)["a"]
+    assert [len(own), len(housings(table, afar=True)["a"])] == [4, 1]
+    for number, (_, mesh) in enumerate(own):
+        solid = trimesh.Trimesh(mesh.vertices, mesh.faces)
+        solid.merge_vertices(merge_norm=True)
+        assert solid.is_watertight
+        assert solid.volume > 0.9 * np.prod(solid.extents)
+        corners = mesh.vertices[mesh.faces]
+        outward = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        assert ((outward[:, None] * mesh.normals[mesh.faces]).sum(axis=2) > 0).all()
+        start = 0.0 if number == 0 else 0.010 + (number - 1) * 0.020
+        assert solid.bounds[0]["xyz".index(axis)] == pytest.approx(start, abs=1e-4)
+
+
+def test_what_a_housing_encloses_is_not_drawn() -> None:
+    box = {"link": "a", "material": "black", "axis": "z", "ends": [0, 100]}
+    square = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
+    outer, inner = (
+        {**box, "outline": (40 * square).tolist()},
+        {**box, "ends": [20, 80], "outline": (20 * square).tolist()},
+    )
+    both = housings({"housings": [outer, inner]})["a"]
+    assert [mesh.faces.tolist() for _, mesh in levels.outer(both)] == [both[0][1].faces.tolist()]
+
+
 def test_a_groove_is_cut_where_it_is_stated() -> None:
     piece = flat(12)
     turned = Mesh(piece.mesh.vertices, piece.mesh.faces, piece.mesh.normals)
@@ -132,7 +166,7 @@ def test_tables_name_links_and_kinds_there_are(file: Path) -> None:
     (folder,) = (ROOT / "robots").glob(f"**/{file.stem}")
     links = {path.stem for path in (folder / "meshes").glob("*.glb")}
     table = details.table(file.stem)
-    assert set(table) <= {"markings", "seams", "screws", "clamps"}
+    assert set(table) <= {"markings", "seams", "screws", "clamps", "housings", "without"}
     assert {entry["link"] for entries in table.values() for entry in entries} <= links
     if not (folder / "robot.yaml").is_file():
         return

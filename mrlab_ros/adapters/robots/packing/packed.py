@@ -28,6 +28,16 @@ VERTICES, INDICES = 34962, 34963
 PACKING, SHORTS = "EXT_meshopt_compression", "KHR_mesh_quantization"
 # bytes of a vertex, padded to 4: position 3 x 16 bits, normal and light 3 x 8, texture 2 x 16
 STRIDE = 20
+VERTEX = np.dtype(
+    [
+        ("position", "<u2", 3),
+        ("pad", "<u2"),
+        ("normal", "i1", 3),
+        ("pad2", "i1"),
+        ("light", "u1", 4),
+        ("places", "<u2", 2),
+    ]
+)
 FINEST = 2e-5  # m, between two coordinates
 STEPS = 16383  # along the longest side; more bits pack worse and show nothing
 
@@ -282,17 +292,7 @@ def _ordered(rows: Array, faces: Faces) -> tuple[NDArray[Any], NDArray[Any], Arr
     """Return vertices and indices as they are stored, and the corner and step of their grid, m."""
     low = rows[:, :3].min(axis=0)
     step = max(float((rows[:, :3].max(axis=0) - low).max()) / STEPS, FINEST)
-    stored = np.zeros(
-        len(rows),
-        dtype=[
-            ("position", "<u2", 3),
-            ("pad", "<u2"),
-            ("normal", "i1", 3),
-            ("pad2", "i1"),
-            ("light", "u1", 4),
-            ("places", "<u2", 2),
-        ],
-    )
+    stored = np.zeros(len(rows), dtype=VERTEX)
     stored["position"] = np.round((rows[:, :3] - low) / step)
     stored["normal"] = np.round(rows[:, 3:6] * 127)
     stored["light"][:, :3] = np.round(rows[:, 6:7] * 255)
