@@ -311,7 +311,10 @@ def router(
 def who_has_it(keys: Keys) -> str:
     """Say when a change of the keys counts."""
     if (keys.folder / "router.json5").exists():
-        return f"{RUNNING} A router needs a new file: mrlab keys router --dir {keys.folder}"
+        again = (
+            f"mrlab keys router --dir {keys.folder}, with the other options that it was made with"
+        )
+        return f"{RUNNING} A router needs a new file: {again}"
     return RUNNING
 
 

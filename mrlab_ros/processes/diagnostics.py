@@ -16,6 +16,12 @@ NO_SUCH_PROCESS = Code(
     "Expected some of {known:list}, with commas between them.",
     page=False,
 )
+NOT_A_ROUTER = Code(
+    "not_a_router",
+    "In {path} zenoh's mode is {mode}; a router's is router.",
+    "Give the file that mrlab keys router writes.",
+    page=False,
+)
 DOMAIN_TAKEN = Code(
     "domain_taken",
     "A lab runs on ROS domain {domain:integer} already[ (process {pid:integer})].",

@@ -7,13 +7,15 @@ program. FILE: one of `mrlab keys router`, or any zenoh configuration in which m
 from __future__ import annotations
 
 import argparse
+import json
 import signal
 import sys
 from pathlib import Path
 
 from mrlab_ros.adapters.zenoh.configuration import configuration, log_logins
 from mrlab_ros.adapters.zenoh.session import ZenohSession
-from mrlab_ros.core.base.errors import LabError
+from mrlab_ros.core.base.errors import BadInput, LabError
+from mrlab_ros.processes.diagnostics import NOT_A_ROUTER
 
 STOPS = (signal.SIGINT, signal.SIGTERM)
 
@@ -27,7 +29,10 @@ def main() -> None:
     signal.pthread_sigmask(signal.SIG_BLOCK, STOPS)
     log_logins(passwords=False)
     try:
-        session = ZenohSession(configuration(file))
+        config = configuration(file)
+        if (mode := json.loads(config.get_json("mode"))) != "router":
+            raise BadInput(NOT_A_ROUTER(path=str(file), mode=mode or "peer"))
+        session = ZenohSession(config)
     except LabError as error:
         sys.exit(f"router: {error}")
     print(f"router: zenoh {session.zid} routes as {file} says; Ctrl-C stops it", flush=True)

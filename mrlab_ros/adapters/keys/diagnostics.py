@@ -79,6 +79,12 @@ HAS_KEY = Code(
     "Take that one back first.",
 )
 HAS_NO_KEY = Code("has_no_key", "{name} has no key in {folder}[; {known:list} have one].")
+CAMPUS_WITHOUT_LABS = Code(
+    "campus_without_labs",
+    "The keys in {folder} are those of a campus's router, for {labs:list}.",
+    "Name its labs, each with --lab, and its --prefix: a lab that is not named is locked out.",
+    page=False,
+)
 NO_HUB_FILE = Code(
     "no_hub_file",
     "{path} does not say how to connect to a campus's router: {why:problem}.",

@@ -28,6 +28,7 @@ from mrlab_ros.adapters.keys import certificates, people, zenoh_settings
 from mrlab_ros.adapters.keys.certificates import Signed
 from mrlab_ros.adapters.keys.diagnostics import (
     BAD_KEY_NAME,
+    CAMPUS_WITHOUT_LABS,
     FOLDER_NOT_EMPTY,
     HAS_NO_KEY,
     NEW_KEYS_NEEDED,
@@ -270,6 +271,9 @@ class Keys:
             raise Misuse(ROUTER_TAKES_CERTIFICATES(folder=folder, login=login, fixes=fixes))
         with self._alone():
             self.check(now)
+            if self._people.labs and not labs:
+                known = list(self._people.labs)
+                raise Misuse(CAMPUS_WITHOUT_LABS(folder=str(self.folder), labs=known))
             if labs:
                 return self._campus(rules, prefix, limits, labs, now)
             lab = f"lab.{secrets.token_hex(4)}"
@@ -302,12 +306,12 @@ class Keys:
         labs: Sequence[str],
         now: datetime,
     ) -> Path:
-        known = self._people.labs
-        self._people.labs = {}
-        (self.folder / "labs").mkdir(mode=0o700, exist_ok=True)
-        for name in dict.fromkeys(labs):
+        for name in labs:
             if not people.NAME.fullmatch(name):
                 raise BadInput(BAD_KEY_NAME(name=name, reserved=[NOBODY, GATEWAY]))
+        known, self._people.labs = self._people.labs, {}
+        (self.folder / "labs").mkdir(mode=0o700, exist_ok=True)
+        for name in dict.fromkeys(labs):
             entry = known.get(name)
             if entry is None or entry.expires <= now or not self.lab_file(name).exists():
                 entry = self._sign(name, list(Role)[-1], now, SERVER_LIFETIME, self.lab_file(name))

@@ -97,6 +97,8 @@ class Hub:
         try:
             text = file.read_text()
             said = json.loads("\n".join(x for x in text.splitlines() if not x.startswith("//")))
+            if said["mode"] != "client":
+                raise ValueError(f"its mode is {said['mode']}")
             tls = said["transport"]["link"]["tls"]
             endpoints = [str(each) for each in said["connect"]["endpoints"]]
             return cls(
@@ -108,7 +110,8 @@ class Hub:
                 role,
             )
         except (OSError, ValueError, KeyError, TypeError) as error:
-            why = of_text(f"{type(error).__name__}: {error}")
+            reason = getattr(error, "strerror", None) or f"{type(error).__name__}: {error}"
+            why = of_text(reason)
             raise BadInput(NO_HUB_FILE(path=str(file), why=why)) from error
 
     @property

@@ -23,6 +23,7 @@ from typer.testing import CliRunner
 from mrlab_ros.adapters.keys import certificates
 from mrlab_ros.adapters.keys.diagnostics import (
     BAD_KEY_NAME,
+    CAMPUS_WITHOUT_LABS,
     CERTIFICATE_EARLY,
     FOLDER_NOT_EMPTY,
     HAS_KEY,
@@ -590,6 +591,8 @@ def test_a_campus_locks_out_the_lab_that_it_names_no_more(tmp_path):
     file = keys.lab_file("north").read_text()
     assert known("north") == {"the lab campus/north": first["the lab campus/north"]}
     assert keys.lab_file("north").read_text() == file
+    with refused(CAMPUS_WITHOUT_LABS, Misuse, labs=["north"]):
+        known()
     again = known("north", "south")
     assert again["the lab campus/south"] != first["the lab campus/south"]
     with refused(BAD_KEY_NAME, BadInput):
