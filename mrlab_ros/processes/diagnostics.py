@@ -19,7 +19,7 @@ NO_SUCH_PROCESS = Code(
 NOT_A_ROUTER = Code(
     "not_a_router",
     "In {path} zenoh's mode is {mode}; a router's is router.",
-    "Give the file that mrlab keys router writes.",
+    "Give the file of a router.",
     page=False,
 )
 DOMAIN_TAKEN = Code(

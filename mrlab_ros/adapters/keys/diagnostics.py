@@ -82,7 +82,7 @@ HAS_NO_KEY = Code("has_no_key", "{name} has no key in {folder}[; {known:list} ha
 CAMPUS_WITHOUT_LABS = Code(
     "campus_without_labs",
     "The keys in {folder} are those of a campus's router, for {labs:list}.",
-    "Name its labs, each with --lab, and its --prefix: a lab that is not named is locked out.",
+    "Name all of its labs, and its prefix, again: a lab that is not named is locked out.",
     page=False,
 )
 NO_HUB_FILE = Code(

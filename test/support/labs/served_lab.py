@@ -127,6 +127,19 @@ def served_lab(folder: Path, *options: str) -> Iterator[ServedLab]:
 
 
 @contextmanager
+def second_gateway(lab: ServedLab, folder: Path) -> Iterator[str]:
+    """Run another gateway of a lab on the same state; yield its address."""
+    url = f"http://127.0.0.1:{free_port()}"
+    command = (
+        *(sys.executable, "-m", "mrlab_ros.gateway", "--http", url.removeprefix("http://")),
+        *("--zenoh", lab.zenoh, "--state-dir", str(lab.state)),
+    )
+    log = folder / "gateway.log"
+    with process(log, *command, env=lab.environment, ready=f"{url}/api/session"):
+        yield url
+
+
+@contextmanager
 def gateway_with_people(
     lab: ServedLab, folder: Path, port: int = 0, *options: str
 ) -> Iterator[Gateway]:
