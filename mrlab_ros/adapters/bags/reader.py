@@ -303,7 +303,7 @@ def list_in(folder: Path, bag: Path) -> None:
 
     Links to bags that are gone are removed.
     """
-    if bag.parent == folder:
+    if bag.parent.resolve() == folder.resolve():
         return
     with contextlib.suppress(OSError):
         folder.mkdir(parents=True, exist_ok=True)
