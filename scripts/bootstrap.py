@@ -7,6 +7,8 @@ network. Runs on any Python 3.6 or newer, before anything is installed.
 """
 
 import argparse
+import ast
+import contextlib
 import fcntl
 import hashlib
 import json
@@ -44,6 +46,17 @@ MOVED = "echo 'mrlab: this was set up in {} and moved or copied; set it up here:
 
 # How often a long step says that it still runs, s.
 PROGRESS_S = 15
+
+# What pip may be told, in a file or the environment, of where packages are: uv has other names.
+TOLD_TO_PIP = {
+    "index-url": "UV_DEFAULT_INDEX",
+    "extra-index-url": "UV_INDEX",
+    "find-links": "UV_FIND_LINKS",
+    "trusted-host": "UV_INSECURE_HOST",
+    "cert": "SSL_CERT_FILE",
+    "proxy": "ALL_PROXY",
+    "timeout": "UV_HTTP_TIMEOUT",
+}
 
 
 class SetupError(Exception):
@@ -93,6 +106,14 @@ def find_python():
     return complete[0]
 
 
+def pinned(package, lock):
+    """Return the lines of a lock file for one package, with its hashes."""
+    lines = lock.read_text().splitlines()
+    first = next(n for n, line in enumerate(lines) if line.startswith(package + "=="))
+    rest = (n for n, line in enumerate(lines) if n > first and not line.startswith(" "))
+    return "\n".join(lines[first : next(rest, len(lines))])
+
+
 def require_tools():
     for tool, package in (("gcc", "gcc"), ("g++", "g++"), ("make", "make")):
         if shutil.which(tool) is None:
@@ -123,7 +144,7 @@ def run(command, **kwargs):
 
     Where set-up is ended the command ends too, with all that it has started.
     """
-    log = STAMPS / "last-command.log"
+    log = STAMPS / "last-{}.log".format(Path(str(command[0])).name)
     with log.open("wb") as out:
         begin = time.monotonic()
         process = subprocess.Popen(
@@ -159,6 +180,34 @@ def wait(process, begin):
             say("  ... {:.0f} s".format(time.monotonic() - begin))
 
 
+@contextlib.contextmanager
+def beside(work):
+    """Do `work` in a process of its own beside the block, and end it where the block fails."""
+    sys.stdout.flush()
+    child = os.fork()
+    if not child:
+        code = 1
+        try:
+            work()
+            code = 0
+        except SetupError as error:
+            sys.stderr.write("setup: {}\n".format(error))
+        except KeyboardInterrupt:
+            pass
+        finally:
+            sys.stdout.flush()
+            sys.stderr.flush()
+            os._exit(code)
+    try:
+        yield
+    except BaseException:
+        os.kill(child, signal.SIGTERM)
+        os.waitpid(child, 0)
+        raise
+    if os.waitpid(child, 0)[1]:
+        sys.exit(1)
+
+
 class Setup:
     """The steps, in order; each is a method that does the work, run only when stale."""
 
@@ -186,7 +235,7 @@ class Setup:
         action()
         STAMPS.mkdir(parents=True, exist_ok=True)
         stamp.write_text(mark)
-        say("  done in {:.0f} s".format(time.monotonic() - begin))
+        say("  {}: done in {:.0f} s".format(name, time.monotonic() - begin))
 
     def all(self):
         locks = [ROOT / "requirements.lock"]
@@ -199,12 +248,14 @@ class Setup:
             self.make_venv,
             "making .venv with Python " + self.python["version"],
         )
+        uv = pinned("uv", locks[0])
+        self.step("uv", fingerprint(uv, *python), lambda: self.pip(uv), "installing uv")
         for lock in locks:
             self.step(
                 lock.name,
                 fingerprint(lock, *python),
                 lambda lock=lock: self.install(lock),
-                "installing {} (about a minute)".format(lock.name),
+                "installing {}".format(lock.name),
             )
         self.step(
             "patch",
@@ -213,13 +264,30 @@ class Setup:
             "pointing the ROS build files at this Python",
         )
         sources = sorted(ROOT.joinpath("msg_schemas").rglob("*.*"))
+        # The messages take longest, and both cores only now and then.
+        with beside(lambda: self.in_the_meantime(locks, python)):
+            self.step(
+                "messages",
+                fingerprint(locks[0], *python, *filter(Path.is_file, sources)),
+                lambda: self.colcon(*MESSAGES),
+                "building the ROS messages (about a minute)",
+                INSTALL / MESSAGES[0],
+            )
         self.step(
-            "messages",
-            fingerprint(locks[0], *python, *filter(Path.is_file, sources)),
-            lambda: self.colcon(*MESSAGES),
-            "building the ROS messages (about a minute)",
-            INSTALL / MESSAGES[0],
+            "package",
+            fingerprint(ROOT / "setup.py", ROOT / "package.xml", *python, self.data_files()),
+            lambda: self.colcon("mrlab_ros"),
+            "building the ROS package",
+            INSTALL / "mrlab_ros",
         )
+        self.step(
+            "environment",
+            fingerprint(Path(__file__).resolve(), *python),
+            self.environment,
+            "writing .venv/mrlab.sh and .venv/bin/mrlab",
+        )
+
+    def in_the_meantime(self, locks, python):
         web = ROOT / "web"
         self.step(
             "web",
@@ -237,17 +305,7 @@ class Setup:
             web / "dist" / "index.html",
         )
         self.step(
-            "package",
-            fingerprint(ROOT / "setup.py", ROOT / "package.xml", *python, self.data_files()),
-            lambda: self.colcon("mrlab_ros"),
-            "building the ROS package",
-            INSTALL / "mrlab_ros",
-        )
-        self.step(
-            "environment",
-            fingerprint(Path(__file__).resolve(), *python),
-            self.environment,
-            "writing .venv/mrlab.sh and .venv/bin/mrlab",
+            "bytecode", fingerprint(*locks, *python), self.compile, "compiling the wheels' Python"
         )
 
     def data_files(self):
@@ -283,29 +341,47 @@ class Setup:
         # colcon looks for packages below the workspace; the venv holds none of ours.
         (VENV / "COLCON_IGNORE").touch()
 
+    def pip(self, requirements):
+        """Install a part of a lock file, which is complete, by pip."""
+        named = STAMPS / "requirements.txt"
+        named.write_text(requirements)
+        pip = [str(self.venv_python), "-m", "pip", "--disable-pip-version-check", "install"]
+        run([*pip, "--no-cache-dir", "--require-hashes", "--no-deps", "-r", str(named)])
+
     def install(self, lock):
-        # A lock file is complete. Resolved again, `coverage[toml]` of pytest-cov meets the newest
-        # release instead of the locked one, which pip refuses as it has no hash.
-        # empy is published as source only.
+        """Install a lock file by uv: many files at once, in a fraction of pip's time."""
+        told = self.told_to_pip()
+        # As pip does: trust the machine's certificates, and take a version from wherever it is.
+        env = {"UV_SYSTEM_CERTS": "1", "UV_INDEX_STRATEGY": "unsafe-best-match"}
+        env.update((TOLD_TO_PIP[key], told[key]) for key in TOLD_TO_PIP if key in told)
         # The cache lets an interrupted download resume; afterwards it is only weight.
         cache = VENV / ".cache"
-        env = dict(os.environ, PIP_CACHE_DIR=str(cache), PIP_DISABLE_PIP_VERSION_CHECK="1")
-        run(
-            [
-                str(self.venv_python),
-                "-m",
-                "pip",
-                "install",
-                "--no-deps",
-                "--require-hashes",
-                "--only-binary=:all:",
-                "--no-binary=empy",
-                "-r",
-                str(lock),
-            ],
-            env=env,
-        )
+        uv = [str(VENV / "bin" / "uv"), "pip", "install", "--python", str(self.venv_python)]
+        # A lock file is complete. empy is published as source only.
+        how = ["--no-deps", "--require-hashes", "--only-binary=:all:", "--no-binary=empy"]
+        if told.get("no-index", "false").lower() in ("true", "1", "yes", "on"):
+            how.append("--no-index")
+        run([*uv, *how, "-r", str(lock)], env=dict(env, **os.environ, UV_CACHE_DIR=str(cache)))
         shutil.rmtree(str(cache), ignore_errors=True)
+
+    def told_to_pip(self):
+        """Return what pip is told by its files and the environment, by option."""
+        command = [str(self.venv_python), "-m", "pip", "config", "list"]
+        told = {}
+        listed = subprocess.run(command, stdout=subprocess.PIPE, check=True).stdout.decode()
+        for line in listed.splitlines():
+            key, _, value = line.partition("=")
+            option = key.rpartition(".")[2]
+            separator = "," if option == "find-links" else " "
+            told[option] = separator.join(ast.literal_eval(value).split())
+        return told
+
+    def compile(self):
+        """Compile what was installed, so that not each first start of a process does it."""
+        python = [str(self.venv_python), "-m", "compileall", "-q", "-x", r"/tests?/"]
+        # Some packages ship files for other versions of Python.
+        with contextlib.suppress(SetupError):
+            run([*python, str(self.site)])
 
     def patch(self):
         """Rewrite the wheel builder's Python paths in the installed CMake files."""

@@ -124,6 +124,44 @@ def test_what_is_cut_off_leaves_no_stamp_and_is_built_anew(
     assert (stamps / "messages").read_text() == "now"
 
 
+def test_uv_finds_packages_where_pip_is_told_to(
+    clone: Path, bootstrap: ModuleType, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (clone / ".venv" / ".mrlab").mkdir()
+    python, asked = clone / ".venv" / "bin" / "python", clone / "asked"
+    options = {
+        "global.index-url": "https://packages.example.org/simple",
+        ":env:.find-links": "/wheels\n/more",
+        "global.no-index": "true",
+        "user.progress-bar": "off",
+    }
+    listed = clone / "listed"
+    listed.write_text("".join(f"{key}={value!r}\n" for key, value in options.items()))
+    python.write_text(f"#!/bin/sh\ncat '{listed}'\n")
+    uv = python.with_name("uv")
+    uv.write_text(f"#!/bin/sh\n(echo $UV_DEFAULT_INDEX $UV_FIND_LINKS; echo $@) > '{asked}'\n")
+    uv.chmod(0o755)
+    monkeypatch.delenv("UV_FIND_LINKS", raising=False)
+    setup = object.__new__(bootstrap.Setup)
+    setup.venv_python = python
+    setup.install(clone / "a.lock")
+    where, words = asked.read_text().splitlines()
+    assert where == "https://packages.example.org/simple /wheels,/more"
+    assert {"--require-hashes", "--no-index"} <= {*words.split()}
+    assert words.endswith(f"-r {clone / 'a.lock'}")
+
+
+def test_what_is_done_beside_fails_as_a_whole(bootstrap: ModuleType, tmp_path: Path) -> None:
+    def fails() -> None:
+        raise bootstrap.SetupError("no network")
+
+    with pytest.raises(SystemExit), bootstrap.beside(fails):
+        pass
+    with bootstrap.beside((tmp_path / "made").touch):
+        pass
+    assert (tmp_path / "made").exists()
+
+
 def test_a_set_up_that_is_ended_ends_what_it_started(
     clone: Path, bootstrap: ModuleType, monkeypatch: pytest.MonkeyPatch
 ) -> None:
