@@ -443,6 +443,9 @@ class Setup:
                 "--packages-select",
                 *packages,
                 "--symlink-install",
+                # All at once: the largest would begin last.
+                "--parallel-workers",
+                str(len(packages)),
                 "--cmake-args",
                 "-DCMAKE_BUILD_TYPE=Release",
                 # Generated code: optimising it further takes longer than it ever saves.
@@ -453,7 +456,8 @@ class Setup:
                 "-DPython3_EXECUTABLE=" + str(self.venv_python),
             ],
             cwd=str(ROOT),
-            env=self.env(),
+            # colcon would have make wait on a machine that is busy, as it is with the pages.
+            env=dict(self.env(), MAKEFLAGS="-j{}".format(os.cpu_count() or 1)),
         )
 
     def npm(self, *arguments):
