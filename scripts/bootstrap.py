@@ -265,7 +265,7 @@ class Setup:
         )
         sources = sorted(ROOT.joinpath("msg_schemas").rglob("*.*"))
         # The messages take longest, and both cores only now and then.
-        with beside(lambda: self.in_the_meantime(locks, python)):
+        with beside(lambda: self.in_the_meantime(locks[0], python)):
             self.step(
                 "messages",
                 fingerprint(locks[0], *python, *filter(Path.is_file, sources)),
@@ -287,11 +287,11 @@ class Setup:
             "writing .venv/mrlab.sh and .venv/bin/mrlab",
         )
 
-    def in_the_meantime(self, locks, python):
+    def in_the_meantime(self, lock, python):
         web = ROOT / "web"
         self.step(
             "web",
-            fingerprint(locks[0], web / "package-lock.json", *python),
+            fingerprint(lock, web / "package-lock.json", *python),
             self.web_packages,
             "installing what builds the pages (200 MB)",
             web / "node_modules",
@@ -305,7 +305,7 @@ class Setup:
             web / "dist" / "index.html",
         )
         self.step(
-            "bytecode", fingerprint(*locks, *python), self.compile, "compiling the wheels' Python"
+            "bytecode", fingerprint(lock, *python), self.compile, "compiling the wheels' Python"
         )
 
     def data_files(self):
