@@ -171,12 +171,24 @@ def run(command, **kwargs):
         )
 
 
+# The process of work that is done beside a step.
+BESIDE = []
+
+
 def wait(process, begin):
-    """Return the exit code of a step's command; say every 15 s that it still runs."""
+    """Return the exit code of a step's command; say every 15 s that it still runs.
+
+    What is done beside it and has failed ends it: set-up would only fail later.
+    """
+    look = os.WEXITED | os.WNOHANG | os.WNOWAIT
     while True:
         try:
             return process.wait(timeout=PROGRESS_S)
         except subprocess.TimeoutExpired:
+            for child in BESIDE:
+                ended = os.waitid(os.P_PID, child, look)
+                if ended and ended.si_status:
+                    sys.exit(1)
             say("  ... {:.0f} s".format(time.monotonic() - begin))
 
 
@@ -198,12 +210,15 @@ def beside(work):
             sys.stdout.flush()
             sys.stderr.flush()
             os._exit(code)
+    BESIDE.append(child)
     try:
         yield
     except BaseException:
         os.kill(child, signal.SIGTERM)
         os.waitpid(child, 0)
         raise
+    finally:
+        BESIDE.remove(child)
     if os.waitpid(child, 0)[1]:
         sys.exit(1)
 

@@ -151,10 +151,17 @@ def test_uv_finds_packages_where_pip_is_told_to(
     assert words.endswith(f"-r {clone / 'a.lock'}")
 
 
-def test_what_is_done_beside_fails_as_a_whole(bootstrap: ModuleType, tmp_path: Path) -> None:
+def test_what_is_done_beside_fails_as_a_whole(
+    clone: Path, bootstrap: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (clone / ".venv" / ".mrlab").mkdir()
+
     def fails() -> None:
         raise bootstrap.SetupError("no network")
 
+    monkeypatch.setattr(bootstrap, "PROGRESS_S", 0.1)
+    with pytest.raises(SystemExit), bootstrap.beside(fails):
+        bootstrap.run(["sleep", "600"])
     with pytest.raises(SystemExit), bootstrap.beside(fails):
         pass
     with bootstrap.beside((tmp_path / "made").touch):
