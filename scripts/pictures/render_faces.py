@@ -74,7 +74,8 @@ def robots(page: Faces) -> Image.Image:
         page.show([{"id": name}])
         seen = []
         for eyes, at in DISTANCES:
-            picture = page.look([reach * v for v in eyes], [reach * v for v in at], 34)
+            for _ in range(2):  # until no level dissolves into the other
+                picture = page.look([reach * v for v in eyes], [reach * v for v in at], 34)
             seen.append(picture.resize((600, 400), Image.Resampling.LANCZOS))
         rows.append(_beside(seen))
     whole = Image.new("RGB", (rows[0].width, sum(row.height for row in rows)))

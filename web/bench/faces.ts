@@ -29,7 +29,7 @@ interface Cost {
 
 /** A stage gives a picture fewer pixels where it draws slowly. */
 interface Sharp {
-  setSharpness(share: number): void
+  setPixels(share: number): void
 }
 
 declare global {
@@ -76,7 +76,7 @@ window.look = async ({ eyes, at, angle }) => {
   controls.target.copy(world.localToWorld(new Vector3(...at)))
   controls.update()
   await new Promise(requestAnimationFrame)
-  if (stage instanceof Stage) (stage as unknown as Sharp).setSharpness(1)
+  if (stage instanceof Stage) (stage as unknown as Sharp).setPixels(1)
   world.updateMatrixWorld(true)
   scene.update()
   if (stage instanceof Stage) return stage.picture()
