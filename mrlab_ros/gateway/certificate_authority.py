@@ -1,13 +1,14 @@
-"""The lab's own authority over HTTP: its certificate, and how a browser comes to trust it."""
+"""The lab's own authority over HTTP: its certificate, and how a browser comes to trust it.
+
+What reads certificates is imported by the first request: most labs have no authority.
+"""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-from cryptography.hazmat.primitives.serialization import Encoding
 from fastapi import APIRouter, Request, Response
 
-from mrlab_ros.adapters.keys import certificates
 from mrlab_ros.core.base.foreign_text import for_html
 from mrlab_ros.gateway.diagnostics import NO_AUTHORITY
 from mrlab_ros.gateway.errors import NotFound
@@ -81,6 +82,8 @@ def authority_file(settings: Settings) -> Path:
 @router.get("/ca")
 def page(request: Request) -> Response:
     """Say how to trust this lab's authority."""
+    from mrlab_ros.adapters.keys import certificates
+
     found = certificates.read_certificate(authority_file(request.app.state.settings))
     shown = certificates.fingerprint(found)
     text = PAGE.format(
@@ -101,5 +104,9 @@ def style() -> Response:
 @router.get("/ca.pem")
 def certificate(request: Request) -> Response:
     """Send the authority's certificate; no key is in it."""
-    found = certificates.read_certificate(authority_file(request.app.state.settings))
+    from cryptography.hazmat.primitives.serialization import Encoding
+
+    from mrlab_ros.adapters.keys.certificates import read_certificate
+
+    found = read_certificate(authority_file(request.app.state.settings))
     return Response(found.public_bytes(Encoding.PEM), media_type="application/x-x509-ca-cert")

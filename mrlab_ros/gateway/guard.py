@@ -17,7 +17,6 @@ from dataclasses import dataclass
 from starlette.datastructures import Headers, MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from mrlab_ros.adapters.keys import certificates
 from mrlab_ros.core.base.diagnostic import Diagnostic
 from mrlab_ros.gateway.diagnostics import WRONG_CSRF, WRONG_HOST, WRONG_ORIGIN
 from mrlab_ros.gateway.errors import problem
@@ -45,6 +44,8 @@ class Hosts:
             names.add(url.hostname or "")
             origin = f"{url.scheme}://{url.netloc}"
         if settings.https:
+            from mrlab_ros.adapters.keys import certificates  # only what has one needs it
+
             found = certificates.read_certificate(settings.certificate_file)
             names.update(host.lower() for host in certificates.hosts(found))
         beyond = not is_loopback(settings.host)

@@ -18,14 +18,15 @@ from mrlab_ros.core.runtime.process_states import ProcessState
 class Announcer:
     """A hidden node that publishes /processes; it has no executor, since it receives nothing.
 
-    lab: its id. What is announced before open() is published by that.
+    lab: its id. What is announced before open() is published by that. context: of its node, once
+    it is open; others of the supervisor share it, as each would be one more participant.
     """
 
     def __init__(self, lab: str) -> None:
         self._lab = lab
         self._lock = threading.Lock()
         self._states: Sequence[ProcessState] = ()
-        self._context: Any = None
+        self.context: Any = None
         self._node: Any = None
         self._topic: Any = None
 
@@ -43,10 +44,10 @@ class Announcer:
         from mrlab_ros.messages import qos
         from mrlab_ros.ros.node import HiddenNode
 
-        self._context = Context()
+        self.context = Context()
         no_signals = SignalHandlerOptions.NO
-        rclpy.init(args=[], context=self._context, signal_handler_options=no_signals)
-        self._node = HiddenNode(f"_supervisor_{os.getpid()}", self._context, remapped=True)
+        rclpy.init(args=[], context=self.context, signal_handler_options=no_signals)
+        self._node = HiddenNode(f"_supervisor_{os.getpid()}", self.context, remapped=True)
         with self._lock:
             self._topic = self._node.create_publisher(LabProcesses, "/processes", qos.LATCHED)
         self.announce(self._states)
@@ -67,4 +68,4 @@ class Announcer:
             self._topic = None
         if self._node is not None:
             self._node.destroy_node()
-            self._context.try_shutdown()
+            self.context.try_shutdown()

@@ -80,21 +80,14 @@ class _Ear:
 class Graph(GraphClient):
     """A node of its own in the graph, which discovery takes a second or more to connect."""
 
-    def __init__(self, domain: int | None = None) -> None:
-        """domain: the ROS domain; None: that of this process's environment."""
+    def __init__(self, domain: int | None = None, context: Context | None = None) -> None:
+        """domain: the ROS domain; None: that of this process's environment.
+
+        context: one of this domain to be in, which stays; None: one of its own.
+        """
         self.domain = domain_id() if domain is None else domain
-        environment.prepare()
-        self._context = Context()
-        try:
-            rclpy.init(
-                args=[],
-                context=self._context,
-                domain_id=self.domain,
-                signal_handler_options=SignalHandlerOptions.NO,
-            )
-        except rclpy_implementation.RCLError:
-            environment.check_log_folder()
-            raise
+        self._own = context is None
+        self._context = self._joined() if context is None else context
         self.node: Node = HiddenNode("_mrlab_command", self._context, remapped=True)
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self.node)
@@ -104,6 +97,21 @@ class Graph(GraphClient):
         self._end = self.node.create_guard_condition(lambda: None)
         self._thread = threads.loop("graph", self._spin, self._context.ok)
         self._thread.start()
+
+    def _joined(self) -> Context:
+        environment.prepare()
+        context = Context()
+        try:
+            rclpy.init(
+                args=[],
+                context=context,
+                domain_id=self.domain,
+                signal_handler_options=SignalHandlerOptions.NO,
+            )
+        except rclpy_implementation.RCLError:
+            environment.check_log_folder()
+            raise
+        return context
 
     def _spin(self) -> None:
         try:
@@ -120,7 +128,8 @@ class Graph(GraphClient):
         self._thread.join(CLOSE_TIMEOUT_S)
         self._executor.shutdown(timeout_sec=1.0)
         self.node.destroy_node()
-        self._context.try_shutdown()
+        if self._own:
+            self._context.try_shutdown()
 
     def subscribe(
         self, kind: type[T], topic: str, callback: Callable[[T], None], quality: QoSProfile

@@ -7,7 +7,6 @@ from typing import Annotated
 
 import typer
 
-from mrlab_ros.adapters.store.objects import open_store
 from mrlab_ros.commands.up.keys import (
     asks_for_passwords,
     checked_listen,
@@ -206,4 +205,8 @@ def up(
 
 def checked_store(place: str) -> str:
     """Return the store's URL or its folder's whole path; raise BadInput for one of no use."""
-    return open_store(place).place if place else ""
+    if not place:
+        return ""
+    from mrlab_ros.adapters.store.objects import open_store
+
+    return open_store(place).place

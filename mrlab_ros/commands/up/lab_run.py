@@ -49,6 +49,7 @@ class LabRun:
         self._keys = self.options.keys if self.options.bridge else None
         self._web = {} if self.options.web is None else run_facts(self.options)
         self._begin = 0.0
+        self._late: threading.Thread | None = None
         self._identity = Identity(self.options.lab_id, lambda said: self.say(SELF, str(said)))
 
     def keep(self, run_file: RunFile, domain: int) -> None:
@@ -65,7 +66,7 @@ class LabRun:
             self.say(SELF, f"{run_file.not_usual}; {run_file.folder} is used instead")
         self._begin = time.monotonic()
         refusals = Refusals(self.stop)
-        announcer = Announcer(self.options.lab_id)
+        self._announcer = announcer = Announcer(self.options.lab_id)
 
         def changed(states: list[ProcessState]) -> None:
             announcer.announce(states)
@@ -88,6 +89,9 @@ class LabRun:
                 refusals.raise_any()
                 self.say(SELF, "stops")
         finally:
+            if self._late is not None:  # it is in the announcer's graph
+                self.stop.set()
+                self._late.join()
             announcer.close()
             run_file.release()
 
@@ -124,7 +128,7 @@ class LabRun:
 
         answers = gateway_answers(self._web["here"]) if self._web else None
         nodes, robots = lab_nodes(self.options), len(self.options.robots)
-        with Graph() as graph:
+        with Graph(context=self._announcer.context) as graph:
             return Readiness(graph, nodes, robots, self._identity).wait(self.stop, answers)
 
     def _say_ready_or_wait(self, missing: str) -> None:
@@ -139,9 +143,8 @@ class LabRun:
         if self._web and not self.stop.is_set():
             say_where(self._web, self.say)
         if missing:
-            late = threads.loop("follow_late", self._follow_late)
-            late.daemon = False  # its node is closed before the interpreter ends
-            late.start()
+            self._late = threads.loop("follow_late", self._follow_late)
+            self._late.start()
 
     def _say_ready(self) -> None:
         if self.stop.is_set():

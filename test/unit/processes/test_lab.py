@@ -553,7 +553,8 @@ def test_processes_at_rest_have_imported_no_reader_of_meshes_files_or_pages() ->
         "from mrlab_ros.processes.lab import NODES\n"
         "for entry in NODES.values(): importlib.import_module(entry.module)\n"
         "import mrlab_ros.gateway.app\n"
-        "names = ('trimesh', 'scipy', 'PIL', 'matplotlib', 'h5py', 'httpx', 'rosbags.rosbag2')\n"
+        "names = ('trimesh', 'scipy', 'PIL', 'matplotlib', 'h5py', 'httpx', 'rosbags.rosbag2',"
+        " 'cryptography')\n"
         "print([name for name in names if name in sys.modules])"
     )
     done = subprocess.run(
