@@ -8,6 +8,8 @@ import { shortName } from './catalogue'
 import { type Deviation, delayOf, largestDeviation } from './deviation'
 
 const DEGREES = 180 / Math.PI
+/** What reads as 0.00, in degrees or mm: the same motion at another rate. */
+const LEAST_SHOWN = 0.005
 /** Share of their deviation that is left of motions that are alike but for a delay. */
 const ALIKE = 0.5
 
@@ -19,22 +21,22 @@ interface ComparisonProps {
   onClose: () => void
 }
 
-function inWords(motion: MotionDocument, otherMotion: MotionDocument): string {
+/** Return what is said of two motions. */
+export function inWords(motion: MotionDocument, otherMotion: MotionDocument): string {
   const w = words.value.trajectories
   const { joints } = motion.robot
   if (!sameJoints(motion, otherMotion))
     return w.otherJoints(motion.robot.model, otherMotion.robot.model)
   const [course, other] = [courseOf(motion), courseOf(otherMotion)]
-  const inText = ({ joint: place, amount, time, row }: Deviation) => {
-    const joint = joints[place]
-    const far =
-      joint?.kind === 'prismatic'
-        ? `${number(amount * 1000, 2)} mm`
-        : `${number(amount * DEGREES, 2)}°`
-    return w.deviation(jointName(joint?.name ?? '', place), far, number(time, 2), row)
+  const far = ({ joint, amount }: Deviation): [number, string] =>
+    joints[joint]?.kind === 'prismatic' ? [amount * 1000, ' mm'] : [amount * DEGREES, '°']
+  const inText = (found: Deviation) => {
+    const [amount, unit] = far(found)
+    const name = jointName(joints[found.joint]?.name ?? '', found.joint)
+    return w.deviation(name, `${number(amount, 2)}${unit}`, number(found.time, 2), found.row)
   }
   const largest = largestDeviation(course, other)
-  if (largest === null) return w.same
+  if (largest === null || far(largest)[0] < LEAST_SHOWN) return w.same
   const delay = delayOf(course, other)
   const left = largestDeviation(course, other, delay)
   // A measured motion begins when somebody began to capture it.
