@@ -16,6 +16,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -41,6 +42,7 @@ FLAGS = ("--no-sandbox", "--enable-unsafe-swiftshader", "--use-angle=swiftshader
 # Width and height of the window, px, and how many pixels of the picture one of them is.
 SIZES = {"desktop": (1280, 860, 1.0), "phone": (390, 844, 1.5)}
 THEMES = ("light", "dark")
+LOCALES = ("en-GB", "de-DE")
 QUALITY = 82
 # Of a clip: the window, and the pixels of the file.
 CLIP_SIZE = {"width": 1100, "height": 620}
@@ -236,7 +238,7 @@ def picture(page: Page) -> Image.Image:
 
 def take_clip(browser: Browser, stage: Stage, cookies: Path) -> None:
     """Write the clip of the first tutorial in the languages that it has."""
-    for locale in ("en-GB", "de-DE"):
+    for locale in LOCALES:
         context = browser.new_context(
             viewport=CLIP_SIZE, locale=locale, reduced_motion="reduce", storage_state=cookies
         )
@@ -279,10 +281,12 @@ def take(browsers: tuple[Browser, Browser], stage: Stage, cookies: Path, names: 
             context.close()
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("pages", nargs="*", metavar="page", help=", ".join([*PAGES, "clip"]))
-    names = parser.parse_args().pages or [*PAGES, "clip"]
+@contextmanager
+def staged(*options: str) -> Iterator[tuple[tuple[Browser, Browser], Stage, Path]]:
+    """Start a lab and let the teacher in; yield browsers without and with 3D, and the cookies.
+
+    options: of the gateway.
+    """
     expect.set_options(timeout=PATIENCE_MS)
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
         place = Path(folder)
@@ -293,7 +297,7 @@ def main() -> None:
         drawing = playwright.chromium.launch(executable_path=chromium, args=FLAGS)
         with (
             served_lab(place / "lab") as there,
-            gateway_with_people(there, place / "gateway") as gateway,
+            gateway_with_people(there, place / "gateway", 0, *options) as gateway,
         ):
             stage = Stage(there, gateway, place / "files")
             context = plain.new_context(locale="en-GB")
@@ -301,11 +305,19 @@ def main() -> None:
             cookies = place / "cookies.json"
             context.storage_state(path=cookies)
             context.close()
-            take((plain, drawing), stage, cookies, [name for name in names if name != "clip"])
-            if "clip" in names:
-                take_clip(drawing, stage, cookies)
+            yield (plain, drawing), stage, cookies
         plain.close()
         drawing.close()
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("pages", nargs="*", metavar="page", help=", ".join([*PAGES, "clip"]))
+    names = parser.parse_args().pages or [*PAGES, "clip"]
+    with staged() as (browsers, stage, cookies):
+        take(browsers, stage, cookies, [name for name in names if name != "clip"])
+        if "clip" in names:
+            take_clip(browsers[1], stage, cookies)
 
 
 if __name__ == "__main__":
