@@ -166,6 +166,17 @@ def _range(
     rows = np.flatnonzero((q < lower) | (q > upper))
     place = f"q(:, {column + 1})"
     look = f"find({place} < {joint.lower:.6g} | {place} > {joint.upper:.6g})"
+    fixes = [Fix(matlab=look)]
+    # a motion that begins inside and has no jump fits when it is made smaller
+    begin, reach = float(q[0]), joint.max_velocity / frame_rate
+    if joint.lower < begin < joint.upper and float(np.abs(np.diff(q)).max()) <= reach:
+        part = min(
+            (joint.upper - begin) / max(high - begin, joint.upper - begin),
+            (begin - joint.lower) / max(begin - low, begin - joint.lower),
+        )
+        smaller = f"q(1, {column + 1})"
+        line = f"{place} = {smaller} + {math.floor(part * 100) / 100:g} * ({place} - {smaller});"
+        fixes.insert(0, Fix(matlab=line))
     return [
         JOINT_LIMIT(
             variable=variable,
@@ -180,7 +191,7 @@ def _range(
             value=float(q[frame]),
             limit=joint.upper if q[frame] > upper else joint.lower,
             unit="rad",
-            fixes=(Fix(matlab=look),),
+            fixes=tuple(fixes),
         )
     ]
 
