@@ -114,6 +114,7 @@ ROUTES: Mapping[tuple[str, str], Everybody | Role | Need] = {
     ("POST", "/api/checks"): DRIVES,
     ("GET", "/api/checks"): READS,
     ("DELETE", "/api/checks"): DRIVES,
+    ("GET", "/api/checks/drafts/{draft}"): CONVERTS_OWN,
     ("GET", "/assets/{path:path}"): Need(Verb.RECEIVE, "assets"),
     ("HEAD", "/assets/{path:path}"): Need(Verb.RECEIVE, "assets"),
     # The socket itself checks the rights of the keys that it is asked for.

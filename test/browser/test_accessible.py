@@ -71,7 +71,7 @@ def test_a_robot_is_played_and_paused_by_keyboard(page: Page, lab: ServedLab) ->
     for _ in range(40):
         page.keyboard.press("Tab")
         name = page.evaluate(
-            "document.activeElement.ariaLabel || document.activeElement.textContent.trim()"
+            "document.activeElement.title || document.activeElement.textContent.trim()"
         )
         reached.append(name)
         if name == "Play":

@@ -2,6 +2,7 @@ import { type Api, ApiError } from '../src/api/api'
 import type {
   Candidate,
   Check,
+  CheckFinding,
   Conversion,
   ConversionRequest,
   Device,
@@ -218,6 +219,7 @@ export class FakeApi implements Api {
   #live: Live | null = null
   readonly #waiting = new Set<() => void>()
   readonly #deleted = new Map<string, TrajectoryInfo>()
+  touched: readonly CheckFinding[] = []
   readonly checks = new Map<string, Check>()
   #people: Person[] = [
     { name: 'ada', role: 'instructor', signs_in: 'password' },
@@ -414,6 +416,9 @@ export class FakeApi implements Api {
   async startCheck(robot: string, trajectory: string): Promise<Check> {
     this.checks.set(`${robot} ${trajectory}`, { ...FOUND_CHECK, robot, trajectory })
     return { ...NO_CHECK, state: 'running', robot, trajectory }
+  }
+  async touches(): Promise<readonly CheckFinding[]> {
+    return this.touched
   }
   async cancelCheck(robot: string, trajectory: string): Promise<void> {
     this.checks.delete(`${robot} ${trajectory}`)

@@ -53,6 +53,7 @@ export function fakeMotion({
     message,
     robot: {
       model: 'ur5e',
+      product: 'UR5e',
       end_effector: '',
       urdf: '<robot name="ur5e"/>',
       joints: NAMES.map((name, j) => ({

@@ -18,6 +18,7 @@ from __future__ import annotations
 import math
 import xml.etree.ElementTree as ET
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -395,9 +396,11 @@ def joints_to(root: ET.Element, tip: str, origin: str) -> tuple[ShownJoint, ...]
 
 def from_library(library: RobotLibrary, model: str, end_effector: str | None) -> ShownRobot:
     """Return a robot of the library; raise BadInput for an unknown id."""
-    tip = str(library.facts(model).get("tip_link", TIP))
+    facts = library.facts(model)
     description = library.description(model, end_effector)
-    return shown_robot(model, end_effector or "", description, tip)
+    tip = str(facts.get("tip_link", TIP))
+    shown = shown_robot(model, end_effector or "", description, tip)
+    return replace(shown, product=str(facts["product"]))
 
 
 def _joint(joint: urdf.UrdfJoint) -> ShownJoint:

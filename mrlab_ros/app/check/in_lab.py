@@ -51,6 +51,7 @@ from mrlab_ros.core.checking.diagnostics import (
 from mrlab_ros.core.checking.rehearsal import Actor
 from mrlab_ros.core.conversion.convert import ConversionResult, Outcome
 from mrlab_ros.core.scene.document import SceneDocument
+from mrlab_ros.core.trajectory.trajectory import Trajectory
 
 GiB = 1 << 30
 MEMORY = 4 * GiB  # of the address space, bytes
@@ -62,11 +63,11 @@ LONGEST_S = 600.0  # of a motion, s
 
 @dataclass(frozen=True, eq=False)
 class Task:
-    """A request. share: the package's folder. file: the trajectory, as the store keeps it;
-    trajectory: its id. robot: the robot of the scene that plays it."""
+    """A request. share: the package's folder. motion: the trajectory, or its file as the store
+    keeps it; trajectory: its id. robot: the robot of the scene that plays it."""
 
     share: Path
-    file: Path
+    motion: Path | Trajectory
     trajectory: str
     robot: str
     scene: LabScene
@@ -74,7 +75,8 @@ class Task:
 
 def check(task: Task) -> dict[str, Any]:
     """Return the report, as JSON has it; raise LabError where it cannot be checked."""
-    t = replace(npz_file.read(task.file), id=task.trajectory)
+    loaded = npz_file.read(task.motion) if isinstance(task.motion, Path) else task.motion
+    t = replace(loaded, id=task.trajectory)
     if t.duration > LONGEST_S:
         raise BadInput(TOO_LONG_FOR_LAB(trajectory=t.id, duration=t.duration, most=LONGEST_S))
     document = task.scene.document

@@ -136,6 +136,7 @@ def _head(
         "message": message,
         "robot": {
             "model": robot.model,
+            "product": robot.product,
             "end_effector": robot.end_effector,
             "urdf": robot.urdf,
             "joints": [asdict(joint) for joint in robot.joints],

@@ -214,9 +214,11 @@ class ShownJoint:
 
 @dataclass(frozen=True)
 class ShownRobot:
-    """A robot to draw. urdf: with package:// URIs, its end effector included."""
+    """A robot to draw. urdf: with package:// URIs, its end effector included. product: its name
+    for people; empty: none is known."""
 
     model: str
     end_effector: str
     urdf: str
     joints: tuple[ShownJoint, ...]
+    product: str = ""

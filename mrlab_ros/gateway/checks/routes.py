@@ -1,24 +1,35 @@
-"""/api/checks: whether a robot of the lab can play a trajectory where everything stands now."""
+"""/api/checks: whether a robot of the lab can play a trajectory where everything stands now, and
+what a draft makes a robot touch that stands alone."""
 
 from __future__ import annotations
 
+import asyncio
+import math
 import time
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Annotated
+from typing import Annotated, Any
 
-from fastapi import APIRouter, Depends, Query, Request
+from fastapi import APIRouter, Depends, Path, Query, Request
 from fastapi.concurrency import run_in_threadpool
 
 from mrlab_ros.adapters.share import directory
-from mrlab_ros.app.check.in_lab import Task
+from mrlab_ros.adapters.store.port import Missing
+from mrlab_ros.app.check.in_lab import LabScene, Task
 from mrlab_ros.core.base.errors import LabError, Unavailable
+from mrlab_ros.core.base.geometry import Pose
+from mrlab_ros.core.scene.document import RobotEntry, SceneDocument
 from mrlab_ros.core.trajectory.catalogue import Record, Version
+from mrlab_ros.core.trajectory.trajectory import Trajectory
 from mrlab_ros.gateway.checks import desk
 from mrlab_ros.gateway.checks.desk import CheckDesk, Key, answer
 from mrlab_ros.gateway.checks.scene import SceneWatch
 from mrlab_ros.gateway.diagnostics import GATEWAY_WITHOUT_LAB
+from mrlab_ros.gateway.errors import NotFound
 from mrlab_ros.gateway.people.person import CurrentPerson, Limit, Person, RateLimit
 from mrlab_ros.gateway.store.shelf import Shelf, shelf_of
+from mrlab_ros.gateway.uploads import motions
+from mrlab_ros.gateway.uploads.diagnostics import NO_MOTION
 
 # Of one person; that of everybody is bounded by the queue.
 CHECKS = Limit("checks", burst=20, period=3.0)
@@ -72,6 +83,49 @@ async def begin(
         return Task(directory(), file, record.id, wanted.robot, scene)
 
     return answer(key, checking.desk.ask(key, task, scene, version.key), scene)
+
+
+@router.get("/drafts/{draft}")
+async def of_draft(
+    person: CurrentPerson,
+    shelf: TheShelf,
+    checking: TheChecking,
+    draft: Annotated[str, Path(pattern="^[0-9a-f]{32}$")],
+) -> list[desk.CheckFinding]:
+    """Return what a robot that plays a draft of one's own touches, alone on a floor.
+
+    Answers when the check has ended; that of another draft of the same person ends it.
+    """
+    checking.limit.check(person.id, time.monotonic())
+    user = shelf.user(person)
+    try:
+        motion = await run_in_threadpool(motions.of_draft, shelf, user, draft)
+    except Missing:
+        raise NotFound(NO_MOTION()) from None
+    alone = RobotEntry("robot", motion.robot_model, motion.end_effector or "", Pose())
+    scene = LabScene(SceneDocument((alone,)))
+
+    def task() -> Task:
+        return Task(directory(), motion, motion.id, alone.name, scene)
+
+    entry = checking.desk.ask((user, draft), task, scene, draft)
+    if entry.work is not None:
+        await asyncio.wait((entry.work,))
+    if entry.problem is not None:
+        raise Unavailable(entry.problem)
+    found = entry.report.get("findings", ())
+    return [_in_rows(each, motion) for each in found if each.get("other")]
+
+
+def _in_rows(found: Mapping[str, Any], motion: Trajectory) -> desk.CheckFinding:
+    """Return a finding of a check with the rows of its instants, as a converter's has them."""
+    row, last = (
+        min(math.floor((found.get(at) or 0.0) * motion.frame_rate) + 1, motion.frame_count)
+        for at in ("time", "end")
+    )
+    return desk.CheckFinding.model_validate(
+        {**found, "first_row": row, "last_row": max(row, last)}
+    )
 
 
 @router.get("")

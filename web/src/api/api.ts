@@ -2,6 +2,7 @@ import type { MotionDocument } from '../playback/motion'
 import { type Told, ToldError } from '../words/diagnostic'
 import type {
   Check,
+  CheckFinding,
   Conversion,
   ConversionRequest,
   CourseState,
@@ -61,6 +62,8 @@ export interface Api {
   /** Start a check in the present scene. */
   startCheck(robot: string, trajectory: string): Promise<Check>
   cancelCheck(robot: string, trajectory: string): Promise<void>
+  /** Return what the robot touches with a draft, alone on a floor, once that is known. */
+  touches(draft: string, signal?: AbortSignal): Promise<readonly CheckFinding[]>
 
   gradedClass(): Promise<GradedClass>
   /** Hand in a file for the next run of the class. */

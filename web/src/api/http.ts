@@ -3,6 +3,7 @@ import { own, type Told } from '../words/diagnostic'
 import { type Api, ApiError, type ClassPart, trajectoryUrl } from './api'
 import type {
   Check,
+  CheckFinding,
   Conversion,
   ConversionRequest,
   CourseState,
@@ -177,6 +178,9 @@ export class HttpApi implements Api {
   }
   startCheck(robot: string, trajectory: string): Promise<Check> {
     return this.#ask('POST', '/api/checks', { robot, trajectory })
+  }
+  touches(draft: string, signal?: AbortSignal): Promise<readonly CheckFinding[]> {
+    return this.#ask('GET', `/api/checks/drafts/${draft}`, undefined, signal)
   }
   async cancelCheck(robot: string, trajectory: string): Promise<void> {
     await this.#ask('DELETE', checkUrl(robot, trajectory))

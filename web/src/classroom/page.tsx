@@ -168,7 +168,7 @@ function Graded() {
   return (
     <article class="verdict class-page">
       <header class="verdict-head">
-        <div class="grow stack-8">
+        <div class="grow stack-8" aria-live="polite">
           <p class="second small">{graded.value.title}</p>
           <h1 class="verdict-message">{current.name}</h1>
           <p class="row small">

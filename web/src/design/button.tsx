@@ -16,6 +16,11 @@ function className(look: Look, iconOnly: boolean, more: string): string {
   return `button${look === 'plain' ? '' : ` button-${look}`}${icon}${more && ` ${more}`}`
 }
 
+/** A tooltip is a name too; both would be read one after the other. */
+function named(iconOnly: boolean, label: string | undefined) {
+  return iconOnly ? { title: label } : { 'aria-label': label }
+}
+
 type ButtonProps = Dress & Omit<JSX.IntrinsicElements['button'], 'label' | 'icon' | 'class'>
 
 export function Button({ look = 'plain', icon, label, children, ...rest }: ButtonProps) {
@@ -25,8 +30,7 @@ export function Button({ look = 'plain', icon, label, children, ...rest }: Butto
       type="button"
       {...rest}
       class={className(look, iconOnly, '')}
-      aria-label={label}
-      title={iconOnly ? label : undefined}
+      {...named(iconOnly, label)}
     >
       {icon && <Icon name={icon} />}
       {children}
@@ -43,8 +47,7 @@ export function ButtonLink({ look = 'plain', icon, label, children, href, downlo
       href={href}
       download={download}
       class={className(look, iconOnly, '')}
-      aria-label={label}
-      title={iconOnly ? label : undefined}
+      {...named(iconOnly, label)}
     >
       {icon && <Icon name={icon} />}
       {children}

@@ -43,7 +43,8 @@ export function Picker({ label, choices, chosen, onChoose }: PickerProps) {
                 <Icon name="check" />
               </span>
             </span>
-            <span class="picker-name">{text}</span>
+            {/* a line ends after no hyphen of a model's number */}
+            <span class="picker-name">{text.replace(/-(?=\d)/g, '\u2011')}</span>
             {note && <span class="tiny second">{note}</span>}
           </label>
         ))}

@@ -30,6 +30,8 @@ export interface MotionDocument {
 
 interface MotionRobot {
   readonly model: string
+  /** Its name for people; empty: none is known. */
+  readonly product: string
   readonly end_effector: string
   /** URDF with package:// URIs, end effector included. */
   readonly urdf: string

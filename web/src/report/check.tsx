@@ -6,8 +6,8 @@ import { unpack } from '../playback/motion'
 import type { SessionDocument } from '../playback/session'
 import type { MeshBytes } from '../scene/robot/meshes'
 import type { Diagnostic } from '../words/diagnostic'
-import { say } from '../words/diagnostic'
-import { number, words } from '../words/words'
+import { nameOfJoint, said, say } from '../words/diagnostic'
+import { jointName, linkName, named, number, words } from '../words/words'
 import { Findings, type Picture, Still, Table } from './findings'
 import { Fold } from './fold'
 import { type CheckMarks, Marks, STATES } from './marks'
@@ -125,11 +125,11 @@ export function distancesOf({
   return distances.map((one) => {
     const other =
       one.kind === 'self'
-        ? w.itsOwn(one.other_link)
+        ? w.itsOwn(linkName(one.other_link))
         : one.kind === 'robot' && one.other_link
-          ? w.linkOf(one.other_link, one.other)
-          : one.other
-    const name = w.distance(one.part, other)
+          ? w.linkOf(linkName(one.other_link), one.other)
+          : named(one.other)
+    const name = w.distance(linkName(one.part), other)
     const marks = marksOf(
       findings,
       (found) => found.robot === one.robot && found.kind === one.kind && found.other === one.other,
@@ -168,7 +168,7 @@ function jointsOf(motion: CheckedMotion, findings: readonly CheckFinding[]): Plo
       (found) => found.robot === motion.robot && found.joint === name,
     )
     const strip = {
-      label: `${column + 1} ${name}`,
+      label: jointName(name, column),
       unit: '°',
       lower: lower * DEGREES,
       upper: upper * DEGREES,
@@ -207,6 +207,8 @@ export function CheckReport({
     playhead.selected.value = chosen
     playhead.seek(findings[chosen - 1]?.time ?? 0)
   }
+  const jointsOfRobot = ({ robot }: CheckFinding) =>
+    motions.find((motion) => motion.robot === robot)?.joints
   const grave = findings.find(({ severity }) => severity === 'error')
   const of = (name: string, robot: string) => (several ? w.linkOf(name, robot) : name)
   const groups: [string, Plotted[]][] = [
@@ -229,10 +231,10 @@ export function CheckReport({
             <span class="second small">{session.title}</span>
           </>
         }
-        title={say(grave ?? check.summary).message}
+        title={grave ? said(grave, jointsOfRobot(grave)) : say(check.summary).message}
         facts={[
           ...robots.map(({ model, end_effector }) =>
-            end_effector ? w.with(model, end_effector) : model,
+            end_effector ? w.with(model, named(end_effector)) : model,
           ),
           `${number(session.duration, 2, 2)} s`,
           grave && several && grave.robot,
@@ -258,7 +260,7 @@ export function CheckReport({
               [
                 one.time == null ? '' : `${number(one.time, 2, 2)} s`,
                 several && one.robot,
-                one.link || one.joint,
+                one.link ? linkName(one.link) : nameOfJoint(one, jointsOfRobot(one)),
               ]
                 .filter(Boolean)
                 .join(' · ')

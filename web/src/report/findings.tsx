@@ -2,7 +2,7 @@ import type { ComponentChildren } from 'preact'
 import { useContext } from 'preact/hooks'
 import { FindingItem } from '../design/finding'
 import type { Diagnostic } from '../words/diagnostic'
-import { say } from '../words/diagnostic'
+import { said, say } from '../words/diagnostic'
 import { words } from '../words/words'
 import { PlayheadContext } from './plot/playhead'
 
@@ -12,6 +12,8 @@ const PRINTED = 8
 interface FindingsProps<Found extends Diagnostic> {
   readonly title: string
   readonly findings: readonly Found[]
+  /** Of the robot, in its order. */
+  readonly joints?: readonly { readonly name: string }[] | undefined
   /** The place to which each applies. */
   readonly where: (finding: Found) => string
   /** Return whether a finding has an instant to go to. */
@@ -21,7 +23,7 @@ interface FindingsProps<Found extends Diagnostic> {
 
 /** The findings, with the numbers that plots and the 3D view use. */
 export function Findings<Found extends Diagnostic>(props: FindingsProps<Found>) {
-  const { title, findings, where, placed, onShow } = props
+  const { title, findings, joints, where, placed, onShow } = props
   const { selected } = useContext(PlayheadContext)
   if (findings.length === 0) return null
   return (
@@ -37,7 +39,8 @@ export function Findings<Found extends Diagnostic>(props: FindingsProps<Found>) 
               severity={finding.severity}
               code={finding.code}
               where={where(finding)}
-              {...say(finding)}
+              message={said(finding, joints)}
+              remedy={say(finding).remedy}
               onShow={placed(finding) ? () => onShow(index + 1) : undefined}
               shown={selected.value === index + 1}
             >

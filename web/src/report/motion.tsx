@@ -7,8 +7,8 @@ import type { MotionDocument } from '../playback/motion'
 import { createMotionPreview, type MotionPreview } from '../scene/preview/preview'
 import { type MeshBytes, MeshLibrary } from '../scene/robot/meshes'
 import { reducedMotion } from '../scene/stage/theme'
-import { say } from '../words/diagnostic'
-import { number, words } from '../words/words'
+import { nameOfJoint, said } from '../words/diagnostic'
+import { named, number, words } from '../words/words'
 import { Findings, type Picture, rowsOf, Still } from './findings'
 import { Fold } from './fold'
 import { type CheckMarks, Marks } from './marks'
@@ -32,9 +32,9 @@ const OUTCOMES = { accepted: 'accepted', refused: 'rejected', ambiguous: 'ambigu
 function titleOf({ verdict, findings, title, robot }: MotionDocument): string {
   const cause = findings.find(({ severity }) => severity === 'error') ?? findings[0]
   if (verdict === 'accepted' || cause === undefined) {
-    return words.value.report.fits(title, robot.model)
+    return words.value.report.fits(title, robot.product || robot.model)
   }
-  return say(cause).message
+  return said(cause, robot.joints)
 }
 
 /** The report of a converted motion. */
@@ -99,7 +99,9 @@ export function MotionReport({ motion, meshes, pictures }: MotionReportProps) {
         title={titleOf(motion)}
         facts={[
           source.file,
-          robot.end_effector ? w.report.with(robot.model, robot.end_effector) : robot.model,
+          robot.end_effector
+            ? w.report.with(robot.product || robot.model, named(robot.end_effector))
+            : robot.product || robot.model,
           w.trajectories.lengthOf(
             number(course.duration, 2, 2),
             course.rowOf(course.frameCount - 1),
@@ -119,7 +121,12 @@ export function MotionReport({ motion, meshes, pictures }: MotionReportProps) {
           <Findings
             title={w.upload.findings(findings.length)}
             findings={findings}
-            where={(one) => [one.variable, one.joint, rowsOf(one)].filter(Boolean).join(' · ')}
+            joints={robot.joints}
+            where={(one) =>
+              [one.variable, nameOfJoint(one, robot.joints), rowsOf(one)]
+                .filter(Boolean)
+                .join(' · ')
+            }
             placed={(one) => one.first_row > 0}
             onShow={show}
           />

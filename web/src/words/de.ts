@@ -35,6 +35,8 @@ export const words: Words = {
     table: 'Tisch',
     wall: 'Wand',
     empty: 'leere Szene',
+    forearm_link: 'Unterarm',
+    upper_arm_link: 'Oberarm',
     shoulder_pan_joint: 'Sockel',
     shoulder_lift_joint: 'Schulter',
     elbow_joint: 'Ellbogen',
@@ -290,6 +292,8 @@ export const words: Words = {
   },
   upload: {
     title: 'Sieh deine MATLAB-Bewegung an einem Roboter',
+    touching: 'Wird geprüft: was der Roboter berührt …',
+    touchesNothing: 'Allein auf einem Boden berührt der Roboter nichts.',
     subtitle:
       'Lege die Workspace-Datei mit deinen Gelenkwinkeln ab. Sie wird gelesen, am Roboter geprüft und gezeigt; veröffentlicht wird erst, wenn du es sagst.',
     drop: 'Lege eine .mat-Datei hier ab',
@@ -366,7 +370,7 @@ export const words: Words = {
   },
   trajectories: {
     title: 'Trajektorien',
-    search: 'Suche nach Name, Person, Roboter oder Datei',
+    search: 'Name, Person, Roboter oder Datei',
     whose: 'Wessen',
     scopes: { all: 'Alle', mine: 'Meine', shared: 'Mit mir geteilt' },
     count: (count) => (count === 1 ? '1 Trajektorie' : `${count} Trajektorien`),

@@ -1,6 +1,6 @@
 /** A diagnostic as JSON and messages carry it; see core/base/diagnostic.py. */
 import { fill, type Phrase, parse, placeholders, typed, type Values } from './phrase'
-import { templates, words } from './words'
+import { jointName, linkName, templates, words } from './words'
 
 export interface Fix {
   readonly option: string
@@ -119,4 +119,20 @@ function nested(value: unknown, whole = false): string {
 /** Return whether a value is a text that exists in each language. */
 export function isTold(value: unknown): value is Told {
   return typeof value === 'object' && value !== null && 'code' in value && 'message' in value
+}
+
+type Joints = readonly { readonly name: string }[] | undefined
+
+/** Return the name for people of the joint of a finding; joints: of the robot, in its order. */
+export function nameOfJoint({ joint }: Diagnostic, joints: Joints): string {
+  const index = joints?.findIndex(({ name }) => name === joint) ?? -1
+  return index < 0 ? joint : jointName(joint, index)
+}
+
+/** Return the message of a finding with the names of joint and link for people. */
+export function said(finding: Diagnostic, joints: Joints): string {
+  const { message } = say(finding)
+  if (finding.joint) return message.replaceAll(finding.joint, nameOfJoint(finding, joints))
+  const { link } = finding.values
+  return typeof link === 'string' && link ? message.replaceAll(link, linkName(link)) : message
 }

@@ -234,6 +234,8 @@ export const en = {
   },
   upload: {
     title: 'See your MATLAB motion on a robot',
+    touching: 'Checking what the robot touches…',
+    touchesNothing: 'Alone on a floor the robot touches nothing.',
     subtitle:
       'Drop the workspace file with your joint angles. It is read, checked against the robot and shown; nothing is published before you say so.',
     drop: 'Drop a .mat file here',
@@ -311,7 +313,7 @@ export const en = {
   },
   trajectories: {
     title: 'Trajectories',
-    search: 'Search by name, owner, robot or file',
+    search: 'Name, owner, robot or file',
     whose: 'Whose',
     scopes: { all: 'All', mine: 'Mine', shared: 'Shared with me' },
     count: (count: number) => (count === 1 ? '1 trajectory' : `${count} trajectories`),

@@ -73,6 +73,14 @@ export function jointName(name: string, place: number): string {
   return capital === `A${number}` ? capital : `${capital} (J${number})`
 }
 
+/** Return a link's name for people, such as "Wrist 2", where it has one. */
+export function linkName(name: string): string {
+  const bare = name.split('_').filter((part) => part !== 'link')
+  const text = named(name, named(name.replace(/link$/, 'joint'), bare.join(' ')))
+  if (!/\p{L}{2}/u.test(text)) return name
+  return text.charAt(0).toLocaleUpperCase() + text.slice(1)
+}
+
 /** The person's own kind of the language, such as en-GB: dates and numbers differ. */
 const locale = computed(
   () => navigator.languages.find((tag) => tag.startsWith(language.value)) ?? language.value,

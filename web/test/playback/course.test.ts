@@ -119,6 +119,7 @@ describe('documents', () => {
     message: '',
     robot: {
       model: 'r',
+      product: 'UR5e',
       end_effector: '',
       urdf: '',
       joints: [

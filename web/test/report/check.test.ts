@@ -27,8 +27,8 @@ describe('the plots of a check', () => {
       robots: [],
     })
     expect(strips.map(({ strip, marks }) => [strip.label, marks.length])).toEqual([
-      ['wrist to can_1', 0],
-      ['wrist to can_10', 1],
+      ['Wrist to can_1', 0],
+      ['Wrist to can_10', 1],
     ])
     expect([...(strips[0]?.strip.values ?? [])]).toEqual([200, 0])
   })

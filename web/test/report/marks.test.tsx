@@ -11,6 +11,7 @@ test('a file that was refused shows why once, and the points that a teacher gave
     message: 'It is text.',
     remedy: '',
     fixes: [],
+    values: {},
     first_row: 0,
   }
   const reason = why as unknown as Diagnostic

@@ -138,7 +138,7 @@ def test_a_check_is_of_the_lab_as_it_stands_and_stale_when_that_has_changed(lab)
     (task,) = lab.checker.tasks
     (entry,) = task.scene.document.robots
     assert (task.robot, entry.pose.position) == ("ur5e_1", (0.5, 0.0, 0.1))
-    assert task.file.is_file()
+    assert task.motion.is_file()
     # asked again in the same scene, nothing is computed
     assert ask(browser, motion).json()["state"] == "done"
     moved = placed(name="ur5e_1", model="ur5e", end_effector="hand")
@@ -179,6 +179,23 @@ def test_who_may_not_drive_reads_what_was_found_and_asks_for_nothing(lab):
     student = lab.signed_in("greta", Role.STUDENT)
     assert state(student, motion)["summary"]["code"] == "check_not_ready"
     assert kind_of(ask(student, motion)) == (403, "not_allowed")
+
+
+def test_a_draft_is_checked_alone_and_found_in_its_rows(lab):
+    browser, _ = lab.person()
+    upload = browser.send("PUT", "/api/uploads/next.mat", content=b"good" + bytes(99)).json()
+    wanted = {"upload": upload["upload"], "robot_model": "ur5e"}
+    draft = browser.send("POST", "/api/conversions", json=wanted).json()["draft"]
+    (found,) = browser.get(f"/api/checks/drafts/{draft}").json()
+    task = lab.checker.tasks[-1]
+    assert (found["code"], found["first_row"]) == ("collision", 0.4 * task.motion.frame_rate + 1)
+    assert [entry.model for entry in task.scene.document.robots] == ["ur5e"]
+    assert task.scene.document.objects == ()
+    lab.checker.problem = NOT_IN_LAB(robot="ur5e_1")
+    other = browser.send("POST", "/api/conversions", json=wanted).json()["draft"]
+    assert browser.get(f"/api/checks/drafts/{other}").status_code == 503
+    stranger = lab.signed_in("greta", Role.STUDENT)
+    assert kind_of(stranger.get(f"/api/checks/drafts/{draft}")) == (404, "not_found")
 
 
 def test_another_motion_of_the_same_robot_ends_the_check_and_others_wait():

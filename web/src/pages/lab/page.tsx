@@ -149,14 +149,14 @@ export function Lab({ link }: { link: Link }) {
   const toggle = (what: typeof keys) => () => {
     what.value = !what.value
   }
-  const status =
-    phase !== 'open'
-      ? `${w.phases[phase]}${reason ? `: ${reason}` : ''}`
-      : Number.isNaN(roundTrip)
-        ? w.connected
-        : w.roundTrip(fixed(roundTrip * 1000, roundTrip < 0.01 ? 1 : 0))
+  const open = phase === 'open'
+  const status = open ? w.connected : `${w.phases[phase]}${reason ? `: ${reason}` : ''}`
+  const measured =
+    open && !Number.isNaN(roundTrip)
+      ? w.roundTrip(fixed(roundTrip * 1000, roundTrip < 0.01 ? 1 : 0))
+      : ''
   // a dot says it until it is slow
-  const wordless = phase === 'open' && !(roundTrip > SLOW_S)
+  const wordless = open && !(roundTrip > SLOW_S)
   return (
     <LabProvider value={lab}>
       <div class={`lab${projected.value ? ' lab-projected' : ''}`}>
@@ -203,9 +203,13 @@ export function Lab({ link }: { link: Link }) {
               aria-pressed={keys.value}
               onClick={toggle(keys)}
             />
-            <span class={`lab-link lab-link-${phase} small`} role="status" title={status}>
+            <span class={`lab-link lab-link-${phase} small`} title={measured || status}>
               {wordless && <i class="lab-link-dot" />}
-              <span class={wordless ? 'spoken' : ''}>{status}</span>
+              <span class={open ? 'spoken' : ''} role="status">
+                {status}
+              </span>
+              {/* not live: it changes all the time */}
+              {measured && <span class={wordless ? 'spoken' : ''}>{measured}</span>}
             </span>
           </div>
           <div class="lab-stage">

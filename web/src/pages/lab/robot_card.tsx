@@ -103,6 +103,8 @@ export function RobotCard({ view, catalogue, system, idle }: RobotCardProps) {
   const lab = useLab()
   const { may, replays } = lab
   const [choosing, setChoosing] = useState(false)
+  const card = useRef<HTMLElement>(null)
+  const [chosen, setChosen] = useState(0)
   const { robot, state, playback, holding, touching, player } = view
   const w = words.value.lab
   const loaded = playback !== null && playback.frame_count > 0
@@ -120,8 +122,13 @@ export function RobotCard({ view, catalogue, system, idle }: RobotCardProps) {
       })),
     [found, playback?.duration, words.value],
   )
+  // What was pressed is gone with the list: a keyboard goes on at Play.
+  useEffect(() => {
+    if (chosen > 0 && document.activeElement === document.body)
+      card.current?.querySelector<HTMLElement>('.scene-play')?.focus({ preventScroll: true })
+  }, [chosen, playback?.trajectory_id])
   return (
-    <article class="lab-card" aria-label={robot.name}>
+    <article class="lab-card" aria-label={robot.name} ref={card}>
       <header class="lab-card-head">
         <h2>{robot.name}</h2>
         <StateChip state={state} />
@@ -185,7 +192,10 @@ export function RobotCard({ view, catalogue, system, idle }: RobotCardProps) {
           robot={robot}
           catalogue={catalogue}
           loaded={playback?.trajectory_id ?? ''}
-          onLoaded={() => setChoosing(false)}
+          onLoaded={() => {
+            setChoosing(false)
+            setChosen(chosen + 1)
+          }}
         />
       )}
     </article>

@@ -3,8 +3,8 @@ import type { Diagnostic, Fix } from '../../api/types'
 import { Button } from '../../design/button'
 import { FindingItem } from '../../design/finding'
 import { showToast } from '../../design/toast'
-import { say } from '../../words/diagnostic'
-import { jointName, words } from '../../words/words'
+import { nameOfJoint, said, say } from '../../words/diagnostic'
+import { words } from '../../words/words'
 import { applied, fixLabel } from './fixes'
 
 interface FindingsProps {
@@ -57,18 +57,7 @@ function place(finding: Diagnostic, joints: FindingsProps['joints']): string {
       : finding.last_row > finding.first_row
         ? w.rows(finding.first_row, finding.last_row)
         : w.row(finding.first_row)
-  return [finding.variable, nameOf(finding, joints), rows].filter(Boolean).join(' · ')
-}
-
-/** Return the message of a finding with the joint's name for people. */
-export function said(finding: Diagnostic, joints: FindingsProps['joints']): string {
-  const { message } = say(finding)
-  return finding.joint ? message.replaceAll(finding.joint, nameOf(finding, joints)) : message
-}
-
-function nameOf({ joint }: Diagnostic, joints: FindingsProps['joints']): string {
-  const index = joints?.findIndex(({ name }) => name === joint) ?? -1
-  return index < 0 ? joint : jointName(joint, index)
+  return [finding.variable, nameOfJoint(finding, joints), rows].filter(Boolean).join(' · ')
 }
 
 function Finding(props: FindingsProps & { finding: Diagnostic; number: number }) {

@@ -51,7 +51,7 @@ export function MotionView({ motion, compared = null, note = '', selected }: Mot
         ? positionsAt(course, courseOf(compared))
         : null
     return stripsOf(motion, channel, other)
-  }, [motion, compared, comparable, channel, course])
+  }, [motion, compared, comparable, channel, course, words.value])
   const marks = useMemo(
     () => marksOf(motion.findings, motion.robot.joints, course),
     [motion, course],

@@ -21,12 +21,15 @@ interface ComparisonProps {
   onClose: () => void
 }
 
+function nameOf({ robot }: MotionDocument): string {
+  return robot.product || robot.model
+}
+
 /** Return what is said of two motions. */
 export function inWords(motion: MotionDocument, otherMotion: MotionDocument): string {
   const w = words.value.trajectories
   const { joints } = motion.robot
-  if (!sameJoints(motion, otherMotion))
-    return w.otherJoints(motion.robot.model, otherMotion.robot.model)
+  if (!sameJoints(motion, otherMotion)) return w.otherJoints(nameOf(motion), nameOf(otherMotion))
   const [course, other] = [courseOf(motion), courseOf(otherMotion)]
   const far = ({ joint, amount }: Deviation): [number, string] =>
     joints[joint]?.kind === 'prismatic' ? [amount * 1000, ' mm'] : [amount * DEGREES, '°']

@@ -10,7 +10,7 @@ import type { MotionDocument } from '../../playback/motion'
 import { navigate, search } from '../../shell/router'
 import { session, useApi } from '../../shell/session'
 import { sentence } from '../../words/diagnostic'
-import { dateTime, number, words } from '../../words/words'
+import { dateTime, named, number, words } from '../../words/words'
 import { Findings } from '../motion/findings'
 import { LinkWithCode, MotionView } from '../motion/lazy'
 import { type Catalogue, shortName, trajectoryPage } from './catalogue'
@@ -44,10 +44,17 @@ function useMotion(id: string): [MotionDocument | null, string] {
   return [motion, error]
 }
 
-function Facts({ info }: { info: TrajectoryInfo }) {
+function Facts({ info, catalogue }: { info: TrajectoryInfo; catalogue: Catalogue }) {
   const w = words.value.trajectories
+  const { robot_model, end_effector } = info
+  const robot = catalogue.robots.value.find(({ model }) => model === robot_model)
   const rows = [
-    [w.robot, [info.robot_model, info.end_effector].filter(Boolean).join(' + ')],
+    [
+      w.robot,
+      [robot?.name ?? robot_model, end_effector && named(end_effector)]
+        .filter(Boolean)
+        .join(' + '),
+    ],
     [w.length, w.lengthOf(number(info.duration, 2), info.frame_count, number(info.frame_rate, 2))],
     [w.source, [info.source_file, info.source_variable].filter(Boolean).join(', ')],
     [w.created, dateTime(info.created)],
@@ -132,7 +139,7 @@ export function TrajectoryDetail({ catalogue, id }: DetailProps) {
           )}
           {info && (
             <section class="card stack">
-              <Facts info={info} />
+              <Facts info={info} catalogue={catalogue} />
               {info.owner !== '' && !info.shared && mayChange(info) && (
                 <Button
                   icon="people"

@@ -1,6 +1,7 @@
 import { batch, computed, signal } from '@preact/signals'
 import { type Api, ApiError, isAbort } from '../../api/api'
 import type {
+  CheckFinding,
   Conversion,
   ConvertOptions,
   Fix,
@@ -33,6 +34,19 @@ export interface Result {
   readonly conversion: Conversion
   /** null: nothing to show in plots and 3D. */
   readonly motion: MotionDocument | null
+  /** What the robot touches with it, among the findings too; undefined: not known. */
+  readonly touched?: readonly CheckFinding[]
+}
+
+function withTouched(result: Result, touched: readonly CheckFinding[]): Result {
+  const { conversion, motion } = result
+  const diagnostics = [...conversion.diagnostics, ...touched]
+  return {
+    ...result,
+    touched,
+    conversion: { ...conversion, diagnostics },
+    motion: motion && { ...motion, findings: [...motion.findings, ...touched] },
+  }
 }
 
 const ROBOT_KEY = 'mrlab.robot'
@@ -56,9 +70,12 @@ export class UploadFlow {
   readonly #before = signal<readonly Result[]>([])
   readonly canUndo = computed(() => this.#before.value.length > 0)
   readonly busy = computed(() => this.stage.value.kind !== 'idle')
+  /** Whether it is being found out what the robot touches. */
+  readonly touching = signal(false)
   #upload: Upload | null = null
   #running: AbortController | null = null
   #trying: AbortController | null = null
+  #touching: AbortController | null = null
 
   constructor(private readonly api: Api) {}
 
@@ -82,7 +99,7 @@ export class UploadFlow {
     this.file.value = file
     this.#upload = null
     this.options.value = {}
-    this.result.value = null
+    this.#show(null)
     this.#before.value = []
     this.published.value = null
     await this.run()
@@ -127,8 +144,32 @@ export class UploadFlow {
       this.error.value = ''
       this.#before.value = []
       this.tried.value = null
-      this.result.value = { choice: { robot, effector, options }, conversion, motion }
+      this.#show({ choice: { robot, effector, options }, conversion, motion })
     })
+  }
+
+  /** Show a result; what the robot touches with it follows. */
+  #show(result: Result | null): void {
+    this.#touching?.abort()
+    this.touching.value = false
+    this.result.value = result
+    const draft = result?.conversion.draft
+    if (draft && result.touched === undefined) void this.#touches(result, draft)
+  }
+
+  async #touches(result: Result, draft: string): Promise<void> {
+    const asked = new AbortController()
+    this.#touching = asked
+    this.touching.value = true
+    try {
+      const touched = await this.api.touches(draft, asked.signal)
+      if (asked.signal.aborted) return
+      this.result.value =
+        touched.length === 0 ? { ...result, touched } : withTouched(result, touched)
+    } catch {
+      // the lab says it before it plays the motion
+    }
+    if (!asked.signal.aborted) this.touching.value = false
   }
 
   /** Return to the drop zone. */
@@ -137,7 +178,7 @@ export class UploadFlow {
     this.file.value = null
     this.#upload = null
     this.options.value = {}
-    this.result.value = null
+    this.#show(null)
     this.#before.value = []
     this.published.value = null
     this.error.value = ''
@@ -204,12 +245,13 @@ export class UploadFlow {
     this.robot.value = before.choice.robot
     this.effector.value = before.choice.effector
     this.options.value = before.choice.options
-    this.result.value = before
+    this.#show(before)
     this.published.value = null
     this.error.value = ''
   }
 
   cancel(): void {
+    this.#touching?.abort()
     this.#running?.abort()
   }
 
@@ -255,10 +297,7 @@ export class UploadFlow {
       }
       this.stage.value = { kind: 'converting' }
       const { upload } = this.#upload
-      this.result.value = {
-        choice,
-        ...(await this.#convert(choice.options, upload, running.signal)),
-      }
+      this.#show({ choice, ...(await this.#convert(choice.options, upload, running.signal)) })
     } catch (error) {
       if (!isAbort(error) && this.#running === running) this.error.value = sentence(error)
     } finally {

@@ -36,7 +36,10 @@ export function Progress({ flow }: { flow: UploadFlow }) {
             value={stage.kind === 'sending' && stage.share < 1 ? stage.share : undefined}
             aria-label={label(stage)}
           />
-          <ol class="upload-stages" aria-live="polite">
+          <p class="spoken" role="status">
+            {stage.kind !== 'idle' && w.upload.stageNames[stage.kind]}
+          </p>
+          <ol class="upload-stages">
             {ORDER.map((kind, index) => (
               <li
                 key={kind}

@@ -1,4 +1,4 @@
-import { useState } from 'preact/hooks'
+import { useEffect, useRef, useState } from 'preact/hooks'
 import type { TrajectoryInfo } from '../../api/types'
 import { Button, ButtonLink } from '../../design/button'
 import { Check, Field } from '../../design/field'
@@ -24,10 +24,13 @@ export function Publish({ flow, trajectory }: PublishProps) {
   const [busy, setBusy] = useState(false)
   const w = words.value.upload
   const done = flow.published.value
+  const heading = useRef<HTMLHeadingElement>(null)
+  // the button that was pressed is gone
+  useEffect(() => heading.current?.focus(), [done])
   if (done)
     return (
-      <section class="card stack publish-done" role="status">
-        <h2 class="row">
+      <section class="card stack publish-done">
+        <h2 class="row" ref={heading} tabIndex={-1}>
           <Icon name="complete" />
           {w.publishedAs(done.id, done.version)}
         </h2>

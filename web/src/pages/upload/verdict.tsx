@@ -1,10 +1,11 @@
 import { signal } from '@preact/signals'
 import { useEffect, useMemo, useRef } from 'preact/hooks'
+import type { Diagnostic } from '../../api/types'
 import { Button } from '../../design/button'
 import { OutcomeChip } from '../../design/chip'
-import { spoken } from '../../words/diagnostic'
+import { said, spoken } from '../../words/diagnostic'
 import { named, words } from '../../words/words'
-import { Findings, firstFinding, said } from '../motion/findings'
+import { Findings, firstFinding } from '../motion/findings'
 import { fixLabel, optionLabels, robotMatters } from '../motion/fixes'
 import { MotionView } from '../motion/lazy'
 import { Candidates } from './candidates'
@@ -27,6 +28,11 @@ function causeOf({ conversion: { outcome, diagnostics } }: Result): number {
   const first = firstFinding(diagnostics)
   const doubted = (diagnostics[first - 1]?.severity ?? 'info') !== 'info'
   return outcome !== 'ambiguous' && doubted ? first : 0
+}
+
+/** Return whether a finding says what was assumed, with a line or a press that says otherwise. */
+function assumed({ severity, fixes }: Diagnostic): boolean {
+  return severity === 'info' && fixes.length > 0
 }
 
 /** The cause, else the verdict. */
@@ -72,6 +78,17 @@ export function Verdict({ flow, result, file }: VerdictProps) {
           <h1 class="verdict-message" ref={heading} tabIndex={-1}>
             {title(result)}
           </h1>
+          {conversion.outcome === 'accepted' &&
+            conversion.diagnostics.filter(assumed).map((each) => (
+              <p class="second small" key={each.code}>
+                {said(each, motion?.robot.joints)}
+              </p>
+            ))}
+          {(flow.touching.value || result.touched?.length === 0) && (
+            <p class="second small" role="status">
+              {flow.touching.value ? w.upload.touching : w.upload.touchesNothing}
+            </p>
+          )}
           {labels.length > 0 && (
             <p class="row small">
               {labels.map((label) => (

@@ -78,6 +78,8 @@ export class Controls {
       })
 
     this.clock.className = 'scene-clock'
+    // the timeline's own value is read when it is asked for
+    this.clock.setAttribute('aria-live', 'off')
     this.speed.className = 'scene-speed'
     this.speed.setAttribute('aria-label', words.speed)
     for (const rate of player.kind === 'bag' ? RATES : [...RATES, ...BACKWARD_RATES]) {
@@ -107,7 +109,6 @@ export class Controls {
         mark.tabIndex = -1
         mark.className = `scene-mark scene-mark-${severity}`
         mark.title = words
-        mark.setAttribute('aria-label', words)
         mark.disabled = this.slider.disabled
         const share = duration > 0 ? Math.min(time / duration, 1) : 0
         mark.style.setProperty('--at', String(share))
@@ -148,7 +149,6 @@ export class Controls {
   showState(): void {
     const { playing } = this.player
     this.icon.setAttribute('d', playing ? ICONS.pause : ICONS.play)
-    this.button.setAttribute('aria-label', playing ? this.words.pause : this.words.play)
     this.button.title = playing ? this.words.pause : this.words.play
     this.speed.value = String(this.player.rate)
     this.slider.max = String(this.player.duration)

@@ -1,7 +1,7 @@
 import { type Course, courseOf } from '../../playback/course'
 import type { MotionDocument } from '../../playback/motion'
 import { MotionPlayer } from '../../playback/player'
-import { say as worded } from '../../words/diagnostic'
+import { said } from '../../words/diagnostic'
 import type { SceneWords } from '../../words/words'
 import { MeshLibrary, type MeshSource } from '../robot/meshes'
 import { NoWebGL } from '../stage/renderer'
@@ -201,7 +201,7 @@ class ShownMotion {
         .map((finding) => ({
           time: course.timeOfRow(finding.first_row),
           severity: finding.severity,
-          words: worded(finding).message,
+          words: said(finding, motion.robot.joints),
         })),
     )
     element.append(this.controls.element)

@@ -274,7 +274,9 @@ export class PreviewScene {
         finding.first_row <= row &&
         row <= Math.max(finding.last_row, finding.first_row)
       const counts = finding.severity === 'error' || i + 1 === this.chosen
-      if (here && counts && finding.joint !== '') failing = this.robot.linkOf(finding.joint)
+      if (!here || !counts) continue
+      const { link } = finding.values
+      failing = this.robot.linkOf(finding.joint) || (typeof link === 'string' ? link : failing)
     }
     const refused = this.motion.verdict === 'refused'
     this.robot.setLook(refused || failing !== '' ? 'grey' : 'own', failing)

@@ -1,9 +1,10 @@
 // @vitest-environment jsdom
 import { beforeEach, expect, test, vi } from 'vitest'
 import { ApiError } from '../../../src/api/api'
+import type { CheckFinding } from '../../../src/api/types'
 import { UploadFlow } from '../../../src/pages/upload/flow'
 import { own } from '../../../src/words/diagnostic'
-import { FakeApi, JOINT_LIMIT } from '../../fake_api'
+import { FakeApi, FOUND_CHECK, JOINT_LIMIT } from '../../fake_api'
 
 const UNWRAP = JOINT_LIMIT.fixes[0] as (typeof JOINT_LIMIT.fixes)[number]
 let api: FakeApi
@@ -40,6 +41,21 @@ test('a fix is applied and the file converted again without being sent again; un
   expect(flow.result.value).toBe(refused)
   expect(flow.options.value).toEqual({})
   expect(flow.canUndo.value).toBe(false)
+})
+
+test('what the robot touches joins the findings of the motion that is shown', async () => {
+  const touch = FOUND_CHECK.findings[0] as CheckFinding
+  api.touched = [{ ...touch, first_row: 215, last_row: 240 }]
+  await flow.choose(file('good.mat'))
+  await vi.waitFor(() => expect(flow.touching.value).toBe(false))
+  expect(flow.result.value?.conversion.diagnostics.at(-1)?.code).toBe('collision')
+  expect(flow.result.value?.motion?.findings.at(-1)?.first_row).toBe(215)
+  api.touched = []
+  await flow.chooseRobot('kuka_kr6_r900_sixx')
+  await vi.waitFor(() => expect(flow.result.value?.touched).toEqual([]))
+  flow.undo()
+  expect(flow.touching.value).toBe(false)
+  expect(flow.result.value?.conversion.diagnostics.at(-1)?.code).toBe('collision')
 })
 
 test('of several matrices the chosen one is converted', async () => {
