@@ -26,6 +26,7 @@ NEEDED = (
     f"{SHARE}robots/ur5e/robot.urdf",
     f"{SHARE}web/dist/index.html",
     f"{SHARE}web/dist/licences.md",
+    f"{SHARE}web/dist/flat/flat.js",
     f"{SHARE}web/dist/show/show.js",
     "mrlab_ros/py.typed",
     ".dist-info/entry_points.txt",

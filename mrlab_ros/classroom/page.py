@@ -161,5 +161,5 @@ def text_of(document: Mapping[str, Any]) -> str:
 def class_page(graded: GradedClass, share: Path) -> str:
     """Return one HTML file about a class. share: folder with the built pages."""
     document = class_document(graded)
-    code = ingredients.code(share)
+    code = ingredients.code(share, flat=True)
     return page(graded.rubric.name, text_of(document), document, {}, code)

@@ -29,6 +29,8 @@ def test_a_good_file_moves_after_two_clicks_and_is_published(
     page.get_by_label("Time").fill("1")
     eventually(page, lambda: difference(first, upload.picture()) > 0.01)
     upload.publish("wave")
+    # a keyboard and a screen reader go on at the answer
+    expect(page.get_by_role("heading", name="Published as")).to_be_focused()
     # a phone cannot open 127.0.0.1: the address that it can open is asked for once
     page.get_by_label("Address at which others reach").fill("https://lab.example:8765")
     page.get_by_role("button", name="Use it for links").click()
@@ -37,6 +39,13 @@ def test_a_good_file_moves_after_two_clicks_and_is_published(
     page.get_by_role("link", name="See the trajectory").click()
     expect(page.get_by_role("heading", name="wave")).to_be_visible()
     expect(page.locator(".strip")).to_have_count(6)
+
+
+def test_what_the_robot_touches_is_the_cause(page: Page, tmp_path: Path) -> None:
+    upload = UploadPage(page)
+    upload.send(student_files.into_the_floor(tmp_path))
+    expect(upload.finding("collision")).to_contain_text("rows")
+    expect(page.get_by_role("heading", level=1)).to_contain_text("Wrist 3 touches")
 
 
 def test_the_example_is_one_click(page: Page) -> None:
@@ -64,6 +73,7 @@ def test_a_fix_is_applied_by_its_button_and_taken_back(page: Page, tmp_path: Pat
     expect(finding).to_contain_text("unwrap")
     finding.get_by_role("button", name="Remove jumps by a full turn").click()
     expect(upload.outcome("accepted")).to_be_visible()
+    expect(page.get_by_role("heading", level=1)).to_be_focused()
     page.get_by_role("button", name="Undo").click()
     expect(upload.outcome("refused")).to_be_visible()
 

@@ -3,9 +3,9 @@ import './design/plot/plot.css'
 import './scene/stage/scene.css'
 import './report/report.css'
 import { render } from 'preact'
+import type { Reports } from './flat_reports'
 import { type ShownData, unpackData } from './report/packed_data'
 import { followPrinting } from './report/page'
-import { REPORTS } from './reports'
 import { languages, setLanguage } from './words/words'
 
 declare global {
@@ -23,7 +23,7 @@ function preferred(): string {
 
 /** Replace the still text, which is read without a script, by the report. It stays where there is
  * no report of the data's schema. */
-export async function showReport(data: ShownData, reports = REPORTS): Promise<void> {
+export async function showReport(data: ShownData, reports: Reports): Promise<void> {
   const root = document.getElementById('report')
   const report = reports[data.document.schema]
   if (root === null || report === undefined) return
@@ -38,4 +38,8 @@ export async function showReport(data: ShownData, reports = REPORTS): Promise<vo
   render(report(data, pictures), root)
 }
 
-if (globalThis.mrlabData !== undefined) void showReport(unpackData(globalThis.mrlabData))
+/** Show the data that the page holds. */
+export function start(reports: Reports): void {
+  if (globalThis.mrlabData === undefined) return
+  void showReport(unpackData(globalThis.mrlabData), reports)
+}

@@ -16,8 +16,11 @@ const PARTS: Readonly<Record<string, Layers>> = {
   src: {
     main: 'api app design shell words',
     app: 'api classroom design pages room shell words',
-    show: 'design report reports scene words',
-    reports: 'classroom report',
+    show_3d: 'reports show',
+    show_flat: 'flat_reports show',
+    show: 'design flat_reports report scene words',
+    reports: 'flat_reports report',
+    flat_reports: 'classroom report',
     classroom: 'api design lab link pages playback protocol report room shell words',
     pages: 'api design lab link playback protocol scene shell words',
     room: 'api design lab link playback protocol scene shell words',

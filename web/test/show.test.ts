@@ -27,6 +27,6 @@ test('a report is a row of the table, and gets the pictures of the page', async 
 })
 
 test('the text of the page stays where no report draws its schema', async () => {
-  await showReport(data)
+  await showReport(data, REPORTS)
   expect(document.getElementById('report')?.textContent).toBe('still')
 })

@@ -11,15 +11,18 @@ from mrlab_ros.app.show.page import Code
 from mrlab_ros.core.base.errors import BadInput
 
 
-def code(share: Path) -> Code:
-    """Return the built code in the package's share folder; raise BadInput where it is missing."""
-    folder = share / "web" / "dist" / "show"
+def code(share: Path, *, flat: bool = False) -> Code:
+    """Return the built code in the package's share folder; raise BadInput where it is missing.
+
+    flat: that of pages without a 3D view, a third of the other.
+    """
+    name = "flat" if flat else "show"
+    script = share / "web" / "dist" / name / f"{name}.js"
     try:
-        return Code(
-            (folder / "show.js").read_bytes(), (folder / "show.css").read_text(encoding="utf-8")
-        )
+        style = script.with_suffix(".css").read_text(encoding="utf-8")
+        return Code(script.read_bytes(), style)
     except OSError:
-        raise BadInput(REPORT_NOT_BUILT(path=str(folder / "show.js"))) from None
+        raise BadInput(REPORT_NOT_BUILT(path=str(script))) from None
 
 
 def meshes_of(descriptions: Iterable[str], resolve: Callable[[str], Path]) -> dict[str, bytes]:

@@ -21,4 +21,5 @@ def refusal_page(
     them. share: folder with the built pages.
     """
     document = {"schema": SCHEMA, "title": title, "findings": list(findings), "marks": marks}
-    return page(title, still_text.refusal(document), document, {}, ingredients.code(share))
+    code = ingredients.code(share, flat=True)
+    return page(title, still_text.refusal(document), document, {}, code)

@@ -45,6 +45,13 @@ def beyond(folder: Path) -> Path:
     return _saved(folder / "beyond.mat", q=q, fs=RATE)
 
 
+def into_the_floor(folder: Path) -> Path:
+    """Write a motion within all limits that leads the hand through the floor."""
+    q = wave()
+    q[:, 1] = HOME[1] + 4.6 * (q[:, 0] - HOME[0])
+    return _saved(folder / "floor.mat", q=q, fs=RATE / 2)
+
+
 def _saved(path: Path, **variables: object) -> Path:
     scipy.io.savemat(path, variables)
     return path

@@ -1,0 +1,4 @@
+import { REPORTS } from './reports'
+import { start } from './show'
+
+start(REPORTS)
