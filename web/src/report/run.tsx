@@ -3,7 +3,7 @@ import type { Mark, Strip } from '../design/plot/strip'
 import { unpack } from '../playback/motion'
 import type { MeasuredSeries, RunCurves, SessionRun } from '../playback/session'
 import { say } from '../words/diagnostic'
-import { number, words } from '../words/words'
+import { jointName, number, words } from '../words/words'
 import { Table } from './findings'
 import { lasting } from './plot/axis'
 import { indexAt } from './plot/lines'
@@ -52,7 +52,7 @@ function stripsOf(run: SessionRun, curves: RunCurves): Strip[] {
   return run.joints.map((joint, index) => {
     const { unit, scale } = scaleOf(joint.prismatic)
     return {
-      label: `${index + 1} ${joint.name}`,
+      label: jointName(joint.name, index),
       unit,
       values: column(joints, index, count, scale),
       compared: expected && column(expected, index, count, scale),
@@ -134,19 +134,24 @@ function Figures({ run }: { run: SessionRun }) {
   if (figures?.fastest != null) {
     rows.push([w.fastest, `${number(figures.fastest, 3)} m/s`, figures.fastest_at])
   }
+  const at = (joint: string) =>
+    jointName(
+      joint,
+      run.joints.findIndex(({ name }) => name === joint),
+    )
   const value = (of: number, prismatic: boolean) => {
     const { unit, scale } = scaleOf(prismatic)
     return amount(of * scale, unit)
   }
   if (figures?.near) {
     const { room, prismatic, joint, time } = figures.near
-    rows.push([w.nearestLimit, `${value(room, prismatic)} (${joint})`, time])
+    rows.push([w.nearestLimit, `${value(room, prismatic)}, ${at(joint)}`, time])
   }
   if (deviation) {
     const { reference, most, prismatic, joint, time, tool } = deviation
     rows.push([w.reference, reference, null])
     if (most < FOLLOWED) rows.push([w.deviation, '0', null])
-    else rows.push([w.deviation, `${value(most, prismatic)} (${joint})`, time])
+    else rows.push([w.deviation, `${value(most, prismatic)}, ${at(joint)}`, time])
     if (tool !== null && most >= FOLLOWED) {
       rows.push([w.deviationOfTool, amount(tool * 1000, 'mm'), null])
     }
