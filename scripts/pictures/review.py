@@ -100,7 +100,7 @@ def topics(page: Page, stage: Stage) -> None:
     page.get_by_role("button", name="Topics").click()
     drawer = page.get_by_role("region", name="Topics")
     drawer.get_by_role("searchbox").fill("ur5e_1/joint_st")
-    drawer.get_by_role("button", name="ur5e_1/joint_states").click()
+    drawer.get_by_role("button", name="ur5e_1/joint_states sensor_msgs").click()
     numbers = drawer.locator("summary", has_text="position").locator("..")
     numbers.get_by_role("checkbox").first.check()
 
@@ -177,7 +177,7 @@ def account(page: Page, stage: Stage) -> None:
 
 def token(page: Page, stage: Stage) -> None:
     screenshots.people(page, stage)
-    page.get_by_role("button", name="token").first.click()
+    page.get_by_role("button", name="Add a program").click()
 
 
 def used(page: Page, stage: Stage) -> None:
