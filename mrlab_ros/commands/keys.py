@@ -275,6 +275,13 @@ def router(
     shipped = limits(share.directory() / "config" / "zenoh" / "lab.json5")
     if lab and hub:
         raise BadInput(LAB_OR_HUB())
+    whole = {
+        "--prefix": [prefix],
+        "--lab": lab or [],
+        "--hub": [str(hub.resolve())] if hub else [],
+        "--hub-role": [hub_role.value] if hub else [],
+        "--allow-list": [str(allow_list.resolve())] if allow_list else [],
+    }
     file = keys.router(
         rules_of(allow_list),
         checked_prefix(prefix),
@@ -282,6 +289,9 @@ def router(
         now(),
         labs=lab or (),
         hub=None if hub is None else Hub.read(hub, hub_role),
+        options=[
+            word for name, of in whole.items() for value in of if value for word in (name, value)
+        ],
     )
     files = {name: str(keys.lab_file(name)) for name in lab or ()}
     if as_json:
@@ -311,10 +321,7 @@ def router(
 def who_has_it(keys: Keys) -> str:
     """Say when a change of the keys counts."""
     if (keys.folder / "router.json5").exists():
-        again = (
-            f"mrlab keys router --dir {keys.folder}, with the other options that it was made with"
-        )
-        return f"{RUNNING} A router needs a new file: {again}"
+        return f"{RUNNING} A router needs a new file: {keys.command('router')}"
     return RUNNING
 
 

@@ -256,13 +256,15 @@ class Keys:
         *,
         labs: Sequence[str] = (),
         hub: Hub | None = None,
+        options: Sequence[str] = (),
     ) -> Path:
         """Write what a router between the lab and its people needs; return the file.
 
         It listens with the lab's certificate and knows who may do what. limits: further settings,
         path -> value. labs: of the labs whose routers connect to this one; each has keys below the
         prefix and its name, and gets the file `lab_file`, which stays as it is where there is one.
-        hub: such a router that this one connects to. Raises Misuse where people log in with
+        hub: such a router that this one connects to. options: of the command that says all this,
+        for `command`. Raises Misuse where people log in with
         passwords, which zenoh reads from a file of its own.
         """
         if self.login.by_password:
@@ -273,7 +275,9 @@ class Keys:
             self.check(now)
             if self._people.labs and not labs:
                 known = list(self._people.labs)
-                raise Misuse(CAMPUS_WITHOUT_LABS(folder=str(self.folder), labs=known))
+                fixes = (self._fix("router"),)
+                raise Misuse(CAMPUS_WITHOUT_LABS(folder=str(self.folder), labs=known, fixes=fixes))
+            self._people.router = list(options)
             if labs:
                 return self._campus(rules, prefix, limits, labs, now)
             lab = f"lab.{secrets.token_hex(4)}"
@@ -286,6 +290,7 @@ class Keys:
             people.write(self.folder / "lab.pem", made.certificate_pem)
             people.write(self.folder / "lab.key", made.key_pem)
             people_here = [*self._people.at(now), *([hub.person] if hub else [])]
+            self._people.write(self._people_file)
             self._write_router(rules, prefix, people_here, {lab: prefix}, limits, hub)
         return self.router_file
 
@@ -364,8 +369,13 @@ class Keys:
         certificates.check(found.certificate, found.certificate, now, path)
         return found
 
-    def _fix(self, command: str) -> Fix:
-        return Fix(command=for_shell(["mrlab", "keys", command, "--dir", str(self.folder)]))
+    def command(self, name: str) -> str:
+        """Return the line of `mrlab keys NAME` for this folder; router: as its file was made."""
+        more = self._people.router if name == "router" else []
+        return for_shell(["mrlab", "keys", name, "--dir", str(self.folder), *more])
+
+    def _fix(self, name: str) -> Fix:
+        return Fix(command=self.command(name))
 
     @classmethod
     @contextmanager

@@ -102,6 +102,7 @@ class People:
     """How people log in, at which hosts they reach the lab, and each person by name.
 
     gateway: the lab's web gateway, None where it has no key. labs: by name, of a campus's router.
+    router: the options with which `mrlab keys router` made the router's file last.
     """
 
     login: Login
@@ -109,6 +110,7 @@ class People:
     by_name: dict[str, Entry] = field(default_factory=dict)
     gateway: Entry | None = None
     labs: dict[str, Entry] = field(default_factory=dict)
+    router: list[str] = field(default_factory=list)
 
     @classmethod
     def read(cls, path: Path) -> People:
@@ -121,6 +123,7 @@ class People:
                 {record["name"]: Entry.from_record(record) for record in document["people"]},
                 Entry.from_record(document["gateway"]) if document.get("gateway") else None,
                 {each["name"]: Entry.from_record(each) for each in document.get("labs", [])},
+                [str(option) for option in document.get("router", [])],
             )
         except FileNotFoundError as error:
             folder = str(path.parent)
@@ -141,6 +144,7 @@ class People:
             "people": [entry.record() for entry in self.entries],
             "gateway": self.gateway.record() if self.gateway else None,
             "labs": [entry.record() for entry in self.labs.values()],
+            "router": self.router,
         }
         write(path, json.dumps(document, indent=2).encode())
 

@@ -88,10 +88,11 @@ def tell_when_keys_expire(
     """Say so where the lab's certificate expires soon: nobody could connect from then on."""
     from mrlab_ros.adapters.keys.folder import Keys, now
 
-    left = (Keys(folder).server_expires(router=router) - now()).days
+    keys = Keys(folder)
+    left = (keys.server_expires(router=router) - now()).days
     if left < EXPIRES_SOON:
-        commands = ("keys renew", *(("keys router",) if router else ()))
-        fixes = tuple(Fix(command=f"mrlab {each} --dir {folder}") for each in commands)
+        commands = ("renew", *(("router",) if router else ()))
+        fixes = tuple(Fix(command=keys.command(each)) for each in commands)
         say(SELF, with_fixes(KEYS_EXPIRE(days=left, fixes=fixes)))
 
 

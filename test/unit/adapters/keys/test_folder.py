@@ -400,6 +400,8 @@ def test_the_router_s_file_is_for_its_owner_and_the_lab_keeps_its_name(tmp_path)
     added = run("add", "anna", "--role", "display", "--dir", keys.folder)
     assert "A router needs a new file" in added.stdout
     run("router", "--dir", keys.folder, "--prefix", "lab_1")
+    added = run("add", "bert", "--role", "display", "--dir", keys.folder)
+    assert f"mrlab keys router --dir {keys.folder} --prefix lab_1" in added.stdout
     for file in ("lab.pem", "lab.key", "router.json5"):
         assert stat.S_IMODE((keys.folder / file).stat().st_mode) == 0o600
     assert certificates.common_name(certificate(keys, "lab.pem")) == name
