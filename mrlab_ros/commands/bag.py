@@ -216,12 +216,12 @@ def report(
 
 def _bring(made: Path, target: Path) -> None:
     """Copy a file, or a folder into another one: each file as a whole, or the one before stays."""
-    from mrlab_ros.adapters.whole_file import replaced
+    from mrlab_ros.adapters.whole_file import named_output
 
     for path in (p for p in (made, *sorted(made.rglob("*"))) if p.is_file()):
         place = target / path.relative_to(made)
         place.parent.mkdir(parents=True, exist_ok=True)
-        with path.open("rb") as source, replaced(place) as file:
+        with path.open("rb") as source, named_output(place) as file:
             shutil.copyfileobj(source, file)
 
 

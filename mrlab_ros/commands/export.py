@@ -45,14 +45,14 @@ def export(
     """
     from mrlab_ros.adapters import rerun_file, share
     from mrlab_ros.adapters.robots.library import RobotLibrary
-    from mrlab_ros.adapters.whole_file import replaced
+    from mrlab_ros.adapters.whole_file import named_output
 
     rerun_file.sdk()  # before a long session is read
     path = output or Path(f"{file.name.split('.')[0] or 'motion'}.{to.value}")
     library = RobotLibrary(share.directory() / "robots")
     motion = _recorded(file) or _converted(file, robot, end_effector, options, library)
     path.parent.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(prefix="mrlab-") as folder, replaced(path) as target:
+    with tempfile.TemporaryDirectory(prefix="mrlab-") as folder, named_output(path) as target:
         rerun_file.write(motion, library, Path(folder, "made.rrd"))
         target.write(Path(folder, "made.rrd").read_bytes())
     said = EXPORTED(file=str(path), size=path.stat().st_size, robots=sorted(motion.robots))

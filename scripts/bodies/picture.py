@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-import meshoptimizer
 import numpy as np
 import trimesh
 from ray_tracer import Camera, Surface, draw
@@ -88,6 +87,8 @@ def _drawing_of(u: Array, v: Array, extras: dict[str, list[list[float]]]) -> Arr
 
 
 def _unpacked(view: dict[str, Any], data: bytes) -> Array:
+    import meshoptimizer  # which has to be compiled, so set-up leaves it out
+
     stated = view["extensions"][packed.PACKING]
     own = data[stated["byteOffset"] : stated["byteOffset"] + stated["byteLength"]]
     unpack = (

@@ -25,7 +25,7 @@ from mrlab_ros.adapters import share
 from mrlab_ros.adapters.robots.library import RobotLibrary
 from mrlab_ros.adapters.trajectories import formats
 from mrlab_ros.adapters.trajectories.files import load_coefficients
-from mrlab_ros.adapters.whole_file import replaced
+from mrlab_ros.adapters.whole_file import named_output
 from mrlab_ros.adapters.workspaces.diagnostics import MISSING
 from mrlab_ros.adapters.workspaces.reader import Limits, MiB, in_memory
 from mrlab_ros.adapters.workspaces.results import Task, refused, unexpected
@@ -372,7 +372,7 @@ def _write_page(result: ConversionResult, robot: str, path: Path) -> None:
     folder = share.directory()
     text = motion_page(result, robot, tool, RobotLibrary(folder / "robots"), folder)
     path.parent.mkdir(parents=True, exist_ok=True)
-    with replaced(path) as file:
+    with named_output(path) as file:
         file.write(text.encode())
 
 

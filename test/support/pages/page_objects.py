@@ -122,12 +122,12 @@ class LabPage:
         Whatever others published in this lab, and whatever the robot has or does.
         """
         card = self.robot(robot)
-        if card.get_by_role("button", name="Pause", exact=True).is_visible():
-            card.get_by_role("button", name="Pause", exact=True).click()
         listed = card.get_by_role("button", name=trajectory)
         example = card.get_by_role("button", name="Load the example")
         another = card.get_by_role("button", name="Load another")
         expect(listed.or_(example).or_(another).first).to_be_visible()
+        if card.get_by_role("button", name="Pause", exact=True).is_visible():
+            card.get_by_role("button", name="Pause", exact=True).click()
         if another.is_visible():
             another.click()
         search = card.get_by_role("searchbox")

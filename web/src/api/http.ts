@@ -180,7 +180,7 @@ export class HttpApi implements Api {
     return this.#ask('POST', '/api/checks', { robot, trajectory })
   }
   touches(draft: string, signal?: AbortSignal): Promise<readonly CheckFinding[]> {
-    return this.#ask('GET', `/api/checks/drafts/${draft}`, undefined, signal)
+    return this.#ask('GET', `/api/checks/drafts/${encodeURIComponent(draft)}`, undefined, signal)
   }
   async cancelCheck(robot: string, trajectory: string): Promise<void> {
     await this.#ask('DELETE', checkUrl(robot, trajectory))

@@ -186,7 +186,7 @@ export function RobotCard({ view, catalogue, system, idle }: RobotCardProps) {
           <Targets view={view} />
         </div>
       )}
-      {!replays && (choosing || (!loaded && independent)) && (
+      {!replays && (choosing || (playback !== null && !loaded && independent)) && (
         <LoadList
           key="list"
           robot={robot}
