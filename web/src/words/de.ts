@@ -636,7 +636,7 @@ export const words: Words = {
     recording: (bag) => `Nimmt auf nach ${bag}`,
     replaying: (bag) => `Spielt ${bag} ab`,
     endReplay: 'Wiedergabe beenden',
-    bag: 'Aufnahmen aller Labore hier suchen, oder ein Ordner',
+    bag: 'Aufnahmen aller Labore, oder Ordner',
     replay: 'Abspielen',
     noWebGL:
       'Dieser Browser zeichnet nicht in 3D (WebGL 2 ist aus oder fehlt); die Zustände der Roboter stehen daneben.',

@@ -579,7 +579,7 @@ export const en = {
     recording: (bag: string) => `Recording into ${bag}`,
     replaying: (bag: string) => `Replaying ${bag}`,
     endReplay: 'End the replay',
-    bag: 'Search recordings of all labs here, or a folder',
+    bag: 'Recordings of all labs, or a folder',
     replay: 'Replay',
     noWebGL:
       'This browser cannot draw in 3D (WebGL 2 is off or missing); the robots’ states stand beside this.',
